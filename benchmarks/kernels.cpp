@@ -41,12 +41,12 @@ struct Bench {
         structure(model),
         systems(model, structure),
         forcing(model, 0.0, motion::Side::after),
-        mode(decide::first_mode(model, forcing, 0.0, model.u0, model.v0)) {}
+        states(decide::initial_states(model, forcing, 0.0, model.u0, model.v0)) {}
   const Model& model;
   linear::SystemMatrices structure;
   motion::StateSystems systems;
   motion::Forcing forcing;
-  contact::ContactStates mode;
+  contact::ContactStates states;
 };
 
 std::vector<linear::Weights> bdf_weights(const Model& model, double cj) {
@@ -83,7 +83,7 @@ void damping_power(State& state) {
 void factor(State& state) {
   const Bench b(state.range(0));
   linear::SystemMatrix matrix(b.model, b.structure);
-  const auto rows = linear::rows_of(b.model, b.mode);
+  const auto rows = linear::rows_of(b.model, b.states);
   const auto weights = bdf_weights(b.model, 1e6);
   for (auto _ : state) DoNotOptimize(matrix.set(rows, weights, true));
 }
@@ -91,7 +91,7 @@ void factor(State& state) {
 void refactor(State& state) {
   const Bench b(state.range(0));
   linear::SystemMatrix matrix(b.model, b.structure);
-  const auto rows = linear::rows_of(b.model, b.mode);
+  const auto rows = linear::rows_of(b.model, b.states);
   const auto weights = bdf_weights(b.model, 1e6);
   matrix.set(rows, weights, true);
   for (auto _ : state) DoNotOptimize(matrix.set(rows, weights, false));
@@ -100,7 +100,7 @@ void refactor(State& state) {
 void solve(State& state) {
   const Bench b(state.range(0));
   linear::SystemMatrix matrix(b.model, b.structure);
-  matrix.set(linear::rows_of(b.model, b.mode), bdf_weights(b.model, 1e6), true);
+  matrix.set(linear::rows_of(b.model, b.states), bdf_weights(b.model, 1e6), true);
   std::vector<double> x(static_cast<std::size_t>(matrix.size()), 1.0), y = x;
   for (auto _ : state) {
     y = x;
@@ -112,7 +112,7 @@ void solve(State& state) {
 /// Taylor coefficients of one step of engine `exact`, 30 levels.
 void taylor(State& state) {
   Bench b(state.range(0));
-  const motion::StateSystemPtr system = b.systems.of(b.mode);
+  const motion::StateSystemPtr system = b.systems.system_of(b.states);
   if (!system) return state.SkipWithError("singular");
   motion::Taylor series(b.systems);
   motion::Series out;
@@ -125,7 +125,7 @@ void taylor(State& state) {
 void newmark_step(State& state) {
   Bench b(state.range(0));
   newmark::NewmarkStep step(b.model, b.structure);
-  const motion::StateSystemPtr system = b.systems.of(b.mode);
+  const motion::StateSystemPtr system = b.systems.system_of(b.states);
   if (!system) return state.SkipWithError("singular");
   step.set({}, system->rows(), system->kinds());
   motion::Point from{b.model.u0, b.model.v0,
@@ -146,7 +146,7 @@ void decide(State& state) {
     instant.v = b.model.v0;
     instant.resolution = 1e-15;
     instant.start = true;
-    instant.mode = b.mode;
+    instant.states = b.states;
     DoNotOptimize(decider.decide(std::move(instant), b.forcing, b.forcing));
   }
 }

@@ -7,8 +7,8 @@ int main() {
   using namespace signorini;
   using enum State;
   const double kn = 1e4, Y = 150.0;
-  const OwnForm none{{.N = 1.0}}, elastic{{.N = 1.0, .gap = -kn}, kn}, crushed{{.N = 1.0, .constant = Y}};
-  const OwnForm smooth{{.T = 1.0}};
+  const UserLawForm none{{.N = 1.0}}, elastic{{.N = 1.0, .gap = -kn}, kn}, crushed{{.N = 1.0, .constant = Y}};
+  const UserLawForm smooth{{.T = 1.0}};
   auto pad = std::make_shared<UserContactLaw>();
   pad->states = {
       {"off", open, none, smooth, {{{{.gap = 1.0}, -1.0}, 1}}},             // g - p falls: on
@@ -19,7 +19,7 @@ int main() {
        smooth,  // comes back: p = g + Y/kn, and on
        {{{{.vn = -1.0}}, 1, Form{.gap = 1.0, .constant = Y / kn}}}}};
   Scene scene = read_scene("examples/pad.toml");  // a ball falls on a pad
-  scene.contacts[0].own = pad;
+  scene.contacts[0].user_law = pad;
   const Result result = simulate(scene);
   for (const Event& e : result.events)
     std::printf("%.9f  %s -> %s\n", e.t, to_string(e.from), to_string(e.to));

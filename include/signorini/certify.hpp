@@ -75,7 +75,7 @@ struct Certificate {
 struct CertifiedReport {
   Report report;
   std::optional<Certificate> certificate;
-  std::string why_not;  ///< reason why there is no certificate, one sentence
+  std::string reason;  ///< reason why there is no certificate, one sentence
 };
 
 struct CertifyOptions {

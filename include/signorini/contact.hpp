@@ -76,9 +76,9 @@ struct Contact {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
-  std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
-  std::optional<CurvedSurface> bowl;  ///< not for rigid contacts
-  double normal_damping = 0.0;        ///< dashpot beside the normal spring
+  std::optional<ShearElement> shear;              ///< tangential_stiffness is empty then
+  std::optional<CurvedSurface> pendulum_surface;  ///< not for rigid contacts
+  double normal_damping = 0.0;                    ///< dashpot beside the normal spring
   Friction friction;
   double restitution = 0.0;                ///< rigid: Newton's coefficient
   std::optional<double> capture_velocity;  ///< rigid: slower rebounds come to rest; absent: the engine's
@@ -86,9 +86,9 @@ struct Contact {
   History normal_force;                    ///< slider: compression >= 0
   History surface_motion;                  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
-  int initial_slip = 0;       ///< sign of the slip at t = 0, undetermined by T below the static limit
-  std::size_t own_state = 0;  ///< user law: initial state
-  double own_memory = 0.0;    ///< user law: initial memory p
+  int initial_slip = 0;               ///< sign of the slip at t = 0, undetermined by T below the static limit
+  std::size_t initial_law_state = 0;  ///< user law: initial state
+  double initial_memory = 0.0;        ///< user law: initial memory p
 
   [[nodiscard]] bool has_friction() const { return friction.any(); }
 
@@ -110,7 +110,7 @@ struct Contact {
   /// True if velocities jump when the contact closes with g' < 0.
   [[nodiscard]] bool takes_impulses() const { return law->capabilities.takes_impulses; }
   /// g, if the contact has a gap.
-  [[nodiscard]] std::optional<double> gap_if_any(double g) const {
+  [[nodiscard]] std::optional<double> optional_gap(double g) const {
     return normal_force_given() ? std::nullopt : std::optional(g);
   }
 
@@ -134,15 +134,21 @@ struct Contact {
   }
   /// Curved surface: in addition to T a force acts along body_tangent() that is a product of N and ut
   /// (contact/curved_surface.hpp). nullptr: the surface is plane.
-  [[nodiscard]] const CurvedSurface* curved_surface() const { return bowl ? &*bowl : nullptr; }
+  [[nodiscard]] const CurvedSurface* curved_surface() const {
+    return pendulum_surface ? &*pendulum_surface : nullptr;
+  }
   /// True if forces are linear in the motion in each state, with constant coefficients.
-  [[nodiscard]] bool is_linear() const { return !friction.varies() && !friction.by_force() && !bowl; }
+  [[nodiscard]] bool is_linear() const {
+    return !friction.is_rate_dependent() && !friction.is_load_dependent() && !pendulum_surface;
+  }
   /// True for springs of constant stiffness and Coulomb friction without any other force: statics and closed-form flows
   /// support it.
-  [[nodiscard]] bool has_constant_stiffness() const { return obeys_coulomb() && !bowl; }
+  [[nodiscard]] bool has_constant_stiffness() const { return obeys_coulomb() && !pendulum_surface; }
   /// True if N, T and p' are functions of the contact's motion at the same instant: no equation of the law has a rate
   /// as unknown.
-  [[nodiscard]] bool forces_follow_motion() const { return obeys_coulomb() && !shear && !friction.varies(); }
+  [[nodiscard]] bool forces_follow_motion() const {
+    return obeys_coulomb() && !shear && !friction.is_rate_dependent();
+  }
   /// True if its springs are compliance of the structure: results contain the motion of the touching surfaces.
   [[nodiscard]] bool compliance_split() const { return law->capabilities.compliance_split; }
 

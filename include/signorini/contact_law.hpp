@@ -21,7 +21,7 @@ namespace signorini {
 
 struct Contact;
 struct ContactMotion;
-struct ContactPath;
+struct ContactIncrement;
 struct ContactState;
 struct ContactWork;
 struct GuardForm;
@@ -91,7 +91,7 @@ class ContactLaw {
   /// p' as a form, in a state that slips in direction s.
   [[nodiscard]] virtual Form slip_rate(const Contact& contact, int s) const = 0;
   /// State after a guard of `now` has reached zero; the motion is the one in state `now`.
-  [[nodiscard]] virtual ContactState next_state(const Contact& contact, const ContactState& now, Guard fallen,
+  [[nodiscard]] virtual ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                                 const MotionJet& jet) const = 0;
   /// All states that may follow if guards do not decide.
   [[nodiscard]] virtual std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
@@ -102,7 +102,7 @@ class ContactLaw {
   [[nodiscard]] virtual double working_slip_rate(const Contact& contact, State state,
                                                  const ContactMotion& m) const = 0;
   [[nodiscard]] virtual ContactWork work(const Contact& contact, State state, double N, double T,
-                                         const ContactPath& path) const = 0;
+                                         const ContactIncrement& path) const = 0;
   [[nodiscard]] virtual double stored_energy(const Contact& contact, State state,
                                              const ContactMotion& m) const = 0;
   [[nodiscard]] virtual Violations violations(const Contact& contact, State state,
@@ -111,7 +111,7 @@ class ContactLaw {
   // States and numbers of the law itself, in addition to those of Contact.
   /// States of a user law, in order: files contain their numbers, a run begins with one of them. Empty: the built-in
   /// states.
-  [[nodiscard]] virtual std::vector<State> own_states() const { return {}; }
+  [[nodiscard]] virtual std::vector<State> user_law_states() const { return {}; }
   /// True if events set p by a rule of the law.
   [[nodiscard]] virtual bool has_memory() const { return false; }
   /// Copy of the law with its numbers visited; nullptr: it has none.

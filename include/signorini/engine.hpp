@@ -1,6 +1,6 @@
 // engine.hpp: names of the engines, and the key that controls the accuracy of each.
 //
-//   for (const EngineName& e : all_engines) use(e.name);      run.engine is one of them, or "auto"
+//   for (const EngineInfo& e : all_engines) use(e.name);      run.engine is one of them, or "auto"
 //
 // A row here and one in run/engines.cpp (its restrictions, its factory, its cost) add an engine everywhere: to scene
 // files, to `check`, `compare` and `study`, and to the documentation.
@@ -18,31 +18,31 @@ enum class Engine { automatic, exact, ida, newmark, friction_iteration };
 /// Limit of an engine's accuracy: rounding, a tolerance (run.rtol), or the length of its steps (run.dt).
 enum class Accuracy { rounding, tolerance, step };
 
-struct EngineName {
+struct EngineInfo {
   Engine engine = Engine::automatic;
   std::string_view name;   ///< as in scene files
   std::string_view title;  ///< name of the method in full
   Accuracy accuracy = Accuracy::rounding;
-  std::string_view own_keys;  ///< keys of [run], separated by blanks, that only this engine uses
+  std::string_view specific_keys;  ///< keys of [run], separated by blanks, that only this engine uses
 };
 
 /// The order is that of lists and reports.
 inline constexpr std::array all_engines = {
-    EngineName{Engine::exact, "exact", "Taylor series", Accuracy::rounding, ""},
-    EngineName{Engine::ida, "ida", "BDF of SUNDIALS IDA", Accuracy::tolerance, "max_order"},
-    EngineName{Engine::newmark, "newmark", "average acceleration", Accuracy::step, "refine step"},
-    EngineName{Engine::friction_iteration, "friction-iteration", "average acceleration", Accuracy::step,
+    EngineInfo{Engine::exact, "exact", "Taylor series", Accuracy::rounding, ""},
+    EngineInfo{Engine::ida, "ida", "BDF of SUNDIALS IDA", Accuracy::tolerance, "max_order"},
+    EngineInfo{Engine::newmark, "newmark", "average acceleration", Accuracy::step, "refine step"},
+    EngineInfo{Engine::friction_iteration, "friction-iteration", "average acceleration", Accuracy::step,
                "relaxation max_iterations"},
 };
 
 /// "auto" for automatic.
 [[nodiscard]] std::string_view to_string(Engine engine);
 /// Row of an engine; it must not be automatic.
-[[nodiscard]] const EngineName& name_of(Engine engine);
+[[nodiscard]] const EngineInfo& engine_info(Engine engine);
 /// Engine with this name; nullopt for "auto" and for names of no engine.
-[[nodiscard]] std::optional<Engine> engine_called(std::string_view name);
+[[nodiscard]] std::optional<Engine> find_engine(std::string_view name);
 /// True if the key of [run] is used by this engine only.
-[[nodiscard]] bool has_key(const EngineName& engine, std::string_view key);
+[[nodiscard]] bool has_key(const EngineInfo& engine, std::string_view key);
 /// "run.rtol", "run.dt", or "" if the engine has no accuracy setting.
 [[nodiscard]] std::string_view accuracy_key(Accuracy accuracy);
 

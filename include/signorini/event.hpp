@@ -45,7 +45,7 @@ inline constexpr std::array all_event_types = {
 }
 
 /// Number of events that are changes of a state; jumps of loads are not counted.
-[[nodiscard]] inline long changes_in(const std::map<std::string, long>& by_type) {
+[[nodiscard]] inline long count_state_changes(const std::map<std::string, long>& by_type) {
   long sum = 0;
   for (const auto& [type, count] : by_type) sum += type == to_string(EventType::time) ? 0 : count;
   return sum;

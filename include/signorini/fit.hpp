@@ -55,7 +55,7 @@ struct Fit {
   int iterations = 0, runs = 0;
   bool converged = false;
   std::string reason;               ///< reason for the end of the iteration
-  std::vector<std::string> doubts;  ///< reasons why it is not converged, one sentence each
+  std::vector<std::string> issues;  ///< reasons why it is not converged, one sentence each
 };
 
 /// `go_on` is called before every run; false stops the fit. Errors: those of sensitivities(); UsageError for fewer rows

@@ -28,22 +28,24 @@ enum class State : unsigned char {
   static_limit_minus
 };
 
-/// State i of a user law (user_contact_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in state, and counts
+/// State i of a user law (user_contact_law.hpp), 0 to max_user_law_states - 1, of this kind. It equals no built-in state, and counts
 /// as its kind wherever a kind is needed.
-inline constexpr std::size_t most_own_states = 31;
-[[nodiscard]] constexpr State own_state(std::size_t i, State kind) {
+inline constexpr std::size_t max_user_law_states = 31;
+[[nodiscard]] constexpr State user_law_state(std::size_t i, State kind) {
   return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));
 }
-[[nodiscard]] constexpr bool is_own(State state) { return static_cast<unsigned>(state) >= 8U; }
+[[nodiscard]] constexpr bool is_user_law_state(State state) { return static_cast<unsigned>(state) >= 8U; }
 /// Number of a user-law state in its law.
-[[nodiscard]] constexpr std::size_t number_of(State own) { return static_cast<unsigned>(own) / 8U - 1U; }
+[[nodiscard]] constexpr std::size_t user_law_state_number(State own) {
+  return static_cast<unsigned>(own) / 8U - 1U;
+}
 /// Kind of any state: open, closed, stick or slip.
 [[nodiscard]] constexpr State kind_of(State state) {
   const unsigned kind = static_cast<unsigned>(state) % 8U;
   return static_cast<State>(kind < 6U ? kind : kind - 2U);
 }
 /// True if friction is at the static limit and the contact does not slip.
-[[nodiscard]] constexpr bool is_held(State state) {
+[[nodiscard]] constexpr bool is_at_static_limit(State state) {
   return state == State::static_limit_plus || state == State::static_limit_minus;
 }
 

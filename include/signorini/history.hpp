@@ -32,7 +32,7 @@ struct Piece {
   double omega = 0.0;                ///< w, rad per time
   double phase = 0.0;                ///< phi, rad
   Function function = {};            ///< F; empty: none
-  double stretch = 1.0;              ///< s, the function's time over the history's time
+  double time_scale = 1.0;           ///< s, the function's time over the history's time
   std::vector<double> rates = {};    ///< b_r
 
   [[nodiscard]] static Piece of(Function function) {

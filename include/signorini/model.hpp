@@ -39,7 +39,7 @@ struct Column {
   bool velocity = false;
 
   /// Value of the column for physical u and v; 0 if they lack this degree of freedom.
-  [[nodiscard]] double of(const Vector& u, const Vector& v) const {
+  [[nodiscard]] double value(const Vector& u, const Vector& v) const {
     return dof < 0 ? 0.0 : (velocity ? v : u)[dof];
   }
 };
@@ -66,8 +66,8 @@ struct Load {
   /// True: acts in the static start (initial = "static"): gravity, constants that have always acted, supports at t = 0.
   bool is_static = false;
   LoadKind kind = LoadKind::force;
-  /// direction . u is a length times `of_direction`, the history has `of_history`; their product is a force.
-  Unit of_direction{}, of_history{1, 0, 0};
+  /// direction . u is a length times `direction_unit`, the history has `of_history`; their product is a force.
+  Unit direction_unit{}, history_unit{1, 0, 0};
 };
 
 /// Typical magnitudes; absolute tolerances are relative to them. Units in the names.
@@ -78,15 +78,15 @@ struct Scales {
 /// A change of state during a frictional start.
 struct StageEvent {
   std::string stage;
-  double part = 0.0;  ///< fraction of the stage, 0 to 1
-  int contact = -1;   ///< index into Model::contacts
+  double fraction = 0.0;  ///< fraction of the stage, 0 to 1
+  int contact = -1;       ///< index into Model::contacts
   State from = State::open, to = State::open;
 };
 
 /// Contact forces and states at the end of a part of a stage.
 struct StageEnd {
   std::string stage;
-  double part = 1.0;
+  double fraction = 1.0;
   std::vector<State> states;
   std::vector<double> N, T;  ///< force
 };
@@ -96,10 +96,11 @@ struct StaticStart {
   std::vector<double> reactions;          ///< -N of each contact, >= 0
   std::vector<std::string> free_motions;  ///< "horizontal motion held at contact 'first'"
   bool frictional = false;
-  std::vector<StageEvent> events;   ///< frictional
-  std::vector<StageEnd> stages;     ///< frictional
-  std::vector<std::string> doubts;  ///< frictional: quantities that the data do not determine, one sentence
-                                    ///< each
+  std::vector<StageEvent> events;  ///< frictional
+  std::vector<StageEnd> stages;    ///< frictional
+  std::vector<std::string>
+      undetermined;  ///< frictional: quantities that the data do not determine, one sentence
+                     ///< each
 };
 
 /// Force of a spring with a preload: cold (undeformed structure) and at t = 0.
@@ -157,10 +158,10 @@ struct Reduction {
   double cutoff = 0.0;                          ///< rad per time
   int modes = 0;                                ///< kept modes, rigid-body motions included
   int free_modes = 0;                           ///< kept modes without stiffness
-  int left_out = 0;                             ///< modes above the cutoff
+  int truncated_modes = 0;                      ///< modes above the cutoff
   int massless_shapes = 0, massive_shapes = 0;  ///< shapes for the static compliance of the left-out modes
   double highest_kept = 0.0;                    ///< rad per time; 0: rigid-body motions only
-  double first_left_out = 0.0;                  ///< rad per time; 0: none
+  double first_truncated = 0.0;                 ///< rad per time; 0: none
   double highest_massive = 0.0;                 ///< rad per time, highest frequency of the massive shapes; 0:
                                                 ///< none
   std::vector<ComplianceShare> shares;          ///< contacts, then loads
@@ -169,7 +170,7 @@ struct Reduction {
   /// Largest relative part of the initial displacement (velocity) that is lost; rotations as lengths, by the scales.
   double initial_displacement_lost = 0.0, initial_velocity_lost = 0.0;
   std::optional<double> tolerance;  ///< tolerance for which the cutoff was found
-  std::vector<CutoffTrial> tried;
+  std::vector<CutoffTrial> trials;
 
   [[nodiscard]] Vector physical(const Vector& u) const { return shapes * u.head(shapes.cols()); }
 };
@@ -194,7 +195,7 @@ struct Ties {
 };
 
 /// Correction of displacements and energy for a load on parts with borrowed springs (model/compliance_split.hpp).
-struct SeenLoad {
+struct LoadCorrection {
   std::size_t load = 0;  ///< index into Model::loads
   Vector displacements;  ///< displacements of the structure, for a history of 1
   Vector energies;       ///< one for each of these loads, for histories of 1
@@ -214,8 +215,8 @@ struct Model {
   Units units;
   /// One unit of force, length and time of the numbers here, in the scene's units: 1 except inside a run.
   Factors unit;
-  /// Units of a run's computation: powers of two, chosen by build_model (model/machine_units.hpp).
-  Factors machine;
+  /// Units of a run's computation: powers of two, chosen by build_model (model/internal_units.hpp).
+  Factors internal_units;
   std::vector<Dof> dofs;
   SparseMatrix mass, damping, stiffness;
   std::vector<Load> loads;
@@ -235,7 +236,7 @@ struct Model {
   std::vector<HangerLoad> hangers;
   /// Contact states at the end of the run that this one continues, one per contact; empty: it continues none of the
   /// same structure, or that run recorded no contacts.
-  std::vector<SavedState::Left> continues;
+  std::vector<SavedState::FinalContact> saved_contacts;
   Scales scales;
   double alpha = 0.0, beta = 0.0;  ///< Rayleigh factors in use
   double omega1 = 0.0;             ///< lowest circular frequency with initially closed contacts closed; 0:
@@ -247,7 +248,7 @@ struct Model {
   /// Set where massless motions needed a degree of freedom of their own (model/massless.hpp): displacements of the
   /// first degrees of freedom = basis * u.
   std::optional<SparseMatrix> basis;
-  std::vector<SeenLoad> seen_loads;
+  std::vector<LoadCorrection> load_corrections;
   std::optional<Ties> ties;  ///< rigid bodies
   std::optional<Geometric> geometric;
 
@@ -259,7 +260,7 @@ struct Model {
   /// True if the computed displacements are those of physical_dofs().
   [[nodiscard]] bool is_physical() const { return !reduction && !basis && !ties; }
   /// Displacements (or velocities) of physical_dofs(), without terms of moving supports of rigid bodies and of
-  /// SeenLoad.
+  /// LoadCorrection.
   [[nodiscard]] Vector physical(const Vector& u) const {
     const Vector x = structural(u);
     return ties ? ties->with_tied(x) : x;
@@ -276,7 +277,7 @@ struct Model {
   /// Displacements (order 0) or velocities (order 1) at time t.
   [[nodiscard]] Vector physical(const Vector& u, double t, int order) const {
     Vector x = structural(u);
-    for (const SeenLoad& seen : seen_loads) {
+    for (const LoadCorrection& seen : load_corrections) {
       const double value = loads[seen.load].history.piece(t).value(t, order);
       x.head(seen.displacements.size()) += value * seen.displacements;
     }
@@ -287,12 +288,12 @@ struct Model {
     return x;
   }
   /// Structure's energy and work of loads are lower than the computed ones by this amount.
-  [[nodiscard]] double seen_energy(double t) const {
+  [[nodiscard]] double correction_energy(double t) const {
     double sum = 0.0;
-    for (const SeenLoad& a : seen_loads)
-      for (std::size_t j = 0; j < seen_loads.size(); ++j)
+    for (const LoadCorrection& a : load_corrections)
+      for (std::size_t j = 0; j < load_corrections.size(); ++j)
         sum += 0.5 * a.energies[static_cast<Eigen::Index>(j)] * loads[a.load].history.value(t) *
-               loads[seen_loads[j].load].history.value(t);
+               loads[load_corrections[j].load].history.value(t);
     return sum;
   }
   /// Degrees of freedom to which columns and drawing refer.
@@ -300,12 +301,12 @@ struct Model {
     return ties ? ties->dofs : reduction ? reduction->dofs : dofs;
   }
   /// True if the column is a rotation or an angular velocity.
-  [[nodiscard]] bool turns(const Column& column) const {
+  [[nodiscard]] bool is_rotation(const Column& column) const {
     return column.dof >= 0 && physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
   }
   /// "m", "rad/s"
   [[nodiscard]] std::string unit_of(const Column& column) const {
-    const std::string of_motion = turns(column) ? "rad" : units.length;
+    const std::string of_motion = is_rotation(column) ? "rad" : units.length;
     return column.velocity ? of_motion + "/" + units.time : of_motion;
   }
 };

@@ -93,7 +93,7 @@ struct Orbit {
 [[nodiscard]] Scene orbit_scene(const SceneReader& read, const Orbit& orbit);
 
 /// A point of a branch from which it can be continued.
-struct BranchMark {
+struct BranchCheckpoint {
   double parameter = 0.0;
   bool towards_to = true;                   ///< direction of the walk: the parameter moves towards `to`
   Orbit orbit;                              ///< period, phase, autonomous, start
@@ -113,10 +113,10 @@ struct BranchOptions {
   /// Number of successive branch switches: at a flip to the branch of twice the period, and at branch points. 0: the
   /// first branch alone.
   int switches = 0;
-  std::optional<BranchMark> resumed = {};  ///< continues from this mark, without its point
+  std::optional<BranchCheckpoint> resume_from = {};  ///< continues from this mark, without its point
   /// Called after each point of the first branch with a function that makes its mark (cost: a run of one period), so
   /// that an interrupted branch can be resumed.
-  std::function<void(const std::function<BranchMark()>&)> marks = {};
+  std::function<void(const std::function<BranchCheckpoint()>&)> on_checkpoint = {};
 };
 
 struct BranchPoint {
@@ -155,14 +155,14 @@ struct Branch {
   /// it has no orbit). False: it ended on the way, returned behind a gap, or was interrupted.
   bool complete = false;
   bool interrupted = false;
-  std::optional<BranchMark> last;  ///< last mark of the first branch, if it has a point
-  std::vector<SideBranch> sides;   ///< in the order in which they were followed
+  std::optional<BranchCheckpoint> last;  ///< last mark of the first branch, if it has a point
+  std::vector<SideBranch> sides;         ///< in the order in which they were followed
 };
 
 /// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. seen: called for every point; may stop.
 /// Errors: those of find_orbit; UsageError for a key that is not a number.
-[[nodiscard]] Branch follow(const SceneReader& read, const BranchOptions& options,
-                            Recorder* recorder = nullptr,
-                            const std::function<void(const BranchPoint&)>& seen = {});
+[[nodiscard]] Branch continue_branch(const SceneReader& read, const BranchOptions& options,
+                                     Recorder* recorder = nullptr,
+                                     const std::function<void(const BranchPoint&)>& seen = {});
 
 }  // namespace signorini

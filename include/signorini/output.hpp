@@ -41,7 +41,7 @@ struct Output {
     History history;        ///< in the unit of the output
     std::string load = {};  ///< name of the load in Model::loads; empty: the term belongs to no load
     double factor = 1.0;    ///< history = factor * the load's
-    Unit of_load = {};      ///< unit of the load's history
+    Unit load_unit = {};    ///< unit of the load's history
   };
   std::vector<Given> given = {};
   double constant = 0.0;
@@ -49,26 +49,26 @@ struct Output {
                                          ///< are then ignored
   /// Linear outputs at the points (base/curves.hpp) of a finite element, r being a polynomial through them; or at one
   /// place.
-  struct Stretch {
+  struct Segment {
     std::vector<Output> at;
     std::string from, to;           ///< nodes of the piece
     double begin = 0.0, end = 0.0;  ///< stations on the piece
     Fibre fibre = Fibre::both;      ///< fibre of a stress
   };
-  std::vector<Stretch> stretches = {};     ///< if there are any, all other terms are ignored
+  std::vector<Segment> segments = {};      ///< if there are any, all other terms are ignored
   std::vector<std::string> contains = {};  ///< parts of a spring's force: "preload", "stiffness", "damper"
 };
 
 /// Calls `use` with each linear output that this output consists of, in order: itself if it has no stretches.
 template <class AnOutput, class Use>
 void for_each_linear(AnOutput& output, const Use& use) {
-  if (output.stretches.empty()) return use(output);
-  for (auto& stretch : output.stretches)
+  if (output.segments.empty()) return use(output);
+  for (auto& stretch : output.segments)
     for (auto& at : stretch.at) use(at);
 }
 
 /// True if the output is a maximum, not a sum of motions and forces; it then cannot be part of a combination.
-[[nodiscard]] inline bool is_greatest(const Output& output) { return !output.stretches.empty(); }
+[[nodiscard]] inline bool is_envelope(const Output& output) { return !output.segments.empty(); }
 
 /// "kN m", from the names of the scene's units.
 [[nodiscard]] std::string unit_text(const Unit& unit, const Units& names);

@@ -82,7 +82,7 @@ struct InstantSide {
 };
 
 /// Impulse of one impact on a rigid contact; the impacts of one instant are ordered by turn 1, 2, ...
-struct InstantBlow {
+struct InstantImpact {
   int contact = 0, turn = 1;
   double normal = 0.0, tangent = 0.0;  ///< on the body along n and t; force * time
 };
@@ -91,8 +91,9 @@ struct InstantBlow {
 struct InstantRow {
   double t = 0.0;
   double resolution = 0.0;  ///< times closer than this are one instant
-  double forgiven = 0.0;    ///< violation of the states that were accepted as undecided, in units of their
-                            ///< rounding errors
+  double tolerated_violation =
+      0.0;  ///< violation of the states that were accepted as undecided, in units of their
+            ///< rounding errors
   double eigenvector_condition =
       1.0;                  ///< engine `exact`: condition of the modes, the factor by which roundings of
                             ///< modal sums grow
@@ -103,10 +104,10 @@ struct InstantRow {
       true;  ///< a guard is zero here; false: the instant is the end of a step at which a change of states
              ///< was found
   InstantSide before, after;
-  std::vector<InstantBlow> blows;
+  std::vector<InstantImpact> impacts;
   /// Impulses along n and t beyond the impact law, in the order of forces: they bring persistent contacts to rest and
   /// remove the remainder that rounding and tolerances leave in velocities that are zero. Empty: none.
-  Vector captures;
+  Vector capture_impulses;
   std::vector<int> released;  ///< contacts that parts without mass leave immediately
 };
 
@@ -198,14 +199,14 @@ struct Peak {
 };
 
 /// An extreme value and the first time at which it occurs.
-struct Turn {
+struct TimedExtreme {
   double value = 0.0, t = 0.0;
 };
 
 /// Forces and slip of a support, with signs, over all steps and instants (those of Peak included). least N: the largest
 /// compression. Slip is the slip of the contact, in the state before the run's first event and at the end.
 struct SupportLoad {
-  Turn least_N, greatest_N, least_T, greatest_T;
+  TimedExtreme min_N, max_N, min_T, max_T;
   double slip_at_start = 0.0, slip_at_end = 0.0;
   [[nodiscard]] double residual_slip() const { return slip_at_end - slip_at_start; }
 };
@@ -219,7 +220,7 @@ struct Landing {
 
 /// Position of an extreme on a stretch of an output (Output::stretches): the station on its piece.
 struct OutputPlace {
-  int stretch = -1;  ///< -1: the output has none
+  int segment = -1;  ///< -1: the output has none
   double station = 0.0;
 };
 
@@ -257,7 +258,7 @@ struct Violation {
 };
 
 /// Results of the witness of a run.
-struct Testimony {
+struct LawCheckSummary {
   long checked = 0, violated = 0;     ///< number of checked instants and stretches; number of all violations
   std::vector<Violation> violations;  ///< the first hundred
 };
@@ -275,8 +276,8 @@ struct Report {
   std::map<std::string, long> events_by_type;
   long undecided = 0;  ///< decisions left open by rounding: the states with the smallest violation were taken
   /// First time at which rounding left states open that affect the later motion; empty: never.
-  std::optional<double> forgiven_at;
-  Testimony witness;
+  std::optional<double> first_undecided;
+  LawCheckSummary law_checks;
   std::vector<std::string> warnings;  ///< one sentence each
   double wall_time = 0.0;             ///< s, integration only, without reading and assembly
 };

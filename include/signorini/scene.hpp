@@ -160,27 +160,29 @@ struct SavedState {
       motions;  ///< by name: displacements, velocities (scene/saved_state.hpp)
   std::vector<std::pair<std::string, double>> shears;  ///< T of contacts by name
   std::vector<std::pair<std::string, int>> slips;      ///< slip direction of contacts by name: -1, 0, 1
-  struct Own {
+  struct UserLawMemory {
     std::string contact;
     std::size_t state = 0;  ///< state of the user law
     double memory = 0.0;    ///< p
   };
-  std::vector<Own> own;  ///< contacts with user laws
-  double t = 0.0;        ///< time of the state, in the run's time
+  std::vector<UserLawMemory> user_law_states;  ///< contacts with user laws
+  double t = 0.0;                              ///< time of the state, in the run's time
   /// A row of the run's contacts.csv at t: initial data of the contacts, whatever columns states.csv has.
-  struct Left {
+  struct FinalContact {
     std::string contact, state;
     std::optional<double> gap;
     double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
   };
-  std::vector<Left> left;  ///< empty: contacts.csv has no such rows
+  std::vector<FinalContact> final_contacts;  ///< empty: contacts.csv has no such rows
   /// Scales of the run, so that tolerances and the limit of rest do not change: displacement, rotation, velocity,
   /// angular velocity, force.
   std::optional<std::array<double, 5>> scales;
-  std::optional<Prestress> frozen;                      ///< forces of the run, if it had run.geometric
-  std::vector<std::pair<std::string, double>> carried;  ///< carried loads of pendulums in the run's K, by
-                                                        ///< name
-  std::vector<std::string> differing;  ///< tables in which the structure of the run's scene differs
+  std::optional<Prestress> prestress;  ///< forces of the run, if it had run.geometric
+  std::vector<std::pair<std::string, double>>
+      pendulum_forces;  ///< carried loads of pendulums in the run's K, by
+                        ///< name
+  std::vector<std::string>
+      structure_differences;  ///< tables in which the structure of the run's scene differs
 };
 
 /// Initial state: "static" or "frictional", the state of another run, or explicit values, by degree of freedom in the
@@ -224,7 +226,7 @@ struct CutoffTrial {
 struct ReductionSpec {
   double cutoff_omega = 0.0;        ///< rad per time; 0 until it is found
   std::optional<double> tolerance;  ///< relative; find_cutoff sets the cutoff
-  std::vector<CutoffTrial> tried;   ///< the last one is used
+  std::vector<CutoffTrial> trials;  ///< the last one is used
   SourcePlace place;
 };
 
@@ -273,7 +275,7 @@ struct BodySpec {
   PlaneMesh mesh = {};  ///< without nodes: indices refer to Scene::nodes
   std::size_t first_node = 0, node_count = 0;
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
-  bool strain = false;  ///< plane strain; false: plane stress
+  bool plane_strain = false;  ///< plane strain; false: plane stress
   MassKind mass = MassKind::consistent;
   double thermal_expansion = 0.0;                 ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();  ///< above that of the undeformed state
@@ -369,15 +371,17 @@ struct Friction {
 
   [[nodiscard]] bool any() const { return static_ > 0.0; }
   /// True if friction grows with the slip rate, starting at static_: no jump at the start of slip.
-  [[nodiscard]] bool rises() const { return velocity.has_value(); }
+  [[nodiscard]] bool is_rate_strengthening() const { return velocity.has_value(); }
   /// True if friction depends on the slip rate: slip is nonlinear.
-  [[nodiscard]] bool varies() const { return stribeck_velocity || velocity; }
+  [[nodiscard]] bool is_rate_dependent() const { return stribeck_velocity || velocity; }
   /// True if the coefficient depends on the normal force.
-  [[nodiscard]] bool by_force() const { return force.has_value(); }
+  [[nodiscard]] bool is_load_dependent() const { return force.has_value(); }
   /// True if friction drops at the start of slip.
-  [[nodiscard]] bool drops() const { return static_ > kinetic && !varies() && !by_force(); }
+  [[nodiscard]] bool has_static_drop() const {
+    return static_ > kinetic && !is_rate_dependent() && !is_load_dependent();
+  }
   /// Velocity constant of the exponential; only where friction varies.
-  [[nodiscard]] double rate_of_change() const { return velocity ? *velocity : stribeck_velocity.value(); }
+  [[nodiscard]] double decay_velocity() const { return velocity ? *velocity : stribeck_velocity.value(); }
 };
 
 /// Key, below `friction`, and unit of a constant beside the two coefficients.
@@ -394,7 +398,7 @@ inline constexpr std::array friction_constants = {
 /// A curved surface of this radius under a varying force: |N| ut / radius drives the body back; its constant part
 /// carried ut / radius is in K (contact/curved_surface.hpp).
 struct CurvedSurface {
-  double radius = 0.0, carried = 0.0;
+  double radius = 0.0, nominal_force = 0.0;
 };
 
 struct ContactSpec {
@@ -415,15 +419,18 @@ struct ContactSpec {
   std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds come to rest; absent: from the
                                                 ///< tolerances
   SourcePlace place = {};
-  std::optional<CurvedSurface> bowl = {};  ///< surface of a pendulum; `carried` is part of the springs
+  std::optional<CurvedSurface> pendulum_surface =
+      {};                  ///< surface of a pendulum; `carried` is part of the springs
   std::string table = {};  ///< its table, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// User law in place of the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
-  std::shared_ptr<const UserContactLaw> own = {};
+  std::shared_ptr<const UserContactLaw> user_law = {};
 
   /// Capabilities of the named law; a user law replaces a compliant one.
   [[nodiscard]] LawCapabilities capabilities() const { return capabilities_of(law); }
-  [[nodiscard]] ContactLawPtr contact_law() const { return own ? ContactLawPtr(own) : ContactLawPtr(law); }
+  [[nodiscard]] ContactLawPtr contact_law() const {
+    return user_law ? ContactLawPtr(user_law) : ContactLawPtr(law);
+  }
   /// The direction along which N acts; nullptr if the scene gives N, or no direction.
   [[nodiscard]] const Direction* bearing_normal() const {
     return normal && !capabilities().normal_force_given ? &*normal : nullptr;

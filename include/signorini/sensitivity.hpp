@@ -38,7 +38,7 @@ struct Parameter {
   double value = 0.0;
   double step = 0.0;  ///< step of the differences of the model's data, in the key's unit
   /// True if the key may have this value: an inertia, for example, is never negative.
-  std::function<bool(double)> may_be = [](double) { return true; };
+  std::function<bool(double)> is_valid = [](double) { return true; };
   /// Derivatives are known before this time; `reason` says why not later. Infinity: to the end.
   double until = std::numeric_limits<double>::infinity();
   std::string reason;
@@ -133,7 +133,7 @@ struct Sensitivities {
 };
 
 /// A first-order estimate of a change of the sequence: two neighbours swap or, if on one contact, both vanish.
-struct Swap {
+struct SequenceChange {
   std::size_t parameter = 0, first = 0, second = 0;  ///< indices of events, times ascending
   double change = 0.0;                               ///< change of the parameter at which their times meet
   bool vanish = false;                               ///< both are on one contact
@@ -141,7 +141,7 @@ struct Swap {
 
 /// The smallest change of each parameter, upwards and downwards, at which two neighbours meet. No entry if no two meet
 /// or if the key cannot have that value.
-[[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
+[[nodiscard]] std::vector<SequenceChange> smallest_sequence_changes(const Sensitivities& s);
 
 /// `recorder`: receives the run's rows, and may not steer. Errors: SceneError; UsageError for a key that is not a
 /// number or on which the model does not depend smoothly, for options that exclude each other, and for scenes that the

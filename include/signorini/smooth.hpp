@@ -58,7 +58,7 @@ class TaylorNumber {
   }
   friend TaylorNumber exp(const TaylorNumber& x) {
     TaylorNumber y(std::exp(x.c_[0]));
-    for (std::size_t k = 1; k < count; ++k) y.c_[k] = weighed(x, y, k);
+    for (std::size_t k = 1; k < count; ++k) y.c_[k] = convolution(x, y, k);
     return y;
   }
   friend TaylorNumber log(const TaylorNumber& x) {
@@ -70,8 +70,8 @@ class TaylorNumber {
     }
     return y;
   }
-  friend TaylorNumber sin(const TaylorNumber& x) { return turned(x)[0]; }
-  friend TaylorNumber cos(const TaylorNumber& x) { return turned(x)[1]; }
+  friend TaylorNumber sin(const TaylorNumber& x) { return sin_cos(x)[0]; }
+  friend TaylorNumber cos(const TaylorNumber& x) { return sin_cos(x)[1]; }
   friend TaylorNumber pow(const TaylorNumber& x, double p) {
     TaylorNumber y(std::pow(x.c_[0], p));
     for (std::size_t k = 1; k < count; ++k) {
@@ -89,16 +89,16 @@ class TaylorNumber {
 
  private:
   /// sum_j j x_j y_(k-j) / k
-  static double weighed(const TaylorNumber& x, const TaylorNumber& y, std::size_t k) {
+  static double convolution(const TaylorNumber& x, const TaylorNumber& y, std::size_t k) {
     double sum = 0.0;
     for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(j) * x.c_[j] * y.c_[k - j];
     return sum / static_cast<double>(k);
   }
-  static std::array<TaylorNumber, 2> turned(const TaylorNumber& x) {
+  static std::array<TaylorNumber, 2> sin_cos(const TaylorNumber& x) {
     TaylorNumber s(std::sin(x.c_[0])), c(std::cos(x.c_[0]));
     for (std::size_t k = 1; k < count; ++k) {
-      s.c_[k] = weighed(x, c, k);
-      c.c_[k] = -weighed(x, s, k);
+      s.c_[k] = convolution(x, c, k);
+      c.c_[k] = -convolution(x, s, k);
     }
     return {s, c};
   }

@@ -28,17 +28,17 @@ struct NamedGuard {
 };
 
 /// One mode tried at one instant.
-struct Round {
+struct DecisionRound {
   double t = 0.0;
   int number = 0;                     ///< 0: the states just before, with the forcing just after
   std::vector<NamedGuard> triggered;  ///< guards that the engine found at zero
   std::vector<std::size_t> touching;  ///< rigid contacts with g = 0 that were decided together
   bool impact = false;                ///< velocities jumped before the mode was tried
-  std::vector<ContactState> tried;    ///< one per contact
+  std::vector<ContactState> states;   ///< one per contact
   std::vector<NamedGuard> failed;     ///< empty: the mode holds
 };
 
-using RoundListener = std::function<void(const Round&)>;
+using RoundListener = std::function<void(const DecisionRound&)>;
 
 /// simulate() of signorini/simulate.hpp with a listener that is called for every tried mode.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,

@@ -31,29 +31,29 @@
 namespace signorini {
 
 /// form + memory p.
-struct OwnForm {
+struct UserLawForm {
   Form form;
   double memory = 0.0;  ///< times p
 };
 
-struct OwnGuard {
-  OwnForm positive;                        ///< while the state holds
+struct UserLawGuard {
+  UserLawForm positive;                    ///< while the state holds
   std::size_t next = 0;                    ///< the state after it has reached zero
   std::optional<Form> memory = {};         ///< p from then on; absent: unchanged
   std::vector<FormProduct> products = {};  ///< to be added to `positive`: F^2 - T^2 = (F - T)(F + T)
 };
 
-struct OwnState {
+struct UserLawState {
   std::string name;          ///< name for messages
   State kind = State::open;  ///< kind shown in files and events: open, closed, stick, slip_plus or slip_minus
-  OwnForm normal, tangent;   ///< = 0
-  std::vector<OwnGuard> guards = {};  ///< at most three
+  UserLawForm normal, tangent;            ///< = 0
+  std::vector<UserLawGuard> guards = {};  ///< at most three
 };
 
 struct UserContactLaw {
-  std::string name = {};         ///< name in check, messages and summary.json; empty: "compliant", like its
-                                 ///< springs
-  std::vector<OwnState> states;  ///< at most most_own_states; a run begins in the first one
+  std::string name = {};  ///< name in check, messages and summary.json; empty: "compliant", like its
+                          ///< springs
+  std::vector<UserLawState> states;  ///< at most max_user_law_states; a run begins in the first one
 };
 
 }  // namespace signorini

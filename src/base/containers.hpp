@@ -17,17 +17,17 @@
 
 namespace signorini::base {
 
-struct CacheBounds {
+struct CacheLimits {
   std::size_t count = 0, bytes = 0;
 };
 
 template <class Key, class Value>
-class BoundedCache {
+class LruCache {
  public:
-  explicit BoundedCache(CacheBounds most) : most_(most) {}
+  explicit LruCache(CacheLimits most) : most_(most) {}
   // The index refers to the list.
-  BoundedCache(const BoundedCache&) = delete;
-  BoundedCache& operator=(const BoundedCache&) = delete;
+  LruCache(const LruCache&) = delete;
+  LruCache& operator=(const LruCache&) = delete;
 
   /// nullptr if the key is absent.
   [[nodiscard]] Value* find(const Key& key) {
@@ -38,9 +38,9 @@ class BoundedCache {
   }
   /// key: must be absent. bytes: memory of key and value in addition to their own sizes.
   Value& insert(const Key& key, Value value, std::size_t bytes) {
-    entries_.push_front({std::move(value), bytes + each, {}});
+    entries_.push_front({std::move(value), bytes + entry_overhead, {}});
     entries_.front().place = index_.emplace(key, entries_.begin()).first;
-    bytes_ += bytes + each;
+    bytes_ += bytes + entry_overhead;
     while (entries_.size() > 1 && (entries_.size() > most_.count || bytes_ > most_.bytes)) {
       bytes_ -= entries_.back().bytes;
       index_.erase(entries_.back().place);
@@ -61,8 +61,9 @@ class BoundedCache {
     typename Index::iterator place;
   };
   /// Size of the nodes of list and index: their contents, and about four words each of links.
-  static constexpr std::size_t each = sizeof(Entry) + sizeof(typename Index::value_type) + 8 * sizeof(void*);
-  CacheBounds most_;
+  static constexpr std::size_t entry_overhead =
+      sizeof(Entry) + sizeof(typename Index::value_type) + 8 * sizeof(void*);
+  CacheLimits most_;
   Entries entries_;  // most recently used first
   Index index_;
   std::size_t bytes_ = 0;
@@ -117,10 +118,10 @@ class DisjointSets {
 
 /// piece: number of elements that are copied together with a changed one; the last piece may be smaller.
 template <class T, std::size_t piece = 16>
-class SharedVector {
+class CopyOnWriteVector {
  public:
-  SharedVector() = default;
-  explicit SharedVector(std::size_t size, const T& value = T()) : size_(size) {
+  CopyOnWriteVector() = default;
+  explicit CopyOnWriteVector(std::size_t size, const T& value = T()) : size_(size) {
     if (size >= piece) pieces_.assign(size / piece, std::make_shared<T[]>(piece, value));
     if (size % piece > 0) pieces_.push_back(std::make_shared<T[]>(size % piece, value));
   }

@@ -9,12 +9,13 @@
 namespace signorini::base {
 namespace {
 
-using Powers = std::array<double, Along::most>;  // a_0 + a_1 y + ..., y = 2x - 1 in [-1, 1]
+using Powers =
+    std::array<double, PolynomialInterpolation::max_points>;  // a_0 + a_1 y + ..., y = 2x - 1 in [-1, 1]
 
 /// Newton's divided differences, expanded to powers.
-Powers powers_of(const Along::Values& f, std::size_t n) {
-  Along::Values y{}, d = f;
-  for (std::size_t i = 0; i < n; ++i) y[i] = 2.0 * Along::point(n, i) - 1.0;
+Powers powers_of(const PolynomialInterpolation::Values& f, std::size_t n) {
+  PolynomialInterpolation::Values y{}, d = f;
+  for (std::size_t i = 0; i < n; ++i) y[i] = 2.0 * PolynomialInterpolation::point(n, i) - 1.0;
   for (std::size_t k = 1; k < n; ++k)
     for (std::size_t i = n - 1; i >= k; --i) d[i] = (d[i] - d[i - 1]) / (y[i] - y[i - k]);
   Powers a{};
@@ -32,7 +33,7 @@ double value(const Powers& a, std::size_t degree, double y) {
 }
 
 struct Roots {
-  std::array<double, Along::most> at{};
+  std::array<double, PolynomialInterpolation::max_points> at{};
   std::size_t count = 0;
 };
 
@@ -48,7 +49,7 @@ Roots roots_of(const Powers& a, std::size_t degree) {
     const double end = i < turns.count ? turns.at[i] : 1.0, at_end = value(a, degree, end);
     if ((at_left > 0.0) != (at_end > 0.0)) {
       double low = left, high = end;
-      for (int step = 0; step < 60 && high - low > rounding::of_few; ++step) {
+      for (int step = 0; step < 60 && high - low > rounding::few_operations; ++step) {
         const double middle = 0.5 * (low + high);
         ((value(a, degree, middle) > 0.0) == (at_left > 0.0) ? low : high) = middle;
       }
@@ -62,10 +63,10 @@ Roots roots_of(const Powers& a, std::size_t degree) {
 
 }  // namespace
 
-double Along::point(std::size_t n, std::size_t i) {
+double PolynomialInterpolation::point(std::size_t n, std::size_t i) {
   static const auto points = [] {
-    std::array<Values, most + 1> all{};
-    for (std::size_t count = 2; count <= most; ++count)
+    std::array<Values, max_points + 1> all{};
+    for (std::size_t count = 2; count <= max_points; ++count)
       for (std::size_t j = 0; j < count; ++j) {
         const double part = static_cast<double>(j) / static_cast<double>(count - 1);
         const double s = std::sin(0.5 * std::numbers::pi * part);
@@ -76,7 +77,7 @@ double Along::point(std::size_t n, std::size_t i) {
   return points[n][i];
 }
 
-double Along::through(const Values& f, std::size_t n, double x) {
+double PolynomialInterpolation::interpolate(const Values& f, std::size_t n, double x) {
   if (n == 1) return f[0];
   double above = 0.0, below = 0.0, sign = 1.0;
   for (std::size_t i = 0; i < n; ++i, sign = -sign) {
@@ -89,12 +90,12 @@ double Along::through(const Values& f, std::size_t n, double x) {
   return above / below;
 }
 
-Along::Extremes Along::extremes(const Values& f, std::size_t n) {
+PolynomialInterpolation::Extremes PolynomialInterpolation::extremes(const Values& f, std::size_t n) {
   Extremes e{f[0], f[0], 0.0, 0.0};
   if (n == 1) return e;
   double size = 0.0;
   for (std::size_t i = 0; i < n; ++i) size = std::max(size, std::abs(f[i]));
-  const double tie = rounding::of_few * size;
+  const double tie = rounding::few_operations * size;
   const auto see = [&](double x, double y) {
     if (y > e.greatest + tie) e.greatest = y, e.at_greatest = x;
     if (y < e.least - tie) e.least = y, e.at_least = x;
@@ -105,7 +106,7 @@ Along::Extremes Along::extremes(const Values& f, std::size_t n) {
   const Roots roots = roots_of(slope, n - 2);
   for (std::size_t i = 0; i < roots.count; ++i) {
     const double x = 0.5 * (roots.at[i] + 1.0);
-    see(x, through(f, n, x));
+    see(x, interpolate(f, n, x));
   }
   see(1.0, f[n - 1]);
   return e;

@@ -32,14 +32,14 @@ namespace signorini::base {
 //
 // Extremes: both ends, and where p' is zero; its zeros lie between those of p'', and so on.
 
-struct Along {
-  static constexpr std::size_t most = 6;  ///< limit for the number of points
+struct PolynomialInterpolation {
+  static constexpr std::size_t max_points = 6;  ///< limit for the number of points
   static constexpr double lebesgue = 2.0;
-  using Values = std::array<double, most>;
+  using Values = std::array<double, max_points>;
 
   /// Position of the i-th of n points.
   [[nodiscard]] static double point(std::size_t n, std::size_t i);
-  [[nodiscard]] static double through(const Values& f, std::size_t n, double x);
+  [[nodiscard]] static double interpolate(const Values& f, std::size_t n, double x);
 
   /// The first position is given if several values are equal up to rounding.
   struct Extremes {
@@ -55,9 +55,9 @@ class Downsampled {
  public:
   using Quantities = std::array<double, count>;
 
-  struct Wanted {
+  struct Options {
     /// Target number of rows at the end; bins have more if a picture needs them.
-    std::size_t most = 8000;
+    std::size_t max_rows = 8000;
     /// Never more than `most`, with bins as wide as necessary.
     bool crowded = false;
     /// Lines keep both of two rows with the same time.
@@ -65,8 +65,8 @@ class Downsampled {
     /// Lines leave no gap of more than this.
     double widest = std::numeric_limits<double>::infinity();
   };
-  Downsampled(double duration, const Wanted& wanted)
-      : duration_(duration), wanted_(wanted), limit_(room(wanted.most)) {
+  Downsampled(double duration, const Options& wanted)
+      : duration_(duration), options_(wanted), limit_(room(wanted.max_rows)) {
     least_.fill(std::numeric_limits<double>::infinity());
     greatest_.fill(-std::numeric_limits<double>::infinity());
   }
@@ -79,9 +79,9 @@ class Downsampled {
     }
     // Reserved at once: unused pages cost nothing, whereas growing vectors fragment memory.
     if (rows_.capacity() == 0)
-      rows_.reserve(room(std::max(wanted_.most, wanted_.crowded ? 0 : most_of_bins)) + 1);
+      rows_.reserve(room(std::max(options_.max_rows, options_.crowded ? 0 : most_of_bins)) + 1);
     rows_.push_back(row);
-    if (rows_.size() > limit_) thin();
+    if (rows_.size() > limit_) downsample();
   }
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
@@ -102,10 +102,10 @@ class Downsampled {
   void close(const Quantities& floors) {
     floors_ = floors;
     share_ = std::max(share_, finest);
-    settled_ = 0;
-    leave_out_lines();
+    processed_ = 0;
+    remove_collinear();
     if (width_ > 0.0) keep_extremes();
-    if (rows_.size() > wanted_.most) thin();
+    if (rows_.size() > options_.max_rows) downsample();
   }
 
  private:
@@ -117,16 +117,16 @@ class Downsampled {
   /// more than that of the kept rows.
   static std::size_t room(std::size_t kept) { return kept + kept / 8; }
 
-  void thin() {
-    const std::size_t enough = wanted_.most;
-    if (share_ > 0.0) leave_out_lines();
+  void downsample() {
+    const std::size_t enough = options_.max_rows;
+    if (share_ > 0.0) remove_collinear();
     while (rows_.size() > enough && share_ < coarsest) {
       share_ = std::max(2.0 * share_, finest);
-      settled_ = 0;
-      leave_out_lines();
+      processed_ = 0;
+      remove_collinear();
     }
     if (width_ > 0.0) keep_extremes();
-    while (rows_.size() > enough && width_ < (wanted_.crowded ? duration_ : duration_ / pixels)) {
+    while (rows_.size() > enough && width_ < (options_.crowded ? duration_ : duration_ / pixels)) {
       width_ = std::max(2.0 * width_, duration_ / first_bins);
       keep_extremes();
     }
@@ -134,11 +134,11 @@ class Downsampled {
   }
 
   /// Lines from the last kept row that pass all rows since then have slopes between low and high.
-  void leave_out_lines() {
-    if (rows_.size() < settled_ + 3) return;
+  void remove_collinear() {
+    if (rows_.size() < processed_ + 3) return;
     Quantities d, low, high, from;
     for (std::size_t i = 0; i < count; ++i) d[i] = std::max(share_ * (greatest_[i] - least_[i]), floors_[i]);
-    std::size_t kept = settled_;  // its index; the row itself is at `anchor` until then
+    std::size_t kept = processed_;  // its index; the row itself is at `anchor` until then
     double t = 0.0;
     const auto begin_at = [&](const Row& row) {
       from = Values{}(row);
@@ -156,8 +156,8 @@ class Downsampled {
         return true;
       };
       double h = rows_[j].t - t;
-      const bool side = wanted_.both_sides && rows_[j].t == rows_[j - 1].t;
-      const bool needed = side || h > wanted_.widest || !all([&](std::size_t i) {
+      const bool side = options_.both_sides && rows_[j].t == rows_[j - 1].t;
+      const bool needed = side || h > options_.widest || !all([&](std::size_t i) {
                             return to[i] - from[i] >= low[i] * h && to[i] - from[i] <= high[i] * h;
                           });
       if (needed && j - 1 > anchor) {
@@ -171,7 +171,7 @@ class Downsampled {
           low[i] = std::max(low[i], (to[i] - d[i] - from[i]) / h);
           high[i] = std::min(high[i], (to[i] + d[i] - from[i]) / h);
         }
-      } else if (wanted_.both_sides ||
+      } else if (options_.both_sides ||
                  !all([&](std::size_t i) { return std::abs(to[i] - from[i]) <= d[i]; })) {
         anchor = j;  // the other side of a jump
         begin_at(rows_[j]);
@@ -180,7 +180,7 @@ class Downsampled {
     }
     if (anchor + 1 < rows_.size()) rows_[++kept] = rows_.back();
     rows_.resize(kept + 1);
-    settled_ = kept;
+    processed_ = kept;
   }
 
   void keep_extremes() {
@@ -210,16 +210,16 @@ class Downsampled {
       begin = end;
     }
     rows_.resize(kept);
-    settled_ = kept - 1;
+    processed_ = kept - 1;
   }
 
   double duration_;
-  Wanted wanted_;
+  Options options_;
   std::size_t limit_;
   std::vector<Row> rows_;
   Quantities least_, greatest_, floors_{};
   double share_ = 0.0, width_ = 0.0;
-  std::size_t settled_ = 0;  // last row processed with the current c
+  std::size_t processed_ = 0;  // last row processed with the current c
 };
 
 }  // namespace signorini::base

@@ -99,7 +99,7 @@ Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) 
   return a.fullPivLu().solve(b);
 }
 
-Eigen::VectorXd some_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+Eigen::VectorXd particular_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   return a.fullPivLu().solve(b);
 }
 
@@ -110,7 +110,7 @@ std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a, const Eig
 }
 
 /// Inverse iteration, x <- A^-1 A^-T x. A may be singular: a small diagonal term keeps its factors regular.
-Eigen::MatrixXd least_stretched(const Eigen::MatrixXd& a, Eigen::Index count) {
+Eigen::MatrixXd smallest_singular_vectors(const Eigen::MatrixXd& a, Eigen::Index count) {
   constexpr int rounds = 4;
   const Eigen::Index n = a.rows();
   const double tiny =
@@ -147,7 +147,7 @@ static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double lea
   return svd.solve(b);
 }
 
-Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
+Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
                                   double size) {
   constexpr Eigen::Index fewest_divided = 48;  // number of columns from which divide and conquer costs less
                                                // than rotations

@@ -46,14 +46,14 @@ struct EigenPairs {
 /// A^-1 b with full pivoting; A general, square and regular.
 [[nodiscard]] Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 /// Same; for singular A some x, with A x = b if there is one.
-[[nodiscard]] Eigen::VectorXd some_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+[[nodiscard]] Eigen::VectorXd particular_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 /// Same; nullopt if A is singular to rounding.
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a,
                                                            const Eigen::VectorXd& b);
 
 /// Right singular vectors of the smallest `count` singular values, n x count, orthonormal. These values must be well
 /// below the others.
-[[nodiscard]] Eigen::MatrixXd least_stretched(const Eigen::MatrixXd& a, Eigen::Index count);
+[[nodiscard]] Eigen::MatrixXd smallest_singular_vectors(const Eigen::MatrixXd& a, Eigen::Index count);
 
 /// Singular values, descending; A: n x m.
 [[nodiscard]] Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
@@ -64,7 +64,7 @@ struct EigenPairs {
 
 /// The least-norm minimiser x of |A x - b|. Singular values of A count as zero below `least` times the largest, and
 /// below `least` times `size`, the size of the terms whose difference A is.
-[[nodiscard]] Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+[[nodiscard]] Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                                 double least, double size = 0.0);
 
 /// Some minimiser x of |A x - b|; dependent columns get the factor zero; A: n x m, m <= n.

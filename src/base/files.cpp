@@ -10,7 +10,7 @@ namespace signorini::base {
 
 namespace fs = std::filesystem;
 
-std::string why_no_input_file(const fs::path& path) {
+std::string input_file_error(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (!fs::exists(status) || fs::is_regular_file(status)) return "";
@@ -20,7 +20,9 @@ std::string why_no_input_file(const fs::path& path) {
   return "is a device";
 }
 
-std::string because(int error) { return error == 0 ? "" : ": " + std::generic_category().message(error); }
+std::string system_error_text(int error) {
+  return error == 0 ? "" : ": " + std::generic_category().message(error);
+}
 
 namespace fs = std::filesystem;
 
@@ -72,7 +74,7 @@ fs::path make_directory(const fs::path& path) {
   return first;
 }
 
-void unmake_directory(const fs::path& path, const fs::path& first) {
+void remove_created_directories(const fs::path& path, const fs::path& first) {
   if (first.empty()) return;
   std::error_code error;
   fs::path p = fs::absolute(path).lexically_normal();

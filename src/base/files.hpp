@@ -19,10 +19,10 @@ namespace signorini::base {
 
 /// Reason why this is not a readable file, "is a directory"; empty for a regular file, and for a missing one, for which
 /// opening reports the reason. A pipe would wait for a writer, and a device may never end.
-[[nodiscard]] std::string why_no_input_file(const std::filesystem::path& path);
+[[nodiscard]] std::string input_file_error(const std::filesystem::path& path);
 
 /// ": No such file or directory" for a value of errno, or "".
-[[nodiscard]] std::string because(int error);
+[[nodiscard]] std::string system_error_text(int error);
 
 /// Kind of a directory of results: "run", with summary.json as the file that identifies it.
 struct ResultsKind {
@@ -40,7 +40,7 @@ void check_output_file(const std::filesystem::path& path, const std::string& wha
 std::filesystem::path make_directory(const std::filesystem::path& path);
 
 /// `first`: return value of make_directory().
-void unmake_directory(const std::filesystem::path& path, const std::filesystem::path& first);
+void remove_created_directories(const std::filesystem::path& path, const std::filesystem::path& first);
 
 // Converts text to a part of a file name.
 //

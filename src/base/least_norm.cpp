@@ -88,7 +88,7 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps; ++step) {
     const VectorXd left = r - a * now.x;
-    if (left.norm() <= rounding::of_elimination * size) {
+    if (left.norm() <= rounding::elimination * size) {
       if (!(left.norm() < 0.5 * least)) return best;  // rounding is all that is left
       least = left.norm();
       best = now.x;

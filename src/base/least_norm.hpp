@@ -31,7 +31,7 @@ struct ConvexSet {
 };
 
 /// a: orthonormal rows, m x n with m <= n; sets: their sizes add up to n; r: m. nullopt: no point was found, since there is none
-/// or rounding hides it. A x = r holds to rounding::of_elimination of |r|.
+/// or rounding hides it. A x = r holds to rounding::elimination of |r|.
 [[nodiscard]] std::optional<Eigen::VectorXd> least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
                                                         const std::vector<ConvexSet>& sets);
 

@@ -20,9 +20,9 @@
 namespace signorini::rounding {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
-inline constexpr double of_few = 4.0 * eps;
-inline constexpr double of_many = 64.0 * eps;
-inline constexpr double of_time = 100.0 * eps;
-inline constexpr double of_elimination = 1e3 * eps;
+inline constexpr double few_operations = 4.0 * eps;
+inline constexpr double many_operations = 64.0 * eps;
+inline constexpr double time_resolution = 100.0 * eps;
+inline constexpr double elimination = 1e3 * eps;
 
 }  // namespace signorini::rounding

@@ -25,7 +25,7 @@ bool is_there(const fs::path& path) {
 }
 
 void check_kind(const fs::path& path) {
-  if (const std::string why = why_no_input_file(path); !why.empty())
+  if (const std::string why = input_file_error(path); !why.empty())
     throw FileError(path.string(), why + ", expected a file of a run");
 }
 
@@ -33,13 +33,13 @@ std::ifstream opened(const fs::path& path) {
   check_kind(path);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw FileError(path.string(), "cannot be read" + because(errno));
+  if (!stream) throw FileError(path.string(), "cannot be read" + system_error_text(errno));
   return stream;
 }
 
 /// True if the last line has no line end, as after a kill.
 bool is_cut(const fs::path& table) {
-  if (!why_no_input_file(table).empty()) return false;
+  if (!input_file_error(table).empty()) return false;
   std::ifstream stream(table, std::ios::binary | std::ios::ate);
   if (!stream || stream.tellg() <= 0) return false;
   stream.seekg(-1, std::ios::end);
@@ -103,12 +103,12 @@ const ManifestEntry* Manifest::find(std::string_view file) const {
   return found == files.end() ? nullptr : &*found;
 }
 
-void Manifest::drop(std::string_view file) {
+void Manifest::remove(std::string_view file) {
   std::erase_if(files, [&](const ManifestEntry& e) { return e.file == file; });
 }
 
-void Manifest::take(const fs::path& directory, std::string_view file) {
-  drop(file);
+void Manifest::add(const fs::path& directory, std::string_view file) {
+  remove(file);
   if (!is_there(directory / file)) return;
   const auto rank = [](std::string_view name) {
     return std::find(result_files.begin(), result_files.end(), name) - result_files.begin();
@@ -127,7 +127,7 @@ std::string Manifest::text() const {
 
 Manifest manifest_of(const fs::path& directory, const std::string& outcome) {
   Manifest manifest{version, outcome, {}};
-  for (const std::string_view file : result_files) manifest.take(directory, file);
+  for (const std::string_view file : result_files) manifest.add(directory, file);
   return manifest;
 }
 
@@ -175,7 +175,7 @@ void check_run_files(const fs::path& directory, const std::vector<std::string_vi
   for (const std::string_view name : names) check_file(directory, *manifest, name);
 }
 
-std::string why_unchecked(const fs::path& directory) {
+std::string unchecked_reason(const fs::path& directory) {
   if (is_there(directory / manifest_file)) return "";
   std::string why = fmt::format(
       "{}: no {}: the run may not have finished, or is of an earlier version; its files are not checked",

@@ -44,9 +44,9 @@ struct Manifest {
   std::vector<ManifestEntry> files;
 
   [[nodiscard]] const ManifestEntry* find(std::string_view file) const;
-  void drop(std::string_view file);
+  void remove(std::string_view file);
   /// Records the current state of the file; a file that does not exist is dropped. Errors: FileError.
-  void take(const std::filesystem::path& directory, std::string_view file);
+  void add(const std::filesystem::path& directory, std::string_view file);
   [[nodiscard]] std::string text() const;
 };
 
@@ -64,6 +64,6 @@ void check_run_files(const std::filesystem::path& directory);
 void check_run_files(const std::filesystem::path& directory, const std::vector<std::string_view>& names);
 /// A sentence that there is no manifest to check files against, and whether states.csv is cut; empty if there is a
 /// manifest.
-[[nodiscard]] std::string why_unchecked(const std::filesystem::path& directory);
+[[nodiscard]] std::string unchecked_reason(const std::filesystem::path& directory);
 
 }  // namespace signorini::base

@@ -22,7 +22,7 @@ std::optional<Number> parse_whole(std::string_view text) {
 
 }  // namespace
 
-std::string shortest(double value) {
+std::string format_number(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
@@ -32,11 +32,11 @@ std::optional<double> parse_number(std::string_view text) { return parse_whole<d
 
 std::optional<long long> parse_integer(std::string_view text) { return parse_whole<long long>(text); }
 
-std::string count_of(std::size_t number, std::string_view thing) {
+std::string count_text(std::size_t number, std::string_view thing) {
   return std::to_string(number) + " " + std::string(thing) + (number == 1 ? "" : "s");
 }
 
-std::string listed_plainly(const std::vector<std::string>& texts, std::size_t most) {
+std::string join_texts(const std::vector<std::string>& texts, std::size_t most) {
   std::string text;
   const std::size_t shown = std::min(texts.size(), most);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -46,11 +46,11 @@ std::string listed_plainly(const std::vector<std::string>& texts, std::size_t mo
   return shown < texts.size() ? text + " and " + std::to_string(texts.size() - shown) + " more" : text;
 }
 
-std::string listed(const std::vector<std::string>& names, std::size_t most) {
+std::string join_quoted(const std::vector<std::string>& names, std::size_t most) {
   std::vector<std::string> quoted;
   quoted.reserve(names.size());
   for (const std::string& name : names) quoted.push_back("'" + name + "'");
-  return listed_plainly(quoted, most);
+  return join_texts(quoted, most);
 }
 
 std::string duration_text(double seconds) {
@@ -139,7 +139,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::string nearest(std::string_view given, const std::vector<std::string>& known) {
+std::string nearest_name(std::string_view given, const std::vector<std::string>& known) {
   constexpr std::size_t longest = 60;  // longer names are unlikely to be typing errors
   if (given.size() > longest) return {};
   std::string best;
@@ -156,7 +156,7 @@ std::string nearest(std::string_view given, const std::vector<std::string>& know
 }
 
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
-  const std::string best = nearest(given, known);
+  const std::string best = nearest_name(given, known);
   return best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best);
 }
 

@@ -14,7 +14,7 @@
 namespace signorini::base {
 
 /// The shortest digits that read back exactly (std::to_chars): "1e-08", "0.3", "100", "inf", "nan".
-[[nodiscard]] std::string shortest(double value);
+[[nodiscard]] std::string format_number(double value);
 
 /// The whole text as a number (a leading + is allowed); nullopt if any character is left over.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
@@ -23,7 +23,7 @@ namespace signorini::base {
 [[nodiscard]] std::optional<long long> parse_integer(std::string_view text);
 
 /// "1 value", "3 values".
-[[nodiscard]] std::string count_of(std::size_t number, std::string_view thing);
+[[nodiscard]] std::string count_text(std::size_t number, std::string_view thing);
 
 // Lists names in a sentence.
 //
@@ -31,10 +31,10 @@ namespace signorini::base {
 //   listed({"A", "B", "C", "D"}, 2)   "'A', 'B' and 2 more"
 
 /// The first `most` names, then the number of the others.
-[[nodiscard]] std::string listed(const std::vector<std::string>& names, std::size_t most = 10);
+[[nodiscard]] std::string join_quoted(const std::vector<std::string>& names, std::size_t most = 10);
 
 /// Same for texts without additional quotes.
-[[nodiscard]] std::string listed_plainly(const std::vector<std::string>& texts, std::size_t most = 10);
+[[nodiscard]] std::string join_texts(const std::vector<std::string>& texts, std::size_t most = 10);
 
 // A duration as text.
 //
@@ -81,7 +81,7 @@ class Fingerprint {
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The known name nearest to the given one, if it is near enough to be a typing error; else empty.
-[[nodiscard]] std::string nearest(std::string_view given, const std::vector<std::string>& known);
+[[nodiscard]] std::string nearest_name(std::string_view given, const std::vector<std::string>& known);
 
 /// "; did you mean \"friction\"?", or "".
 [[nodiscard]] std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);

@@ -14,7 +14,7 @@
 #include <mutex>
 #include <thread>
 
-#include "base/machine.hpp"
+#include "base/host_info.hpp"
 #include "certify/companion.hpp"
 #include "certify/data_perturbation.hpp"
 #include "certify/error_bounds.hpp"
@@ -59,21 +59,21 @@ class QuietThread {
   std::thread thread_;
 };
 
-std::optional<certify::Track::Objection> objection_of(const Report& report, const Model& model,
-                                                      const std::string& where = "") {
-  if (report.witness.violations.empty()) return std::nullopt;
-  const Violation& first = report.witness.violations.front();
-  return certify::Track::Objection{first.t, where + run::sentence_of(first, model)};
+std::optional<certify::EventSequence::FirstViolation> objection_of(const Report& report, const Model& model,
+                                                                   const std::string& where = "") {
+  if (report.law_checks.violations.empty()) return std::nullopt;
+  const Violation& first = report.law_checks.violations.front();
+  return certify::EventSequence::FirstViolation{first.t, where + run::sentence_of(first, model)};
 }
 
 /// Decisions that a companion leaves open, and the shifts of its events.
 class CompanionWatch final : public run::RunListener, public run::EventShift {
  public:
   CompanionWatch(const certify::CompanionRun& run, certify::CompanionTracker& tracker)
-      : tracker_(tracker), seed_(run.seed), moved_(run.moved) {}
+      : tracker_(tracker), seed_(run.seed), moved_(run.event_shift) {}
   /// A shift of this event by the companion itself is not a difference between the runs: it affects later events only.
   void instant(const run::RunInstant& instant) override {
-    tracker_.moved = instant.triggered.empty() ? 0.0 : by_ / instant.t;
+    tracker_.event_shift = instant.triggered.empty() ? 0.0 : by_ / instant.t;
   }
   void end(const run::RunPoint& /*last*/, const engine::StepperReport& engine) override {
     first = engine.graze;
@@ -84,7 +84,7 @@ class CompanionWatch final : public run::RunListener, public run::EventShift {
     const double hidden = step.resolution - motion::resolution_at(step.end, length);
     by_ = 0.0;
     if (moved_ > 0.0 && hidden > 0.0)
-      by_ = certify::sign_by_chance(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
+      by_ = certify::random_sign(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
     return by_;
   }
   /// Random step lengths give independent samples of rounding that accumulates from step to step.
@@ -103,29 +103,30 @@ class CompanionTask {
  public:
   CompanionTask(certify::CompanionRun run, const certify::CompanionLimit& leash, double most_steps,
                 bool forces)
-      : run_(std::move(run)), tracker_(run_.model, forces), watch_(run_, tracker_) {
-    tracker_.leash = &leash;
-    tracker_.most_steps = most_steps;
+      : run_(std::move(run)), tracker_(run_.model, forces), guard_monitor_(run_, tracker_) {
+    tracker_.limit = &leash;
+    tracker_.max_steps = most_steps;
   }
 
   /// Stores errors: a companion never ends its run.
   void compute() {
     try {
-      report_ = run::simulate(run_.model, run_.run, tracker_, watch_, watch_.needs(), &watch_);
+      report_ = run::simulate(run_.model, run_.run, tracker_, guard_monitor_, guard_monitor_.needs(),
+                              &guard_monitor_);
     } catch (const std::exception& error) {
       failure_ = error.what();
     }
   }
 
   [[nodiscard]] double wall_time() const { return report_.wall_time; }
-  [[nodiscard]] certify::Track track() {
-    certify::Track track{std::move(tracker_.events),
-                         report_.outcome.t,
-                         "",
-                         report_.forgiven_at,
-                         watch_.first,
-                         objection_of(report_, run_.model, "in the companion, "),
-                         name_of(run_.run.engine).accuracy == Accuracy::rounding};
+  [[nodiscard]] certify::EventSequence track() {
+    certify::EventSequence track{std::move(tracker_.events),
+                                 report_.outcome.t,
+                                 "",
+                                 report_.first_undecided,
+                                 guard_monitor_.first,
+                                 objection_of(report_, run_.model, "in the companion, "),
+                                 engine_info(run_.run.engine).accuracy == Accuracy::rounding};
     if (!failure_.empty()) {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
@@ -138,13 +139,13 @@ class CompanionTask {
     }
     return track;
   }
-  [[nodiscard]] certify::Kept kept() const { return {&tracker_.rows, &report_}; }
-  [[nodiscard]] const std::vector<events::NearHit>& near_hits() const { return watch_.near; }
+  [[nodiscard]] certify::RecordedRun kept() const { return {&tracker_.rows, &report_}; }
+  [[nodiscard]] const std::vector<events::NearHit>& near_hits() const { return guard_monitor_.near; }
 
  private:
   certify::CompanionRun run_;
   certify::CompanionTracker tracker_;
-  CompanionWatch watch_;
+  CompanionWatch guard_monitor_;
   Report report_;
   std::string failure_;
 };
@@ -163,7 +164,7 @@ class Companions {
 
   /// Starts them beside the run, which uses one processor.
   void begin() {
-    const std::size_t beside = std::min(tasks_.size(), base::processors() - 1);
+    const std::size_t beside = std::min(tasks_.size(), base::processor_count() - 1);
     while (threads_.size() < beside) start();
   }
   /// The run has reached `reached`: companions need not go further. Waits until all have ended, or go_on returns false.
@@ -213,12 +214,12 @@ std::string why_not(const Model& model, const RunSpec& run, const certify::Compa
     return fmt::format(
         "a companion run would take about {:.2g} times as long as the run; --certify starts one", plan.cost);
   double seconds = plan.seconds;
-  if (run::engine_row(plan.runs.front().run.engine).can.closed_flow)
+  if (run::engine_row(plan.runs.front().run.engine).capabilities.closed_form_flow)
     seconds += static_cast<double>(report.counters.restarts) * run::seconds_of_event(model);
   return fmt::format(
       "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "
       "--certify starts one",
-      plan.name, run::about_seconds(seconds), report.wall_time);
+      plan.name, run::seconds_text(seconds), report.wall_time);
 }
 
 Certificate certificate_of(const Model& model, const RunSpec& run, const certify::CompanionPlan& plan,
@@ -227,14 +228,15 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const certify
   result.companion = plan.name;
   result.choice = plan.choice;
   result.factor = plan.factor;
-  std::vector<certify::Track> tracks;
-  std::vector<certify::Kept> kept;
-  const certify::Kept kept_run{&own.rows, &report};
+  std::vector<certify::EventSequence> tracks;
+  std::vector<certify::RecordedRun> kept;
+  const certify::RecordedRun kept_run{&own.rows, &report};
   for (const auto& task : companions.tasks()) {
     tracks.push_back(task->track());
     kept.push_back(task->kept());
-    const auto open = certify::first_open_hit(model, kept_run, kept.back(), task->near_hits(), plan.factor);
-    if (std::optional<certify::Track::Objection>& first = tracks.back().objection;
+    const auto open =
+        certify::first_undecided_impact(model, kept_run, kept.back(), task->near_hits(), plan.factor);
+    if (std::optional<certify::EventSequence::FirstViolation>& first = tracks.back().first_violation;
         open && (!first || open->t < first->t))
       first = open;
     result.wall_time += task->wall_time();
@@ -242,17 +244,18 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const certify
   std::vector<std::string> names;
   for (const Contact& contact : model.contacts) names.push_back(contact.name);
   for (certify::TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
-  const certify::Track track{std::move(own.events),
-                             report.outcome.t,
-                             "",
-                             report.forgiven_at,
-                             {},
-                             plan.doubt.empty() ? objection_of(report, model)
-                                                : std::optional(certify::Track::Objection{0.0, plan.doubt})};
-  certify::Verdict verdict = certify::match_events(track, tracks, plan.factor, names,
-                                                   name_of(run.engine).accuracy == Accuracy::rounding);
+  const certify::EventSequence track{
+      std::move(own.events),
+      report.outcome.t,
+      "",
+      report.first_undecided,
+      {},
+      plan.limitation.empty() ? objection_of(report, model)
+                              : std::optional(certify::EventSequence::FirstViolation{0.0, plan.limitation})};
+  certify::MatchResult verdict = certify::match_events(
+      track, tracks, plan.factor, names, engine_info(run.engine).accuracy == Accuracy::rounding);
   certify::BoundSettings settings{plan.factor, engine::tolerance_of(model, run)};
-  if (name_of(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};
+  if (engine_info(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};
   result.history = certify::bound_history(model, kept_run, kept, settings, track.events, verdict);
   result.until = verdict.until;
   result.complete = verdict.reason.empty();
@@ -279,12 +282,12 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   const auto plain = [&] { result.report = simulate(model, settings, recorder, options.listener); };
   if (settings.certify == Certify::no) {
     plain();
-    result.why_not = "run.certify = false";
+    result.reason = "run.certify = false";
     return result;
   }
   if (recorder.steers()) {
     plain();
-    result.why_not = "loads are changed on the way, which no companion could follow";
+    result.reason = "loads are changed on the way, which no companion could follow";
     return result;
   }
   RunSpec run = settings;
@@ -293,7 +296,7 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   certify::CompanionPlan plan = certify::plan_companion(model, run);
   if (run.certify != Certify::yes && !is_cheap(plan)) {
     plain();
-    result.why_not = why_not(model, run, plan, result.report);
+    result.reason = why_not(model, run, plan, result.report);
     return result;
   }
   const double most_steps = run.certify == Certify::yes ? std::numeric_limits<double>::infinity()

@@ -25,7 +25,7 @@ constexpr double resolved = 1.0;
 /// The part that all companions share.
 CompanionRun companion_of(const Model& model, const RunSpec& run) {
   CompanionRun companion{model, run};
-  hold_capture(companion.model, engine::tolerance_of(model, run).capture_velocity());
+  set_capture_velocities(companion.model, engine::tolerance_of(model, run).capture_velocity());
   companion.run.frames.clear();
   companion.model.outputs.clear();  // not used
   return companion;
@@ -36,7 +36,7 @@ CompanionPlan exact_plan(const Model& model, const RunSpec& run) {
   const Engine closed_form = run::engine_for(run::EngineRole::closed_form);
   plan.name = to_string(closed_form);
   plan.factor = by_exact;
-  if (name_of(run.engine).accuracy == Accuracy::tolerance) plan.local = local_beside_exact;
+  if (engine_info(run.engine).accuracy == Accuracy::tolerance) plan.local = local_beside_exact;
   plan.runs.push_back(companion_of(model, run));
   plan.runs.back().run.engine = closed_form;
   return plan;
@@ -74,7 +74,7 @@ void make_finer(Tolerances& atol) {
 CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
   CompanionPlan plan;
   CompanionRun companion = companion_of(model, run);
-  const EngineName& engine = name_of(run.engine);
+  const EngineInfo& engine = engine_info(run.engine);
   switch (engine.accuracy) {
     case Accuracy::rounding:
       plan.factor = by_rounding;
@@ -94,7 +94,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
       plan.factor = by_step;
       companion.run.dt = finer_step * companion.run.dt.value_or(0.0);
       plan.name = fmt::format("{}, dt {:g}", engine.name, *companion.run.dt);
-      plan.doubt = unresolved(model, run.dt.value_or(0.0));
+      plan.limitation = unresolved(model, run.dt.value_or(0.0));
       break;
   }
   plan.runs.push_back(std::move(companion));
@@ -102,9 +102,9 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
 }
 
 void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
-  const run::Effort own = run::expected(model, run).effort;
+  const run::CostEstimate own = run::expected_cost(model, run).estimate;
   for (const CompanionRun& companion : plan.runs) {
-    const run::Effort effort = run::expected(companion.model, companion.run).effort;
+    const run::CostEstimate effort = run::expected_cost(companion.model, companion.run).estimate;
     plan.steps = effort.steps;
     if (!(own.seconds > 0.0) || !(effort.seconds > 0.0)) {
       plan.cost = plan.seconds = 0.0;
@@ -117,19 +117,19 @@ void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
 
 }  // namespace
 
-void hold_capture(Model& model, double capture_velocity) {
+void set_capture_velocities(Model& model, double capture_velocity) {
   for (Contact& contact : model.contacts)
     if (!contact.capture_velocity) contact.capture_velocity = capture_velocity;
 }
 
 CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
   const bool itself = run::engine_row(run.engine).role == run::EngineRole::closed_form;
-  if (run.companion == Companion::exact && !itself && !run::exact_takes(model, run))
+  if (run.companion == Companion::exact && !itself && !run::exact_accepts(model, run))
     throw SceneError(
         run.place, "run.companion",
         "\"exact\" does not take this scene (signorini check --engine exact says why); use \"finer\"");
-  const bool steps = name_of(run.engine).accuracy == Accuracy::step;
-  const bool may_be_exact = !itself && run.companion != Companion::finer && run::exact_takes(model, run);
+  const bool steps = engine_info(run.engine).accuracy == Accuracy::step;
+  const bool may_be_exact = !itself && run.companion != Companion::finer && run::exact_accepts(model, run);
   if (steps && run.companion == Companion::automatic) {
     CompanionPlan plan = may_be_exact ? exact_plan(model, run) : ida_plan(model, run);
     estimate(plan, model, run);
@@ -158,15 +158,15 @@ CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
 }
 
 void CompanionTracker::event(const Event& event) {
-  events.push_back(timed(event));
-  events.back().t -= moved * events.back().t;
+  events.push_back(timed_event(event));
+  events.back().t -= event_shift * events.back().t;
   run::ForwardingRecorder::event(event);
 }
 
 void CompanionTracker::sample(const Sample& sample) {
   rows.t.push_back(sample.t);
   for (const Column& column : model_.columns) {
-    rows.values.push_back(column.of(*sample.u, *sample.v));
+    rows.values.push_back(column.value(*sample.u, *sample.v));
   }
   if (all_) {
     for (const ContactSample& contact : sample.contacts)
@@ -192,8 +192,8 @@ void CompanionTracker::response(double t, const std::vector<double>& values) {
 
 bool CompanionTracker::progress(double t) {
   if (!companion_) return run::ForwardingRecorder::progress(t);
-  too_long = ++steps_ > most_steps;
-  return !too_long && (leash == nullptr || leash->allows(t));
+  too_long = ++steps_ > max_steps;
+  return !too_long && (limit == nullptr || limit->allows(t));
 }
 
 }  // namespace signorini::certify

@@ -49,14 +49,14 @@ struct CompanionRun {
   std::uint64_t seed = 0;
   /// Fraction of the rounding error of an event's time in modes (Step::resolution beyond the time resolution) by which
   /// its events are shifted, in either direction.
-  double moved = 0.0;
+  double event_shift = 0.0;
 };
 
 struct CompanionPlan {
   std::vector<CompanionRun> runs;
-  std::string name;    ///< "exact", "ida, rtol 1e-10"
-  std::string choice;  ///< "as given", or "auto: ..."
-  std::string doubt;   ///< reason why it cannot certify anything; empty: none
+  std::string name;        ///< "exact", "ida, rtol 1e-10"
+  std::string choice;      ///< "as given", or "auto: ..."
+  std::string limitation;  ///< reason why it cannot certify anything; empty: none
   double factor = 1.0;
   double local = 1.0;    ///< fraction of t_uncertainty that is added: the part that the difference does not
                          ///< contain
@@ -66,7 +66,7 @@ struct CompanionPlan {
 };
 
 /// Gives all contacts of `model` without a capture velocity that of this run.
-void hold_capture(Model& model, double capture_velocity);
+void set_capture_velocities(Model& model, double capture_velocity);
 
 /// run.engine must not be automatic. Errors: SceneError if a requested companion refuses the model.
 [[nodiscard]] CompanionPlan plan_companion(const Model& model, const RunSpec& run);
@@ -79,7 +79,7 @@ void hold_capture(Model& model, double capture_velocity);
 // A companion runs in its own thread: it stops where the run has ended, or on request.
 
 /// Columns of history.csv, row by row; then N and T of each contact, and the outputs, if requested.
-struct KeptRows {
+struct RecordedRows {
   std::size_t width = 0;
   std::vector<double> t, values;
 };
@@ -96,7 +96,7 @@ class CompanionLimit {
 };
 
 /// N and T: columns of a row that each contact has.
-inline constexpr std::size_t forces_a_row = 2;
+inline constexpr std::size_t forces_per_contact = 2;
 
 class CompanionTracker : public run::ForwardingRecorder {
  public:
@@ -104,7 +104,7 @@ class CompanionTracker : public run::ForwardingRecorder {
   explicit CompanionTracker(const Model& model, bool all, Recorder* next = nullptr)
       : run::ForwardingRecorder(next), model_(model), all_(all), companion_(next == nullptr) {
     rows.width =
-        model.columns.size() + (all ? forces_a_row * model.contacts.size() + model.outputs.size() : 0);
+        model.columns.size() + (all ? forces_per_contact * model.contacts.size() + model.outputs.size() : 0);
   }
 
   void event(const Event& event) override;
@@ -113,11 +113,12 @@ class CompanionTracker : public run::ForwardingRecorder {
   bool progress(double t) override;
 
   std::vector<TimedEvent> events;
-  KeptRows rows;
-  const CompanionLimit* leash = nullptr;                        ///< only for a companion
-  double most_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
-  bool too_long = false;                                        ///< it was ended by most_steps
-  double moved = 0.0;  ///< for a companion: part of the time of the next events that it has added itself
+  RecordedRows rows;
+  const CompanionLimit* limit = nullptr;                       ///< only for a companion
+  double max_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
+  bool too_long = false;                                       ///< it was ended by most_steps
+  double event_shift =
+      0.0;  ///< for a companion: part of the time of the next events that it has added itself
 
  private:
   const Model& model_;

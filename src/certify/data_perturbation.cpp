@@ -64,7 +64,7 @@ class DataPerturber {
   /// Perturbs products with other shapes as well.
   void products(Model& near) {
     const std::uint64_t own = mixed(++number_);
-    mix_shapes(
+    perturb_shapes(
         [&](Eigen::Index i, Eigen::Index j) {
           const auto low = static_cast<std::uint64_t>(std::min(i, j));
           const auto high = static_cast<std::uint64_t>(std::max(i, j));
@@ -110,7 +110,7 @@ std::vector<bool> touched(const Model& model) {
 
 }  // namespace
 
-double sign_by_chance(std::uint64_t seed, std::uint64_t number) {
+double random_sign(std::uint64_t seed, std::uint64_t number) {
   return (mixed(mixed(seed) ^ mixed(number)) & 1U) != 0U ? 1.0 : -1.0;
 }
 
@@ -140,7 +140,7 @@ Model perturbed(const Model& model, std::uint64_t seed) {
 namespace {
 
 // Half of the digits: beyond this the first-order approximation C is invalid.
-constexpr double most_mixed = 1e-8;
+constexpr double max_mixed = 1e-8;
 
 /// C; rows of shapes without mass are zero, as for infinite frequency.
 Eigen::MatrixXd mixing(const std::function<double(Eigen::Index, Eigen::Index)>& coupling,
@@ -156,7 +156,7 @@ Eigen::MatrixXd mixing(const std::function<double(Eigen::Index, Eigen::Index)>& 
       if (j == i || terms(i, j) == 0.0) continue;
       const double coupled = coupling(i, j) * terms(i, j);
       const double apart = square * model.mass.coeff(j, j) - model.stiffness.coeff(j, j);
-      if (std::abs(coupled) < most_mixed * std::abs(apart)) result(i, j) = coupled / apart;
+      if (std::abs(coupled) < max_mixed * std::abs(apart)) result(i, j) = coupled / apart;
     }
   }
   return result;
@@ -180,7 +180,7 @@ void mix(const Eigen::MatrixXd& c, Combination& form) {
 
 }  // namespace
 
-void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model) {
+void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model) {
   const Eigen::MatrixXd c = mixing(coupling, model);
   // u = X q = X' q':  q' = q - C^T q. Gaps keep their exact values.
   const Vector u0 = model.u0;
@@ -236,7 +236,7 @@ Vector left_over(const Model& model, const std::vector<double>& reactions,
 }
 
 double rounding_of_gap(const Contact& contact, const Vector& u) {
-  return rounding::of_elimination * (std::abs(contact.gap) + contact.normal.magnitude(u));
+  return rounding::elimination * (std::abs(contact.gap) + contact.normal.magnitude(u));
 }
 
 bool bears(const Model& model, std::size_t k) {
@@ -270,13 +270,13 @@ bool is_known(const Model& model) {
 
 }  // namespace
 
-std::optional<MovedStart> perturbed_start(const Model& model, const Model& near) {
+std::optional<PerturbedStart> perturbed_start(const Model& model, const Model& near) {
   if (!is_known(model)) return std::nullopt;
-  MovedStart moved{{}, shears(model, near)};
+  PerturbedStart moved{{}, shears(model, near)};
   const std::vector<double>& reactions = model.statics.reactions;
   const Vector p =
       left_over(near, reactions, moved.shears) - left_over(model, reactions, shears(model, model));
-  std::vector<statics::HeldRow> rows;
+  std::vector<statics::ConstraintRow> rows;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = near.contacts[k];
     if (rubs(model, c) && reactions[k] > 0.0) rows.push_back({c.tangent, *c.tangential_stiffness, false});
@@ -284,7 +284,7 @@ std::optional<MovedStart> perturbed_start(const Model& model, const Model& near)
     if (c.normal_spring() && bears(model, k))
       rows.push_back({c.normal, c.normal_stiffness, false});
     else if (bears(model, k) || std::abs(c.gap_at(near.u0)) <= rounding_of_gap(c, near.u0))
-      rows.push_back({c.normal, statics::own_stiffness(near.stiffness, c.normal), true});
+      rows.push_back({c.normal, statics::structural_stiffness(near.stiffness, c.normal), true});
   }
   const auto solve = [&]() -> std::optional<Vector> {
     const statics::ConstraintRows held(near.stiffness, rows);
@@ -296,9 +296,9 @@ std::optional<MovedStart> perturbed_start(const Model& model, const Model& near)
   for (std::size_t k = 0; !w && k < model.contacts.size(); ++k) {
     const Combination& tangent = near.contacts[k].tangent;
     if (tangent.terms.empty() ||
-        std::abs(tangent.dot(near.u0)) > rounding::of_elimination * near.u0.cwiseAbs().maxCoeff())
+        std::abs(tangent.dot(near.u0)) > rounding::elimination * near.u0.cwiseAbs().maxCoeff())
       continue;
-    rows.push_back({tangent, statics::own_stiffness(near.stiffness, tangent), true});
+    rows.push_back({tangent, statics::structural_stiffness(near.stiffness, tangent), true});
     w = solve();
   }
   if (!w || !(w->allFinite() && keeps_states(model, near, near.u0 + *w))) return std::nullopt;

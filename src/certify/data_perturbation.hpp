@@ -19,7 +19,7 @@
 namespace signorini::certify {
 
 /// Pseudo-random 1 or -1, the same for the same numbers.
-[[nodiscard]] double sign_by_chance(std::uint64_t seed, std::uint64_t number);
+[[nodiscard]] double random_sign(std::uint64_t seed, std::uint64_t number);
 
 [[nodiscard]] Model perturbed(const Model& model, std::uint64_t seed);
 
@@ -34,7 +34,7 @@ namespace signorini::certify {
 // shapes of their plane are equivalent.
 
 /// The model must be reduced; coupling: delta r_ij of a pair, the same for (i, j) and (j, i).
-void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model);
+void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model);
 
 // Change of a static start by a perturbation of its data.
 //
@@ -47,12 +47,12 @@ void mix_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& couplin
 // ten million times softer. Companions with the same initial state would not show this. The contact states of the start
 // do not change.
 
-struct MovedStart {
+struct PerturbedStart {
   Vector w;                    ///< change of near.u0
   std::vector<double> shears;  ///< T' of each contact
 };
 /// near: the model with perturbed data and the same closed gaps. nullopt: the start is not static, or friction in it is
 /// at its limit or holds rigidly, or its matrix is singular, or a contact's state would change.
-[[nodiscard]] std::optional<MovedStart> perturbed_start(const Model& model, const Model& near);
+[[nodiscard]] std::optional<PerturbedStart> perturbed_start(const Model& model, const Model& near);
 
 }  // namespace signorini::certify

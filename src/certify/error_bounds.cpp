@@ -15,11 +15,11 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Error of a column from one step; columns beyond the model's are forces, then outputs, which have no tolerances of
 /// their own.
 double tolerance_of(const Model& model, std::size_t index, double greatest, const engine::Tolerance& t) {
-  if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
-  if (index >= model.columns.size() + forces_a_row * model.contacts.size()) return t.rtol * greatest;
+  if (!(t.rtol > 0.0)) return rounding::few_operations * greatest;
+  if (index >= model.columns.size() + forces_per_contact * model.contacts.size()) return t.rtol * greatest;
   if (index >= model.columns.size()) return t.rtol * greatest + t.force;
   const Column& column = model.columns[index];
-  const bool rotation = model.turns(column);
+  const bool rotation = model.is_rotation(column);
   const double atol = column.velocity ? (rotation ? t.angular_velocity : t.velocity)
                                       : (rotation ? t.rotation : t.displacement);
   return t.rtol * greatest + atol;
@@ -33,11 +33,11 @@ bool jumps(const Model& model, std::size_t index) {
 /// Rows of one column.
 class ColumnOf {
  public:
-  ColumnOf(const KeptRows& rows, std::size_t column) : rows_(rows), column_(column) {}
+  ColumnOf(const RecordedRows& rows, std::size_t column) : rows_(rows), column_(column) {}
   double operator[](std::size_t row) const { return rows_.values[row * rows_.width + column_]; }
 
  private:
-  const KeptRows& rows_;
+  const RecordedRows& rows_;
   std::size_t column_;
 };
 
@@ -56,15 +56,15 @@ std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector
   return at;
 }
 
-std::size_t common_rows(const Kept& run, const std::vector<Kept>& companions) {
+std::size_t common_rows(const RecordedRun& run, const std::vector<RecordedRun>& companions) {
   std::size_t rows = run.rows->t.size();
-  for (const Kept& companion : companions) rows = std::min(rows, companion.rows->t.size());
+  for (const RecordedRun& companion : companions) rows = std::min(rows, companion.rows->t.size());
   return rows;
 }
 
 class HistoryBounds {
  public:
-  HistoryBounds(const Model& model, const Kept& run, const std::vector<Kept>& companions,
+  HistoryBounds(const Model& model, const RecordedRun& run, const std::vector<RecordedRun>& companions,
                 const BoundSettings& settings)
       : model_(model), run_(run), companions_(companions), settings_(settings) {
     errors_.t.assign(run.rows->t.begin(),
@@ -73,7 +73,7 @@ class HistoryBounds {
     errors_.bounds.assign(errors_.t.size() * errors_.width, infinite);
   }
 
-  HistoryErrors bounds(const std::vector<TimedEvent>& events, const Verdict& verdict) {
+  HistoryErrors bounds(const std::vector<TimedEvent>& events, const MatchResult& verdict) {
     const std::vector<bool> at_event = rows_at_events(errors_.t, events, verdict.t_errors);
     std::size_t certain = errors_.t.size();
     if (!verdict.reason.empty())
@@ -89,11 +89,11 @@ class HistoryBounds {
     double greatest = 0.0;
     for (std::size_t row = 0; row < certain; ++row) greatest = std::max(greatest, std::abs(own[row]));
     const double floor = tolerance_of(model_, j, greatest, settings_.tolerance);
-    std::vector<double> last(remembered, 0.0);
+    std::vector<double> last(difference_window, 0.0);
     for (std::size_t row = 0; row < certain; ++row) {
-      double& off = last[row % remembered];
+      double& off = last[row % difference_window];
       off = 0.0;
-      for (const Kept& companion : companions_)
+      for (const RecordedRun& companion : companions_)
         off = std::max(off, std::abs(own[row] - ColumnOf(*companion.rows, j)[row]));
       double bound = settings_.factor * *std::max_element(last.begin(), last.end()) + floor;
       if (at_event[row] && jumps(model_, j)) {
@@ -105,8 +105,8 @@ class HistoryBounds {
   }
 
   const Model& model_;
-  const Kept& run_;
-  const std::vector<Kept>& companions_;
+  const RecordedRun& run_;
+  const std::vector<RecordedRun>& companions_;
   const BoundSettings& settings_;
   HistoryErrors errors_;
 };
@@ -120,7 +120,7 @@ class FigureBound {
   double operator()(double own, double atol, const Figure& other) const {
     double off = 0.0;
     for (std::size_t i = 0; i < companions_; ++i) off = std::max(off, std::abs(own - other(i)));
-    const double rtol = std::max(settings_.tolerance.rtol, rounding::of_few);
+    const double rtol = std::max(settings_.tolerance.rtol, rounding::few_operations);
     return settings_.factor * off + rtol * std::abs(own) + atol;
   }
 
@@ -131,14 +131,14 @@ class FigureBound {
 
 }  // namespace
 
-HistoryErrors bound_history(const Model& model, const Kept& run, const std::vector<Kept>& companions,
-                            const BoundSettings& settings, const std::vector<TimedEvent>& events,
-                            const Verdict& verdict) {
+HistoryErrors bound_history(const Model& model, const RecordedRun& run,
+                            const std::vector<RecordedRun>& companions, const BoundSettings& settings,
+                            const std::vector<TimedEvent>& events, const MatchResult& verdict) {
   return HistoryBounds(model, run, companions, settings).bounds(events, verdict);
 }
 
-void bound_extremes(Certificate& certificate, const Kept& run, const std::vector<Kept>& companions,
-                    const BoundSettings& settings) {
+void bound_extremes(Certificate& certificate, const RecordedRun& run,
+                    const std::vector<RecordedRun>& companions, const BoundSettings& settings) {
   const Report& own = *run.report;
   const bool some = settings.tolerance.rtol > 0.0;
   const double length = some ? settings.tolerance.displacement : 0.0;
@@ -157,7 +157,7 @@ void bound_extremes(Certificate& certificate, const Kept& run, const std::vector
   for (std::size_t k = 0; k < own.landings.size(); ++k) {
     certificate.landings[k].assign(own.landings[k].size(), std::nullopt);
     for (std::size_t l = 0; l < own.landings[k].size(); ++l) {
-      const bool known = std::all_of(companions.begin(), companions.end(), [&](const Kept& companion) {
+      const bool known = std::all_of(companions.begin(), companions.end(), [&](const RecordedRun& companion) {
         return k < companion.report->landings.size() && l < companion.report->landings[k].size();
       });
       if (!known || !(certificate.complete || own.landings[k][l].end < certificate.until)) continue;
@@ -209,7 +209,7 @@ constexpr std::size_t rows_beside = 3;  // before and after each near hit
 /// Difference of a contact's gap between two runs, from the columns of their rows.
 class GapDifference {
  public:
-  GapDifference(const Model& model, const Kept& run, const Kept& companion)
+  GapDifference(const Model& model, const RecordedRun& run, const RecordedRun& companion)
       : model_(model), run_(*run.rows), other_(*companion.rows) {
     if (model.is_physical()) {
       column_of_.assign(model.dofs.size(), -1);
@@ -253,7 +253,7 @@ class GapDifference {
   }
 
   const Model& model_;
-  const KeptRows &run_, &other_;
+  const RecordedRows &run_, &other_;
   std::vector<int>
       column_of_;  // column of each displacement; -1: none; empty: columns do not match the degrees of
                    // freedom
@@ -261,17 +261,20 @@ class GapDifference {
 
 }  // namespace
 
-std::optional<Track::Objection> first_open_hit(const Model& model, const Kept& run, const Kept& companion,
-                                               const std::vector<events::NearHit>& near, double factor) {
+std::optional<EventSequence::FirstViolation> first_undecided_impact(const Model& model,
+                                                                    const RecordedRun& run,
+                                                                    const RecordedRun& companion,
+                                                                    const std::vector<events::NearHit>& near,
+                                                                    double factor) {
   const GapDifference difference(model, run, companion);
-  std::optional<Track::Objection> first;
+  std::optional<EventSequence::FirstViolation> first;
   for (const events::NearHit& hit : near) {
     const Contact& contact = model.contacts[static_cast<std::size_t>(hit.contact)];
     const double off = difference.around(hit.t, contact);
     if (!(hit.gap <= factor * off)) continue;
-    const double since = hit.t - std::sqrt(factor * off / hit.bend);
+    const double since = hit.t - std::sqrt(factor * off / hit.half_curvature);
     if (first && first->t <= since) continue;
-    first = Track::Objection{
+    first = EventSequence::FirstViolation{
         std::max(0.0, since),
         fmt::format(
             "the gap of '{}' is {:.2g} {} at t = {:.9g} in the companion, and {:.2g} {} off in the run: both "

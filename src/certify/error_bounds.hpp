@@ -15,8 +15,8 @@
 namespace signorini::certify {
 
 /// Recorded data of a run or of its companion.
-struct Kept {
-  const KeptRows* rows = nullptr;
+struct RecordedRun {
+  const RecordedRows* rows = nullptr;
   const Report* report = nullptr;
 };
 
@@ -25,13 +25,14 @@ struct BoundSettings {
   engine::Tolerance tolerance;  ///< tolerance of the run; rtol 0: rounding only
 };
 
-[[nodiscard]] HistoryErrors bound_history(const Model& model, const Kept& run,
-                                          const std::vector<Kept>& companions, const BoundSettings& settings,
-                                          const std::vector<TimedEvent>& events, const Verdict& verdict);
+[[nodiscard]] HistoryErrors bound_history(const Model& model, const RecordedRun& run,
+                                          const std::vector<RecordedRun>& companions,
+                                          const BoundSettings& settings,
+                                          const std::vector<TimedEvent>& events, const MatchResult& verdict);
 
 /// Bounds peaks and landings of the whole run; only landings that have ended before verdict.until.
-void bound_extremes(Certificate& certificate, const Kept& run, const std::vector<Kept>& companions,
-                    const BoundSettings& settings);
+void bound_extremes(Certificate& certificate, const RecordedRun& run,
+                    const std::vector<RecordedRun>& companions, const BoundSettings& settings);
 
 // Possible effect of the modes left out on contacts of a reduced model, and on their forces.
 //
@@ -58,9 +59,8 @@ void bound_extremes(Certificate& certificate, const Kept& run, const std::vector
 // smaller.
 
 /// The first of these near impacts that is open. factor: c.
-[[nodiscard]] std::optional<Track::Objection> first_open_hit(const Model& model, const Kept& run,
-                                                             const Kept& companion,
-                                                             const std::vector<events::NearHit>& near,
-                                                             double factor);
+[[nodiscard]] std::optional<EventSequence::FirstViolation> first_undecided_impact(
+    const Model& model, const RecordedRun& run, const RecordedRun& companion,
+    const std::vector<events::NearHit>& near, double factor);
 
 }  // namespace signorini::certify

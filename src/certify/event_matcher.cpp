@@ -28,8 +28,9 @@ using Rows = std::vector<std::size_t>;
 
 /// Data of a contact from its previous events.
 struct Past {
-  double off = 0.0;                                                   // difference at the previous event
-  std::vector<double> speeds = std::vector<double>(remembered, 0.0);  // differences R of the last events
+  double off = 0.0;  // difference at the previous event
+  std::vector<double> speeds =
+      std::vector<double>(difference_window, 0.0);  // differences R of the last events
   std::size_t next = 0;
 };
 
@@ -47,19 +48,19 @@ bool same(const TimedEvent& a, const TimedEvent& b) {
 
 class EventMatcher {
  public:
-  EventMatcher(const Track& run, const std::vector<Track>& companions, double factor,
+  EventMatcher(const EventSequence& run, const std::vector<EventSequence>& companions, double factor,
                const std::vector<std::string>& names, bool rounded)
       : run_(run), companions_(companions), factor_(factor), names_(names), rounded_(rounded) {}
 
-  Verdict verdict() {
+  MatchResult verdict() {
     deviation_.assign(run_.events.size(), 0.0);
     uncertainty_.clear();
     for (const TimedEvent& event : run_.events) uncertainty_.push_back(event.uncertainty);
     const std::vector<Rows> own = by_contact(run_.events, names_.size());
-    for (const Track& companion : companions_) pair(own, companion);
+    for (const EventSequence& companion : companions_) pair(own, companion);
     share();
     grow();
-    Verdict result;
+    MatchResult result;
     settle(result);
     count_unordered(result);
     return result;
@@ -67,7 +68,7 @@ class EventMatcher {
 
  private:
   /// Computes differences of partners, and the first event of each contact without a partner.
-  void pair(const std::vector<Rows>& own, const Track& companion) {
+  void pair(const std::vector<Rows>& own, const EventSequence& companion) {
     const std::vector<Rows> other = by_contact(companion.events, names_.size());
     for (std::size_t k = 0; k < own.size(); ++k) {
       const std::size_t longest = std::max(own[k].size(), other[k].size());
@@ -75,13 +76,14 @@ class EventMatcher {
       for (std::size_t i = 0; i < longest && pair(own[k], other[k], i, companion, past); ++i) {
       }
     }
-    for (const Track* track : {&run_, &companion})
+    for (const EventSequence* track : {&run_, &companion})
       if (track->forgiven_at)
         certified_until_.at(
             *track->forgiven_at,
             fmt::format("at t = {:.9g} rounding left several contact states possible", *track->forgiven_at));
-    for (const Track* track : {&run_, &companion})
-      if (track->objection) certified_until_.at(track->objection->t, track->objection->sentence);
+    for (const EventSequence* track : {&run_, &companion})
+      if (track->first_violation)
+        certified_until_.at(track->first_violation->t, track->first_violation->sentence);
     if (const auto& graze = companion.graze)
       certified_until_.at(
           graze->t,
@@ -93,7 +95,7 @@ class EventMatcher {
                           companion.stop.empty() ? "the companion has ended" : companion.stop);
   }
 
-  bool pair(const Rows& own, const Rows& other, std::size_t i, const Track& companion, Past& past) {
+  bool pair(const Rows& own, const Rows& other, std::size_t i, const EventSequence& companion, Past& past) {
     const TimedEvent* a = i < own.size() ? &run_.events[own[i]] : nullptr;
     const TimedEvent* b = i < other.size() ? &companion.events[other[i]] : nullptr;
     if (a == nullptr || b == nullptr) {
@@ -133,7 +135,7 @@ class EventMatcher {
   /// Rounding of two neighbours together. A companion that computes to rounding cannot certify more than it resolves
   /// itself.
   [[nodiscard]] double own_rounding(const Rows& own, const Rows& other, std::size_t i,
-                                    const Track& companion) const {
+                                    const EventSequence& companion) const {
     if (!rounded_ && !companion.rounded) return 0.0;
     const std::vector<TimedEvent>& events = rounded_ ? run_.events : companion.events;
     const Rows& rows = rounded_ ? own : other;
@@ -145,7 +147,7 @@ class EventMatcher {
   bool flies_or_rests(const TimedEvent& a, const TimedEvent& b, Past& past) {
     const double r = a.departure, other = b.departure;
     if (std::isnan(r) || std::isnan(other)) return true;
-    past.speeds[past.next++ % remembered] = std::abs(r - other) / std::max({r, other, 1.0});
+    past.speeds[past.next++ % difference_window] = std::abs(r - other) / std::max({r, other, 1.0});
     const double off = factor_ * *std::max_element(past.speeds.begin(), past.speeds.end()) * std::max(r, 1.0);
     if (off < std::abs(r - 1.0)) return true;
     certified_until_.at(
@@ -177,14 +179,14 @@ class EventMatcher {
   /// Converts differences to errors, in the order of time.
   void grow() {
     errors_.assign(run_.events.size(), none);
-    std::vector<double> last(remembered, 0.0);
+    std::vector<double> last(difference_window, 0.0);
     std::size_t next = 0;
     for (std::size_t i = 0; i < run_.events.size(); ++i) {
       const TimedEvent& event = run_.events[i];
       if (event.t >= certified_until_.t) break;
       errors_[i] = of_clock * event.t;
       if (!event.is_change() || (!event.is_located && deviation_[i] == 0.0)) continue;
-      last[next++ % remembered] = deviation_[i];
+      last[next++ % difference_window] = deviation_[i];
       const double error = factor_ * *std::max_element(last.begin(), last.end());
       spread_ = error;
       errors_[i] += error + static_cast<double>(uncertainty_[i]);
@@ -193,7 +195,7 @@ class EventMatcher {
 
   /// An event within its error of the end may be beyond it. The certain part ends at its earliest possible time, so
   /// that it contains no such event, and no row that may be after one.
-  void settle(Verdict& result) {
+  void settle(MatchResult& result) {
     result.until = run_.reached;
     if (certified_until_.t < never) {
       const double end = std::max(0.0, certified_until_.t - spread_);
@@ -212,7 +214,7 @@ class EventMatcher {
     result.spread = spread_;
   }
 
-  void count_unordered(Verdict& result) const {
+  void count_unordered(MatchResult& result) const {
     std::size_t before = run_.events.size();
     for (std::size_t i = 0; i < run_.events.size() && !std::isnan(result.t_errors[i]); ++i) {
       const TimedEvent& event = run_.events[i];
@@ -226,8 +228,8 @@ class EventMatcher {
     }
   }
 
-  const Track& run_;
-  const std::vector<Track>& companions_;
+  const EventSequence& run_;
+  const std::vector<EventSequence>& companions_;
   double factor_;
   const std::vector<std::string>& names_;
   bool rounded_;
@@ -245,7 +247,7 @@ float rounded_up(double x) {
 
 }  // namespace
 
-TimedEvent timed(const Event& event) {
+TimedEvent timed_event(const Event& event) {
   return {event.t,
           rounded_up(event.t_uncertainty.value_or(0.0)),
           event.contact,
@@ -256,8 +258,8 @@ TimedEvent timed(const Event& event) {
           event.departure.value_or(none)};
 }
 
-Verdict match_events(const Track& run, const std::vector<Track>& companions, double factor,
-                     const std::vector<std::string>& names, bool rounded) {
+MatchResult match_events(const EventSequence& run, const std::vector<EventSequence>& companions,
+                         double factor, const std::vector<std::string>& names, bool rounded) {
   return EventMatcher(run, companions, factor, names, rounded).verdict();
 }
 

@@ -15,7 +15,7 @@
 //   c R_k max(r, 1) >= |r - 1|        R: |r - r'| / max(r, r', 1)
 //
 // Both runs may make such a decision alike, and wrongly. It also ends where a guard entered the companion's tolerance
-// and left it without an event (engine/events/near_events.hpp), or where rounding left several states open.
+// and left it without an event (engine/events/graze_detector.hpp), or where rounding left several states open.
 //
 // An event with t + t_error beyond that end minus c D is not certain; `until` is the smallest t - t_error of these.
 //
@@ -35,7 +35,7 @@ namespace signorini::certify {
 
 /// Number of events or rows over which the largest difference is taken, because a single one may vanish by chance.
 /// Chosen value; the test "certify: the greatest of five" depends on it.
-inline constexpr std::size_t remembered = 5;
+inline constexpr std::size_t difference_window = 5;
 
 /// Columns of a row of events that are needed for the comparison.
 struct TimedEvent {
@@ -50,12 +50,12 @@ struct TimedEvent {
   /// True for a change of a contact's state; false for a jump of a load.
   [[nodiscard]] bool is_change() const { return contact >= 0 && type != EventType::time; }
 };
-[[nodiscard]] TimedEvent timed(const Event& event);
+[[nodiscard]] TimedEvent timed_event(const Event& event);
 
 /// Events in order, and the time that the run reached.
-struct Track {
+struct EventSequence {
   /// The first violation that the witness of a run has found.
-  struct Objection {
+  struct FirstViolation {
     double t = 0.0;
     std::string sentence;
   };
@@ -67,11 +67,11 @@ struct Track {
   std::optional<double> forgiven_at = {};
   /// For a companion: a decision that it leaves open, and thus cannot confirm for the run.
   std::optional<events::Graze> graze = {};
-  std::optional<Objection> objection = {};
+  std::optional<FirstViolation> first_violation = {};
   bool rounded = false;  ///< for a companion: its uncertainties are roundings
 };
 
-struct Verdict {
+struct MatchResult {
   double until = 0.0;
   std::string reason;  ///< empty: certain up to the time that the run reached
   std::optional<std::size_t> first_uncertain;
@@ -82,7 +82,8 @@ struct Verdict {
 
 /// `names` of the contacts, for the reason; `factor`: c; `rounded`: uncertainties are roundings, which no two events
 /// share. Cost: proportional to the number of events.
-[[nodiscard]] Verdict match_events(const Track& run, const std::vector<Track>& companions, double factor,
-                                   const std::vector<std::string>& names, bool rounded = false);
+[[nodiscard]] MatchResult match_events(const EventSequence& run, const std::vector<EventSequence>& companions,
+                                       double factor, const std::vector<std::string>& names,
+                                       bool rounded = false);
 
 }  // namespace signorini::certify

@@ -22,7 +22,7 @@
 namespace signorini::cli {
 namespace {
 
-constexpr std::size_t most_table_rows = 24;
+constexpr std::size_t max_table_rows = 24;
 
 /// The number with two significant digits, written out: 140000.
 std::string rough(double value) {
@@ -44,8 +44,7 @@ std::string unit(const std::string& text) { return " [" + text + "]"; }
 std::string frequency_unit(const Units& units) { return units.time == "s" ? "Hz" : "1/" + units.time; }
 
 std::string more(std::size_t all) {
-  return all > most_table_rows ? fmt::format("  ... {} more; all are in --json\n", all - most_table_rows)
-                               : "";
+  return all > max_table_rows ? fmt::format("  ... {} more; all are in --json\n", all - max_table_rows) : "";
 }
 
 std::string head(const Scene& scene, const Model& model, const check::CheckReport& report) {
@@ -93,21 +92,21 @@ std::string body_lines(const Scene& scene) {
 /// Two lines per mesh.
 std::string mesh_lines(const Scene& scene) {
   std::string text;
-  const mesh::PlaceOf place = [&](int n) {
+  const mesh::NodePosition place = [&](int n) {
     const Node& node = scene.nodes[static_cast<std::size_t>(n)];
     return mesh::PlanePoint{node.x, node.y};
   };
   for (const BodySpec& body : scene.bodies) {
-    const mesh::MeshQuality q = mesh::quality_of(body.mesh.elements, place);
+    const mesh::MeshQuality q = mesh::measure_quality(body.mesh.elements, place);
     text += fmt::format("body '{}': {}, {}, plane {}\n", body.name,
                         count(static_cast<long>(body.node_count), "node", "nodes"),
                         count(static_cast<long>(body.mesh.elements.size()), "element", "elements"),
-                        body.strain ? "strain" : "stress");
+                        body.plane_strain ? "strain" : "stress");
     text += fmt::format(
         "      element angles from {:.3g} degrees (element {}) to {:.3g} degrees (element {}); largest edge "
         "ratio 1 : {:.3g} (element {})\n",
-        q.least_angle.value, q.least_angle.element, q.greatest_angle.value, q.greatest_angle.element,
-        q.aspect.value, q.aspect.element);
+        q.min_angle.value, q.min_angle.element, q.max_angle.value, q.max_angle.element, q.aspect.value,
+        q.aspect.element);
   }
   return text;
 }
@@ -118,10 +117,10 @@ std::string contact_rows(const Model& model, const check::CheckReport& report) {
   Table table({"contact", "law", "state", "gap" + length, "ut" + length, "reaction -N" + force, "T" + force,
                "limit f |N|" + force},
               {false, false, false, true, true, true, true, true});
-  for (std::size_t k = 0; k < report.contacts.size() && k < most_table_rows; ++k) {
+  for (std::size_t k = 0; k < report.contacts.size() && k < max_table_rows; ++k) {
     const Contact& c = model.contacts[k];
     const ContactSample& s = report.contacts[k];
-    const std::optional<double> gap = c.gap_if_any(s.gap);
+    const std::optional<double> gap = c.optional_gap(s.gap);
     table.row({c.name, c.law->name(), to_string(s.state), gap ? number(*gap) : "",
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
                above(s.T, model.scales.force),
@@ -154,7 +153,7 @@ std::string warning_lines(const check::CheckReport& report) {
 std::string free_motion_lines(const check::CheckReport& report) {
   if (report.free_motions.empty()) return "rigid-body motions with the closed contacts: none\n\n";
   std::string text = "rigid-body motions with the closed contacts, without friction:\n";
-  for (std::size_t i = 0; i < report.free_motions.size() && i < most_table_rows; ++i)
+  for (std::size_t i = 0; i < report.free_motions.size() && i < max_table_rows; ++i)
     text += "  " + report.free_motions[i] + "\n";
   return text + more(report.free_motions.size()) + "\n";
 }
@@ -233,7 +232,7 @@ std::string stiffness_rows(const Model& model, const check::CheckReport& report)
   const std::string stiffness = unit(model.units.force + "/" + model.units.length);
   Table table({"contact", "direction", "its stiffness" + stiffness, "structure" + stiffness, "ratio"},
               {false, false, true, true, true});
-  for (std::size_t i = 0; i < report.stiffness.size() && i < most_table_rows; ++i) {
+  for (std::size_t i = 0; i < report.stiffness.size() && i < max_table_rows; ++i) {
     const check::StiffnessRatio& s = report.stiffness[i];
     table.row({model.contacts[static_cast<std::size_t>(s.contact)].name, s.normal ? "normal" : "tangential",
                number(s.stiffness), s.rest > 0.0 ? fmt::format("{:.4g}", s.rest) : "0",
@@ -270,7 +269,7 @@ std::string load_rows(const Model& model, const check::CheckReport& report) {
   for (const check::Discontinuity& d : report.discontinuities) {
     if (std::find(shown.begin(), shown.end(), d.description) != shown.end()) continue;
     shown.push_back(d.description);
-    if (shown.size() <= most_table_rows) add_breakpoints(table, report.discontinuities, d.description);
+    if (shown.size() <= max_table_rows) add_breakpoints(table, report.discontinuities, d.description);
   }
   return "breakpoints, where the integration stops and restarts:\n" + table.str() + more(shown.size()) + "\n";
 }
@@ -279,13 +278,13 @@ std::string reduction_lines(const Model& model) {
   if (!model.reduction) return "";
   const Reduction& r = *model.reduction;
   const std::string per_time = "rad/" + model.units.time;
-  std::string text = fmt::format("reduced: {} of {} modes up to {} {}", r.modes, r.modes + r.left_out,
+  std::string text = fmt::format("reduced: {} of {} modes up to {} {}", r.modes, r.modes + r.truncated_modes,
                                  number(r.cutoff), per_time);
   if (r.free_modes > 0) text += fmt::format(", {} of them free motions", r.free_modes);
   text += r.highest_kept > 0.0 ? fmt::format("; highest kept {} {}", number(r.highest_kept), per_time)
                                : std::string("; none with stiffness");
-  text += r.left_out > 0 ? fmt::format(", first left out {} {}\n", number(r.first_left_out), per_time)
-                         : std::string(", none left out\n");
+  text += r.truncated_modes > 0 ? fmt::format(", first left out {} {}\n", number(r.first_truncated), per_time)
+                                : std::string(", none left out\n");
   text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
   if (r.massive_shapes > 0)
     text += fmt::format(", {} with mass up to {} {}", r.massive_shapes, number(r.highest_massive), per_time);
@@ -294,7 +293,7 @@ std::string reduction_lines(const Model& model) {
   const std::string give = unit(model.units.length + "/" + model.units.force);
   Table table({"static compliance", "all modes" + give, "left out" + give, "share"},
               {false, true, true, true});
-  for (std::size_t i = 0; i < r.shares.size() && i < most_table_rows; ++i) {
+  for (std::size_t i = 0; i < r.shares.size() && i < max_table_rows; ++i) {
     const ComplianceShare& s = r.shares[i];
     table.row({s.label, number(s.compliance), number(s.residual),
                number(s.compliance > 0.0 ? s.residual / s.compliance : 0.0)});
@@ -305,7 +304,7 @@ std::string reduction_lines(const Model& model) {
 std::string cost_lines(const Scene& scene, const Model& model, const check::CheckReport& report) {
   const Units& u = model.units;
   const Method& method = report.method;
-  const bool steps = name_of(method.engine).accuracy == Accuracy::step;
+  const bool steps = engine_info(method.engine).accuracy == Accuracy::step;
   std::string text =
       fmt::format("run: to t = {} {}, {}\n", number(scene.run.t_end), u.time,
                   count(static_cast<long>(report.rows), "row of history.csv", "rows of history.csv"));
@@ -318,19 +317,19 @@ std::string cost_lines(const Scene& scene, const Model& model, const check::Chec
   const check::Cost& cost = report.cost;
   text += fmt::format("cost: {} variables in the time integration, highest frequency {:.4g} rad/{}\n",
                       cost.unknowns, cost.omega_max, u.time);
-  const run::Effort& effort = cost.effort;
+  const run::CostEstimate& effort = cost.estimate;
   const std::string measured =
       cost.trials.empty() ? ""
                           : fmt::format("expected run time, from the first steps of each engine: {}\n",
                                         run::trial_text(cost.trials));
   std::string exact =
       cost.exact && cost.trials.empty()
-          ? fmt::format("      exact would take {} s (--engine exact)\n", run::about_seconds(*cost.exact))
+          ? fmt::format("      exact would take {} s (--engine exact)\n", run::seconds_text(*cost.exact))
           : "";
   if (!method.flow.empty()) {
     exact += fmt::format("      flow {} ({}): estimated {} s by series", method.flow, method.flow_reason,
-                         run::about_seconds(effort.by_series));
-    exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s", run::about_seconds(effort.by_modes)) : "";
+                         run::seconds_text(effort.by_series));
+    exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s", run::seconds_text(effort.by_modes)) : "";
     exact += " (rule of thumb)\n";
   }
   if (!(effort.steps > 0.0))

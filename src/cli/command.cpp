@@ -43,7 +43,7 @@ void print_warnings(const OutputOptions& options, const std::vector<std::string>
 }
 
 void print_unchecked(const std::filesystem::path& directory) {
-  if (const std::string why = base::why_unchecked(directory); !why.empty()) print_note(why);
+  if (const std::string why = base::unchecked_reason(directory); !why.empty()) print_note(why);
 }
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings) {
@@ -75,7 +75,7 @@ void print_patterns(const std::string& scene, const std::vector<std::string>& se
   };
   std::vector<Override> before;
   for (Override& change : overrides_of(settings)) {
-    const std::string text = scene::text_of(change);
+    const std::string text = scene::override_text(change);
     if (const std::size_t colon = change.path.find(':'); colon < change.path.find('.'))
       change.path.erase(0, colon + 1);  // setting for one engine
     if (option.empty()) note(before, change.path, text);
@@ -102,7 +102,8 @@ std::vector<Override> overrides_for(const std::vector<std::string>& settings,
   for (const Override& change : overrides_of(settings)) {
     const std::optional<std::string> only = engine_of(change, engines);
     const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
-    if (path == "run.engine") throw UsageError(scene::text_of(change) + ": --engines says which engines run");
+    if (path == "run.engine")
+      throw UsageError(scene::override_text(change) + ": --engines says which engines run");
     if (!only || *only == engine) changes.push_back({path, change.value});
   }
   return changes;
@@ -124,7 +125,7 @@ bool lies_in(const fs::path& folder, const fs::path& file) {
 
 }  // namespace
 
-void check_folder(const fs::path& path, const OwnedFolder& folder, bool force, const std::string& scene) {
+void check_folder(const fs::path& path, const ResultFolder& folder, bool force, const std::string& scene) {
   base::check_output_directory(path, {folder.what, folder.marker}, force);
   std::error_code error;
   const bool holds_results = fs::exists(path / folder.marker, error);
@@ -134,14 +135,14 @@ void check_folder(const fs::path& path, const OwnedFolder& folder, bool force, c
         fmt::format("lies in {}, where --force replaces files; move it, or name another -o", path.string()));
 }
 
-void begin_folder(const fs::path& path, const OwnedFolder& folder) {
+void begin_folder(const fs::path& path, const ResultFolder& folder) {
   base::make_directory(path);
   std::error_code error;
   for (const std::string& name : folder.files) fs::remove(path / name, error);
   result::write_file(path / folder.marker, "{}\n");
 }
 
-void leave_folder(const fs::path& path, const OwnedFolder& folder) {
+void undo_folder(const fs::path& path, const ResultFolder& folder) {
   std::error_code error;
   fs::remove(path / "plots", error);
   for (const auto& entry : fs::directory_iterator(path, error))

@@ -93,7 +93,7 @@ void print_patterns(const std::string& scene, const std::vector<std::string>& se
 //   DIR/MARKER        written first, so that --force can replace the remains of a killed command
 //   DIR/FILES...      removed by --force; other files stay
 
-struct OwnedFolder {
+struct ResultFolder {
   std::string what;    ///< "comparison"
   std::string marker;  ///< "compare.json"
   std::vector<std::string> files;
@@ -101,11 +101,11 @@ struct OwnedFolder {
 
 /// Errors: FileError unless the folder is absent, empty or, with `force`, one of ours; then also if the scene lies in
 /// it and could be lost; `scene`: empty if there is none.
-void check_folder(const std::filesystem::path& path, const OwnedFolder& folder, bool force,
+void check_folder(const std::filesystem::path& path, const ResultFolder& folder, bool force,
                   const std::string& scene);
 /// Creates the folder, removes our files and writes the marker. Errors: FileError.
-void begin_folder(const std::filesystem::path& path, const OwnedFolder& folder);
+void begin_folder(const std::filesystem::path& path, const ResultFolder& folder);
 /// Reverses begin_folder(), and removes DIR/plots if it is empty. If other files remain, the marker stays.
-void leave_folder(const std::filesystem::path& path, const OwnedFolder& folder);
+void undo_folder(const std::filesystem::path& path, const ResultFolder& folder);
 
 }  // namespace signorini::cli

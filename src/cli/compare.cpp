@@ -43,7 +43,7 @@ std::string run_table(const compare::ComparisonReport& report, TableStyle style 
               {false, false, true, true, true, true, true, true, true, true});
   for (const compare::ComparedRun& compared : report.runs) {
     const compare::RunFigures& run = compared.figures;
-    table.row({run.name, run.facts.outcome, std::to_string(changes_in(run.events_by_type)),
+    table.row({run.name, run.facts.outcome, std::to_string(count_state_changes(run.events_by_type)),
                run.wall_time ? fmt::format("{:.3f}", *run.wall_time) : "", count(run.steps),
                count(run.factorisations), run.friction ? fmt::format("{:.9g}", *run.friction) : "",
                relative(run, "energy"), relative(run, "friction"), relative(run, "equilibrium")});
@@ -73,17 +73,17 @@ std::string sequence(const compare::ComparisonReport& report, std::size_t i) {
   std::string text =
       alignment.split
           ? fmt::format("{} alike, then they part at t = {:.9g}: {}; {} from there on",
-                        base::count_of(pairs, "event"), alignment.split->t,
+                        base::count_text(pairs, "event"), alignment.split->t,
                         compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
-                        base::count_of(alignment.split->unaligned, "event"))
-          : fmt::format("the same, {}", base::count_of(pairs, "event")) + up_to(report, i);
+                        base::count_text(alignment.split->unaligned, "event"))
+          : fmt::format("the same, {}", base::count_text(pairs, "event")) + up_to(report, i);
   if (alignment.swapped > 0)
     text += fmt::format("; {} swapped with events of other contacts closer than their uncertainties",
                         alignment.swapped);
   return text;
 }
 
-std::string place(const compare::Greatest& greatest, std::vector<std::string>& cells) {
+std::string place(const compare::MaxDifference& greatest, std::vector<std::string>& cells) {
   cells.push_back(fmt::format("{:.3g}", greatest.value));
   cells.push_back(greatest.value == 0.0 ? "" : fmt::format("{:.9g}", greatest.t));
   return greatest.where;
@@ -188,8 +188,8 @@ Scene scene_for(const CompareOptions& options, const std::string& text) {
   return read_scene(options.sources.front(), changes);
 }
 
-const OwnedFolder& compare_folder() {
-  static const OwnedFolder folder = {
+const ResultFolder& compare_folder() {
+  static const ResultFolder folder = {
       "comparison",
       "compare.json",
       {"runs.csv", "differences.csv", "columns.csv", "events.csv", "report.html"}};
@@ -213,7 +213,7 @@ void run_engine(const CompareOptions& options, const fs::path& path, const study
   Report report;
   try {
     ProgressDisplay live(directory, run.model, run.scene.run.t_end, !options.quiet);
-    report = run.keep(directory, live).certified.report;
+    report = run.run_to_disk(directory, live).certified.report;
   } catch (const SceneError& error) {
     if (options.force) result::remove_run(path / engine);  // an earlier run could be mistaken for a new one
     outcomes.report.refused.emplace_back(engine, error.what());
@@ -237,7 +237,7 @@ Outcomes run_engines(const CompareOptions& options, const fs::path& path,
     run_engine(options, path, run, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
     if (outcomes.report.runs.empty()) {  // no reference for the others
-      leave_folder(path, compare_folder());
+      undo_folder(path, compare_folder());
       throw Error(ExitCode::scene, "the reference, " + options.engines.front() +
                                        ", refuses the scene: " + outcomes.report.refused.front().second);
     }

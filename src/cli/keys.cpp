@@ -27,7 +27,7 @@ std::string path_of(const scene::Key& key) {
 }
 
 std::string default_of(const scene::Key& key) {
-  return key.fallback.empty() ? "-" : std::string(key.fallback);
+  return key.default_value.empty() ? "-" : std::string(key.default_value);
 }
 
 /// Tables in the order of their first key in the key table.
@@ -48,7 +48,7 @@ std::string cell(std::string_view text) {
 std::string code(std::string_view text) { return text.empty() ? "" : fmt::format("`{}`", cell(text)); }
 
 std::string default_cell(const scene::Key& key) {
-  return key.fallback == "required" ? "required" : code(key.fallback);
+  return key.default_value == "required" ? "required" : code(key.default_value);
 }
 
 std::string name_cell(const scene::Key& key) { return key.name == "*" ? "any name" : code(key.name); }
@@ -134,7 +134,7 @@ std::string key_list(const std::vector<std::string>& words) {
     }
     if (any) text += rows.str();
   }
-  if (text == heading) throw UsageError("no key matches " + base::listed(words));
+  if (text == heading) throw UsageError("no key matches " + base::join_quoted(words));
   return text;
 }
 

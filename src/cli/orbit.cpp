@@ -39,8 +39,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const OwnedFolder& branch_folder() {
-  static const OwnedFolder folder{"branch", "branch.json", {"branch.csv"}};
+const ResultFolder& branch_folder() {
+  static const ResultFolder folder{"branch", "branch.json", {"branch.csv"}};
   return folder;
 }
 
@@ -48,7 +48,7 @@ class BranchWatch final : public Recorder {
  public:
   void event(const Event& /*event*/) override {}
   void sample(const Sample& /*sample*/) override {}
-  bool progress(double /*t*/) override { return !Interrupt::asked(); }
+  bool progress(double /*t*/) override { return !Interrupt::requested(); }
 };
 
 /// Writes last/ while the branch is followed, within a limited fraction of the time.
@@ -58,14 +58,14 @@ class MarkWriter {
   MarkWriter(const fs::path& path, const SceneReader& read, const BranchOptions& over, std::size_t before)
       : path_(path), read_(read), over_(over), before_(before) {}
 
-  void see(const std::function<BranchMark()>& mark) {
+  void see(const std::function<BranchCheckpoint()>& mark) {
     const auto begin = Clock::now();
     if (written_ && begin - *written_ < marks_apart * took_) return;
     write(mark());
     written_ = Clock::now();
     took_ = *written_ - begin;
   }
-  void write(BranchMark mark) const {
+  void write(BranchCheckpoint mark) const {
     mark.points += before_;
     orbit_study::write_mark(path_, read_, over_, mark);
   }
@@ -129,8 +129,8 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
   std::vector<BranchPoint> before;
   if (resume) {
-    over.resumed = orbit_study::read_mark(path, read, over);
-    before = orbit_study::read_branch(path, outputs.size(), over.resumed->points);
+    over.resume_from = orbit_study::read_mark(path, read, over);
+    before = orbit_study::read_branch(path, outputs.size(), over.resume_from->points);
   } else {
     begin_folder(path, branch_folder());
     orbit_study::remove_mark(path);
@@ -140,8 +140,8 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   BranchWatch watch;
   for (const BranchPoint& point : before) writer.add(point);
   MarkWriter marks(path, read, over, before.size());
-  over.marks = [&marks](const std::function<BranchMark()>& mark) { marks.see(mark); };
-  Branch branch = follow(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
+  over.on_checkpoint = [&marks](const std::function<BranchCheckpoint()>& mark) { marks.see(mark); };
+  Branch branch = continue_branch(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
   branch.points.insert(branch.points.begin(), before.begin(), before.end());
   if (branch.last && !branch.complete) marks.write(*branch.last);
   const std::string json = orbit_study::branch_json(over, first.units, branch);
@@ -164,7 +164,7 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   const std::string drawn =
       scripts.empty() ? "" : draw_pictures(path, scripts, " (gnuplot, once installed, draws them)");
   if (options.tables()) print(drawn);
-  if (Interrupt::asked()) {
+  if (Interrupt::requested()) {
     print_error("interrupted; the points up to here are kept in " + path.string());
     return ExitCode::interrupted;
   }
@@ -198,7 +198,7 @@ class SearchWatch final : public Recorder {
  public:
   void event(const Event& /*event*/) override {}
   void sample(const Sample& /*sample*/) override {}
-  bool progress(double /*t*/) override { return !Interrupt::asked(); }
+  bool progress(double /*t*/) override { return !Interrupt::requested(); }
 };
 
 std::string multiplier_text(std::complex<double> mu) {
@@ -263,7 +263,7 @@ std::string text_of(const Scene& scene, const Model& model, const Orbit& orbit, 
 }
 
 ExitCode not_found(const OrbitCommand& options, const Orbit& orbit) {
-  if (Interrupt::asked()) {
+  if (Interrupt::requested()) {
     print_error("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
@@ -307,7 +307,7 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   const Model model = build_model(scene);
   result::RunDirectory directory(path, scene, model, {options.force, command_line, false, !options.no_plots});
   const CertifiedReport certified =
-      simulate_certified(model, scene.run, directory, {{}, [] { return !Interrupt::asked(); }});
+      simulate_certified(model, scene.run, directory, {{}, [] { return !Interrupt::requested(); }});
   orbit_study::write_orbit(path, scene, model, orbit);
   directory.finish(certified);
   print_warnings(options, certified.report.warnings);

@@ -43,8 +43,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell
 constexpr int no_end = 124;                       // exit code as in timeout
 constexpr std::chrono::seconds patience{60};      // a picture takes a second or two
-constexpr std::size_t most_output = 1 << 16;
-constexpr std::size_t most_contact_pictures =
+constexpr std::size_t max_output = 1 << 16;
+constexpr std::size_t max_contact_pictures =
     24;  // a sixth of a second each; a displacement picture covers this
          // number of nodes
 
@@ -64,7 +64,7 @@ struct Ended {
   _exit(errno == ENOENT ? no_program : no_reason);
 }
 
-/// Reads gnuplot's output, up to `most_output` bytes, until it closes its end; false if it takes too long or writes too
+/// Reads gnuplot's output, up to `max_output` bytes, until it closes its end; false if it takes too long or writes too
 /// much.
 bool listen(int end, Clock::time_point last, std::string& output) {
   std::array<char, 4096> buffer{};
@@ -78,7 +78,7 @@ bool listen(int end, Clock::time_point last, std::string& output) {
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return true;
     output.append(buffer.data(), static_cast<std::size_t>(n));
-    if (output.size() > most_output) return false;
+    if (output.size() > max_output) return false;
   }
 }
 
@@ -117,7 +117,7 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   kill(-child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
-  return {no_end, output.size() > most_output
+  return {no_end, output.size() > max_output
                       ? "it printed more than 64 kB and was stopped"
                       : fmt::format("not done after {} s, and ended", patience.count())};
 }
@@ -128,7 +128,7 @@ std::vector<std::filesystem::path> first_ones(const std::vector<std::filesystem:
   std::vector<std::filesystem::path> first;
   std::size_t contacts = 0;
   for (const auto& script : scripts)
-    if (!script.filename().string().starts_with("contact-") || contacts++ < most_contact_pictures)
+    if (!script.filename().string().starts_with("contact-") || contacts++ < max_contact_pictures)
       first.push_back(script);
   return first;
 }
@@ -162,7 +162,7 @@ std::string draw_pictures(const std::filesystem::path& directory,
       first.size() == scripts.size()
           ? ""
           : fmt::format(", of the first {} contacts; gnuplot contact-NAME.gp there draws another's",
-                        most_contact_pictures);
+                        max_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)
     return "pictures: no gnuplot on PATH; its scripts are in " + folder + later + "\n";
@@ -174,19 +174,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-result::PictureFiles pictures_of_sweep(const fs::path& directory, const result::PictureLook& look) {
+result::PictureFiles pictures_of_sweep(const fs::path& directory, const result::PictureStyle& look) {
   const sweep::SweepDirectory swept(directory, sweep::read_sweep_spec(directory), false);
   return sweep::sweep_pictures(swept.spec(), swept.rows(), look);
 }
 
-result::PictureFiles pictures_of_sensitivities(const fs::path& directory, const result::PictureLook& look) {
+result::PictureFiles pictures_of_sensitivities(const fs::path& directory, const result::PictureStyle& look) {
   sensitivity_study::Sigmas sigmas;
   const Sensitivities s = sensitivity_study::read_sensitivities(directory, sigmas);
   return sensitivity_study::sensitivity_pictures(s, sigmas, look);
 }
 
 /// Scripts for the runs of a comparison: in a folder with the engine's name, else in their own directories.
-std::vector<fs::path> comparison_scripts(const fs::path& directory, const result::PictureLook& look) {
+std::vector<fs::path> comparison_scripts(const fs::path& directory, const result::PictureStyle& look) {
   const fs::path file = directory / "compare.json";
   std::ifstream stream(file, std::ios::binary);
   compare::ComparisonReport report;
@@ -230,11 +230,11 @@ bool ready_to_draw(const fs::path& directory) {
   });
   base::check_run_files(directory, others);
   print_note(directory.string() + ": pictures need a new computation, because the run used --no-plots");
-  return study::add_picture_rows(directory, [] { return !Interrupt::asked(); });
+  return study::add_picture_rows(directory, [] { return !Interrupt::requested(); });
 }
 
 std::vector<fs::path> write_any_plots(const fs::path& directory, const result::PlotWindow& window,
-                                      const result::PictureLook& look) {
+                                      const result::PictureStyle& look) {
   const std::string kind = report::kind_of_results(directory);
   if (kind == "run") return result::run_pictures(directory, window, look).write(directory);
   if (window.from || window.to)
@@ -252,7 +252,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ExitCode plot(const fs::path& directory, const result::PlotWindow& window, const result::PictureLook& look) {
+ExitCode plot(const fs::path& directory, const result::PlotWindow& window, const result::PictureStyle& look) {
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
@@ -302,7 +302,7 @@ void add_plot(Program& program) {
   command->add_flag("--no-title", options->no_title, "neither title nor subtitle");
   command->callback([&program, options] {
     program.action = [options] {
-      result::PictureLook look;
+      result::PictureStyle look;
       look.title = !options->no_title;
       if (options->size) result::read_size(*options->size, look);
       if (options->formats) result::read_formats(*options->formats, look);

@@ -38,6 +38,6 @@ struct Drawing {
 /// Writes the scripts and returns them. Errors: FileError; UsageError for a time window on results without time.
 std::vector<std::filesystem::path> write_any_plots(const std::filesystem::path& directory,
                                                    const result::PlotWindow& window,
-                                                   const result::PictureLook& look);
+                                                   const result::PictureStyle& look);
 
 }  // namespace signorini::cli

@@ -26,7 +26,7 @@ ProgressDisplay::~ProgressDisplay() {
 void ProgressDisplay::event(const Event& event) {
   run::ForwardingRecorder::event(event);
   ++count_;
-  if (keep_all_ || first_.size() < most_shown) first_.push_back(event);
+  if (keep_all_ || first_.size() < max_shown_events) first_.push_back(event);
   last_.push_back(event);
   if (last_.size() > shown_last) last_.pop_front();
 }
@@ -46,16 +46,16 @@ std::string ProgressDisplay::time_left(double t) {
   constexpr double settled = 1.0, window = 5.0;  // s
   const auto now = std::chrono::steady_clock::now();
   const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
-  if (seconds(pace_from_) > window) {  // speed averaged over the last one or two windows
-    pace_from_ = std::exchange(next_pace_from_, now);
-    pace_t_ = std::exchange(next_pace_t_, t);
+  if (seconds(speed_from_) > window) {  // speed averaged over the last one or two windows
+    speed_from_ = std::exchange(next_speed_from_, now);
+    speed_t_ = std::exchange(next_speed_t_, t);
   }
-  if (seconds(start_) < settled || !(t > pace_t_)) return "";
-  return ", about " + base::duration_text(seconds(pace_from_) * (t_end_ - t) / (t - pace_t_)) + " left";
+  if (seconds(start_) < settled || !(t > speed_t_)) return "";
+  return ", about " + base::duration_text(seconds(speed_from_) * (t_end_ - t) / (t - speed_t_)) + " left";
 }
 
 bool ProgressDisplay::progress(double t) {
-  const bool go_on = run::ForwardingRecorder::progress(t) && !Interrupt::asked();
+  const bool go_on = run::ForwardingRecorder::progress(t) && !Interrupt::requested();
   if (advice_ && go_on && t > 0.0) advise(t);
   if (!show_progress_) return go_on;
   if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {
@@ -75,7 +75,7 @@ volatile std::sig_atomic_t noting = 0, noted = 0;
 void end_or_note(int signal) {
   if (signal != SIGALRM && noting != 0 && noted == 0) {
     noted = 1;
-    alarm(Interrupt::patience);
+    alarm(Interrupt::grace_seconds);
     return;
   }
   constexpr char text[] = "error: interrupted\n";
@@ -99,6 +99,6 @@ Interrupt::~Interrupt() {
   alarm(0);
 }
 
-bool Interrupt::asked() { return noted != 0; }
+bool Interrupt::requested() { return noted != 0; }
 
 }  // namespace signorini::cli

@@ -37,8 +37,8 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   /// s from a noted signal to the forced end: longer than a step of any practical scene.
-  static constexpr unsigned patience = 30;
-  [[nodiscard]] static bool asked();
+  static constexpr unsigned grace_seconds = 30;
+  [[nodiscard]] static bool requested();
 };
 
 class ProgressDisplay : public run::ForwardingRecorder {
@@ -52,10 +52,10 @@ class ProgressDisplay : public run::ForwardingRecorder {
   void event(const Event& event) override;
   bool progress(double t) override;
   /// Called once, after two seconds, with the estimated total duration in seconds; returns a note, or "".
-  void when_long(std::function<std::string(double)> advice) { advice_ = std::move(advice); }
+  void set_long_run_advice(std::function<std::string(double)> advice) { advice_ = std::move(advice); }
 
   /// Up to this number of events are shown in full; otherwise the first and the last ones.
-  static constexpr std::size_t most_shown = 40, shown_first = 20, shown_last = 10;
+  static constexpr std::size_t max_shown_events = 40, shown_first = 20, shown_last = 10;
   [[nodiscard]] const std::vector<Event>& first_events() const { return first_; }
   [[nodiscard]] const std::deque<Event>& last_events() const { return last_; }
   [[nodiscard]] long event_count() const { return count_; }
@@ -70,13 +70,13 @@ class ProgressDisplay : public run::ForwardingRecorder {
   double t_end_;
   bool show_progress_, keep_all_, line_shown_ = false;
   std::chrono::steady_clock::time_point next_line_;
-  std::vector<Event> first_;  // the first most_shown, or all
+  std::vector<Event> first_;  // the first max_shown_events, or all
   std::deque<Event> last_;    // the last shown_last
   long count_ = 0;
   std::function<std::string(double)> advice_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point pace_from_ = start_, next_pace_from_ = start_;
-  double pace_t_ = 0.0, next_pace_t_ = 0.0;
+  std::chrono::steady_clock::time_point speed_from_ = start_, next_speed_from_ = start_;
+  double speed_t_ = 0.0, next_speed_t_ = 0.0;
 };
 
 }  // namespace signorini::cli

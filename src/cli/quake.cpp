@@ -27,7 +27,7 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
   const auto within = [](const char* option, double value, double least, double most) {
     if (!(value >= least && value <= most))
       throw UsageError(
-          fmt::format("--{}: found {}, expected {} to {}", option, base::shortest(value), least, most));
+          fmt::format("--{}: found {}, expected {} to {}", option, base::format_number(value), least, most));
   };
   within("pga", options.pga, 1e-6, 100.0);
   within("duration", options.duration, 1.0, 600.0);
@@ -40,7 +40,7 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
   const double steps = options.duration / options.dt;
   if (std::abs(steps - std::round(steps)) > 1e-6 * steps || steps < 100.0 || steps > 100000.0)
     throw UsageError(fmt::format("--duration {}: expected 100 to 100000 steps of --dt {}, a whole number",
-                                 base::shortest(options.duration), base::shortest(options.dt)));
+                                 base::format_number(options.duration), base::format_number(options.dt)));
   quake::QuakeSpec spec;
   spec.pga = options.pga;
   spec.duration = options.duration;
@@ -49,9 +49,9 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
   spec.ground_frequency = options.ground_frequency;
   spec.ground_damping = options.ground_damping;
   if (options.spectrum) {
-    if (options.dt > quake::least_matched / 4.0)
+    if (options.dt > quake::min_matched_period / 4.0)
       throw UsageError(fmt::format("--dt: found {}, expected at most {} with --spectrum",
-                                   base::shortest(options.dt), quake::least_matched / 4.0));
+                                   base::format_number(options.dt), quake::min_matched_period / 4.0));
     spec.target = quake::TargetSpectrum::read(*options.spectrum, options.pga);
   }
   return spec;
@@ -60,18 +60,19 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
 /// The command that reproduces these files.
 std::string quake_command(const QuakeOptions& options) {
   std::string text = fmt::format("signorini quake NAME --pga {} --duration {} --dt {} --seed {}",
-                                 base::shortest(options.pga), base::shortest(options.duration),
-                                 base::shortest(options.dt), options.seed);
+                                 base::format_number(options.pga), base::format_number(options.duration),
+                                 base::format_number(options.dt), options.seed);
   if (options.spectrum) text += " --spectrum " + fs::path(*options.spectrum).filename().string();
   return text + fmt::format(" --ground-frequency {} --ground-damping {}",
-                            base::shortest(options.ground_frequency), base::shortest(options.ground_damping));
+                            base::format_number(options.ground_frequency),
+                            base::format_number(options.ground_damping));
 }
 
 std::string at2_text(const QuakeOptions& options, const std::vector<double>& a) {
   std::string text = fmt::format(
       "SYNTHETIC ACCELEROGRAM, NOT A RECORD\n{}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {}, DT= {} "
       "SEC\n",
-      quake_command(options), a.size(), base::shortest(options.dt));
+      quake_command(options), a.size(), base::format_number(options.dt));
   for (std::size_t i = 0; i < a.size(); ++i)
     text += fmt::format("{:>16.8E}{}", a[i], i % 5 == 4 || i + 1 == a.size() ? "\n" : "");
   return text;
@@ -80,9 +81,9 @@ std::string at2_text(const QuakeOptions& options, const std::vector<double>& a) 
 std::string csv_text(const QuakeOptions& options, const std::vector<double>& a) {
   std::string text = "# " + quake_command(options) + "\n# t in s, a in m/s^2\nt,a\n";
   for (std::size_t i = 0; i < a.size(); ++i)
-    text +=
-        fmt::format("{},{}\n", base::shortest(std::round(static_cast<double>(i) * options.dt * 1e9) / 1e9),
-                    base::shortest(a[i] * scene::standard_gravity));
+    text += fmt::format("{},{}\n",
+                        base::format_number(std::round(static_cast<double>(i) * options.dt * 1e9) / 1e9),
+                        base::format_number(a[i] * scene::standard_gravity));
   return text;
 }
 
@@ -97,11 +98,12 @@ std::string ground_text(const quake::QuakeSpec& spec, const std::vector<double>&
   if (!spec.target) return text;
   double least = 1e300, greatest = 0.0;
   // Steps of 1 %, both ends included: narrower than any peak at 5 % damping.
-  const int last =
-      static_cast<int>(std::ceil(std::log(quake::greatest_matched / quake::least_matched) / std::log(1.01)));
+  const int last = static_cast<int>(
+      std::ceil(std::log(quake::max_matched_period / quake::min_matched_period) / std::log(1.01)));
   for (int i = 0; i <= last; ++i) {
-    const double T = quake::least_matched *
-                     std::pow(quake::greatest_matched / quake::least_matched, static_cast<double>(i) / last);
+    const double T =
+        quake::min_matched_period *
+        std::pow(quake::max_matched_period / quake::min_matched_period, static_cast<double>(i) / last);
     const double quotient =
         quake::pseudo_acceleration(a, spec.dt, T, quake::spectrum_damping) / spec.target(T);
     least = std::min(least, quotient);
@@ -109,7 +111,7 @@ std::string ground_text(const quake::QuakeSpec& spec, const std::vector<double>&
   }
   return text +
          fmt::format("response spectrum, 5 % damping, {} s to {} s: {:.0f} % to {:.0f} % of the target\n",
-                     quake::least_matched, quake::greatest_matched, 100.0 * least, 100.0 * greatest);
+                     quake::min_matched_period, quake::max_matched_period, 100.0 * least, 100.0 * greatest);
 }
 
 }  // namespace

@@ -64,11 +64,11 @@ std::string stacked(const std::vector<std::string>& tables) {
 
 /// The cutoff found for a tolerance; empty: none was searched for.
 std::string reduction_line(const Model& model) {
-  if (!model.reduction || model.reduction->tried.empty()) return "";
-  const CutoffTrial& last = model.reduction->tried.back();
+  if (!model.reduction || model.reduction->trials.empty()) return "";
+  const CutoffTrial& last = model.reduction->trials.back();
   return fmt::format(
       "reduction: {} modes, up to {:.4g} rad/{}, error {:.2g} of the greatest displacement ({} trials)\n",
-      last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->tried.size());
+      last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->trials.size());
 }
 
 /// Results of the run; `events`: table of events; pictures: the run has the data for pictures.
@@ -77,12 +77,12 @@ std::string certificate_text(const Scene& scene, const Model& model, const Certi
   const Report& report = certified.report;
   const std::string tables =
       stacked({support_table(model, report), response_table(model, report), start_table(model), events,
-               contact_table(model, report), closing(scene.run, model, report)});
+               contact_table(model, report), run_summary(scene.run, model, report)});
   std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
   if (!frames.empty() && !scene.bodies.empty()) frames += "frame_bodies.csv, ";
   if (!frames.empty() && !scene.seams.empty()) frames += "frame_seams.csv, ";
   const std::string response = model.outputs.empty() ? "" : "response.csv, ";
-  return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
+  return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification_text(model, certified) +
          reduction_line(model) + "results: " + path.string() + "/ (events.csv, history.csv, " + response +
          (pictures ? "contacts.csv, motion.csv, energy.csv, curves.csv, " : "contacts.csv, energy.csv, ") +
          (pictures && !scene.bodies.empty() ? "body_motion.csv, " : "") + frames +
@@ -98,12 +98,12 @@ std::string quicker_choices(const Scene& scene, const Model& model, double secon
     const auto modes =
         modes::lowest_frequencies(
             model.mass, model.damping, model.stiffness,
-            modes::hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true)), 1)
+            modes::constrain_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true)), 1)
             .modes;
     const double cutoff = modes.empty() ? 0.0 : run::cutoff_to_try(modes.front().omega, model.omega_max);
     if (cutoff > 0.0) cutoffs.push_back(cutoff);
   }
-  return run::quicker(run::trials(scene, model, own, cutoffs, time_of_trial), own, seconds);
+  return run::faster_engine_advice(run::trials(scene, model, own, cutoffs, time_of_trial), own, seconds);
 }
 
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
@@ -114,25 +114,26 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const bool plain = style == TableStyle::plain;
   const fs::path path = directory_of(options);
   const study::PreparedRun prepared =
-      study::prepare_run(options.scene, changes, [] { return !Interrupt::asked(); });
+      study::prepare_run(options.scene, changes, [] { return !Interrupt::requested(); });
   const Scene& scene = prepared.scene;
   const Model& model = prepared.model;
   if (!options.quiet) print_patterns(options.scene, options.settings);
   const auto trace = options.trace ? std::make_unique<result::TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;
-  if (trace) listener = [&](const Round& round) { trace->write(round); };
+  if (trace) listener = [&](const DecisionRound& round) { trace->write(round); };
   result::RunDirectory directory(path, scene, model,
                                  {options.force, command_line, options.instants, !options.no_plots});
 
-  study::KeptRun kept;
+  study::StoredRun kept;
   const CertifiedReport& certified = kept.certified;
   const Report& report = certified.report;
   std::string events;
   {
     ProgressDisplay live(directory, model, scene.run.t_end, !options.quiet, !plain);
     if (!options.quiet && stderr_is_terminal())
-      live.when_long([&](double seconds) { return quicker_choices(scene, model, seconds); });
-    kept = prepared.keep(directory, live, CertifyOptions{listener, [] { return !Interrupt::asked(); }});
+      live.set_long_run_advice([&](double seconds) { return quicker_choices(scene, model, seconds); });
+    kept = prepared.run_to_disk(directory, live,
+                                CertifyOptions{listener, [] { return !Interrupt::requested(); }});
     if (options.tables() || !plain)
       events = event_table(live, model, certified.certificate ? &*certified.certificate : nullptr, style);
   }

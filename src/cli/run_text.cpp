@@ -98,7 +98,7 @@ void add_extreme(Table& table, const Model& model, const char* what, const Extre
 }
 
 std::string method_of(const Method& method) {
-  const EngineName& engine = name_of(method.engine);
+  const EngineInfo& engine = engine_info(method.engine);
   const std::string name = fmt::format("{}{}", method.automatic ? "auto: " : "", engine.name);
   switch (engine.accuracy) {
     case Accuracy::rounding:
@@ -113,8 +113,8 @@ std::string method_of(const Method& method) {
 
 /// "0.31", for an envelope "0.31, A-B 0.625 left".
 std::string when_and_where(const Output& output, double t, const OutputPlace& place) {
-  if (place.stretch < 0) return number(t);
-  const Output::Stretch& stretch = output.stretches[static_cast<std::size_t>(place.stretch)];
+  if (place.segment < 0) return number(t);
+  const Output::Segment& stretch = output.segments[static_cast<std::size_t>(place.segment)];
   return fmt::format("{}, {}-{} {}{}", number(t), stretch.from, stretch.to, number(place.station),
                      stretch.fibre == Fibre::left    ? " left"
                      : stretch.fibre == Fibre::right ? " right"
@@ -128,14 +128,14 @@ std::string start_table(const Model& model, TableStyle style) {
   if (!model.statics.frictional) return "";
   std::string stages;
   for (const StageEnd& end : model.statics.stages)
-    if (end.part == 1.0) stages += fmt::format("{}{}", stages.empty() ? "" : ", ", end.stage);
+    if (end.fraction == 1.0) stages += fmt::format("{}{}", stages.empty() ? "" : ", ", end.stage);
   const std::string title = fmt::format("frictional start, stages: {}", stages);
   if (model.statics.events.empty())
     return style == TableStyle::plain ? title + "; no contact changed its state\n" : "";
   Table table({"stage", "part", "contact", "from -> to"}, {false, true, false, false});
   for (std::size_t i = 0; i < model.statics.events.size() && i < most; ++i) {
     const StageEvent& e = model.statics.events[i];
-    table.row({e.stage, fmt::format("{:.6g}", e.part), name_of(model, e.contact),
+    table.row({e.stage, fmt::format("{:.6g}", e.fraction), name_of(model, e.contact),
                fmt::format("{} -> {}", to_string(e.from), to_string(e.to))});
   }
   if (model.statics.events.size() > most)
@@ -143,19 +143,19 @@ std::string start_table(const Model& model, TableStyle style) {
   return style == TableStyle::plain ? title + "\n" + table.str() : table.str(style);
 }
 
-std::string event_table(const ProgressDisplay& live, const Model& model, const Certificate* certificate,
+std::string event_table(const ProgressDisplay& display, const Model& model, const Certificate* certificate,
                         TableStyle style) {
   EventTable table(model, certificate);
-  const auto& first = live.first_events();
-  const bool all = live.event_count() == static_cast<long>(first.size());
+  const auto& first = display.first_events();
+  const bool all = display.event_count() == static_cast<long>(first.size());
   const std::size_t shown = all ? first.size() : ProgressDisplay::shown_first;
   for (std::size_t i = 0; i < shown; ++i) table.add(first[i], i);
   if (!all) {
     const long left_out =
-        live.event_count() - static_cast<long>(ProgressDisplay::shown_first + ProgressDisplay::shown_last);
-    table.line(fmt::format("... {} more; all {} are in events.csv", left_out, live.event_count()));
-    std::size_t row = static_cast<std::size_t>(live.event_count()) - live.last_events().size();
-    for (const Event& e : live.last_events()) table.add(e, row++);
+        display.event_count() - static_cast<long>(ProgressDisplay::shown_first + ProgressDisplay::shown_last);
+    table.line(fmt::format("... {} more; all {} are in events.csv", left_out, display.event_count()));
+    std::size_t row = static_cast<std::size_t>(display.event_count()) - display.last_events().size();
+    for (const Event& e : display.last_events()) table.add(e, row++);
   }
   if (first.empty()) return style == TableStyle::plain ? "  no events\n" : "";
   return table.str(style);
@@ -173,7 +173,7 @@ std::string support_table(const Model& model, const Report& report, TableStyle s
   }
   // Rounding relative to the largest of its kind is shown as 0.
   const auto beside = [](double x, double most_of_all) {
-    return number(std::abs(x) > rounding::of_many * most_of_all ? x : 0.0);
+    return number(std::abs(x) > rounding::many_operations * most_of_all ? x : 0.0);
   };
   Table table({"support loads", "N at rest" + force, "N min" + force, at, "N max" + force, at,
                "T min" + force, at, "T max" + force, at, "residual slip" + length,
@@ -184,7 +184,7 @@ std::string support_table(const Model& model, const Report& report, TableStyle s
     const auto reaction = statics::static_reaction(model, k);
     std::vector<std::string> cells{model.contacts[k].name,
                                    reaction ? beside(*reaction == 0.0 ? 0.0 : -*reaction, greatest) : ""};
-    for (const Turn& turn : {load.least_N, load.greatest_N, load.least_T, load.greatest_T}) {
+    for (const TimedExtreme& turn : {load.min_N, load.max_N, load.min_T, load.max_T}) {
       cells.push_back(beside(turn.value, greatest));
       cells.push_back(number(turn.t));
     }
@@ -205,7 +205,7 @@ std::string contact_table(const Model& model, const Report& report, TableStyle s
   double greatest = 0.0;
   for (const Peak& peak : report.peaks) greatest = std::max({greatest, peak.tangential, peak.normal});
   // A motion of rounding size is shown as 0.
-  const auto length = [&](double x) { return number(x > rounding::of_many * greatest ? x : 0.0); };
+  const auto length = [&](double x) { return number(x > rounding::many_operations * greatest ? x : 0.0); };
   Table table({"greatest motion from the start", "along t" + unit, "along n" + unit}, {false, true, true});
   for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k)
     table.row({model.contacts[k].name, length(report.peaks[k].tangential), length(report.peaks[k].normal)});
@@ -253,7 +253,7 @@ std::string audit_table(const Model& model, const Audit& a, TableStyle style) {
   return table.str(style);
 }
 
-std::string closing(const RunSpec& run, const Model& model, const Report& report) {
+std::string run_summary(const RunSpec& run, const Model& model, const Report& report) {
   const Audit& a = report.audit;
   const Counters& c = report.counters;
   std::string text = audit_table(model, a);
@@ -278,7 +278,7 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
   // Only if it would be quicker than the run: estimated from its first steps, if a trial is worth its time.
-  std::optional<double> exact = run::exact_instead(model, chosen);
+  std::optional<double> exact = run::seconds_with_exact(model, chosen);
   constexpr double long_run = 1.0, share = 0.02;  // s; fraction of the run's duration
   if (exact && report.wall_time > long_run) {
     exact = run::seconds_by_trial(model, run, closed_form, share * report.wall_time);
@@ -286,12 +286,12 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
   }
   if (exact && *exact < report.wall_time)
     text += fmt::format("{0} would take {1} s (--engine {0})\n", to_string(closed_form),
-                        run::about_seconds(*exact));
+                        run::seconds_text(*exact));
   return text;
 }
 
-std::string certification(const Model& model, const CertifiedReport& run) {
-  if (!run.certificate) return run.why_not.empty() ? "" : "not certified: " + run.why_not + "\n";
+std::string certification_text(const Model& model, const CertifiedReport& run) {
+  if (!run.certificate) return run.reason.empty() ? "" : "not certified: " + run.reason + "\n";
   const Certificate& c = *run.certificate;
   double greatest = 0.0;
   for (std::size_t i = 0; i < c.t_errors.size(); ++i)
@@ -313,7 +313,7 @@ std::string certification(const Model& model, const CertifiedReport& run) {
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
     text += fmt::format("the order of {} of neighbouring events of different contacts is not certified\n",
-                        base::count_of(c.unordered, "pair"));
+                        base::count_text(c.unordered, "pair"));
   return text;
 }
 

@@ -15,7 +15,7 @@ namespace signorini::cli {
 
 /// One row per event; if there are many, the first and the last ones. N and T are values just before the event. A
 /// certificate, or null, adds the error of each time, and the end of the certain sequence.
-[[nodiscard]] std::string event_table(const ProgressDisplay& live, const Model& model,
+[[nodiscard]] std::string event_table(const ProgressDisplay& display, const Model& model,
                                       const Certificate* certificate, TableStyle style = TableStyle::plain);
 
 /// One row per contact: N at rest, extremes of N and T with their times, residual slip, friction loss. Styles for
@@ -36,9 +36,9 @@ namespace signorini::cli {
                                       TableStyle style = TableStyle::plain);
 
 /// Outcome, events by type, audit, energy balance, effort.
-[[nodiscard]] std::string closing(const RunSpec& run, const Model& model, const Report& report);
+[[nodiscard]] std::string run_summary(const RunSpec& run, const Model& model, const Report& report);
 
 /// Time up to which the sequence is certain, or the reason why it is unknown.
-[[nodiscard]] std::string certification(const Model& model, const CertifiedReport& run);
+[[nodiscard]] std::string certification_text(const Model& model, const CertifiedReport& run);
 
 }  // namespace signorini::cli

@@ -16,7 +16,7 @@
 #include "result/csv.hpp"
 #include "result/run_tables.hpp"
 #include "signorini/error.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 #include "study/sensitivity/sensitivity_plots.hpp"
 
@@ -57,12 +57,12 @@ struct SensitivityOptions : KeyedOptions {
 };
 
 /// Files "columns-1.csv" and so on are removed by number.
-const OwnedFolder& sensitivity_folder() {
-  static const OwnedFolder folder = [] {
-    OwnedFolder f{"sensitivities",
-                  "sensitivity.json",
-                  {"events.csv", "sensitivities.csv", "figures.csv", "landings.csv", "sequence.csv",
-                   "spread.csv", "report.html"}};
+const ResultFolder& sensitivity_folder() {
+  static const ResultFolder folder = [] {
+    ResultFolder f{"sensitivities",
+                   "sensitivity.json",
+                   {"events.csv", "sensitivities.csv", "figures.csv", "landings.csv", "sequence.csv",
+                    "spread.csv", "report.html"}};
     constexpr int most_parameters = 1000;
     for (int p = 1; p <= most_parameters; ++p) f.files.push_back(fmt::format("columns-{}.csv", p));
     return f;
@@ -75,7 +75,7 @@ class Stoppable : public Recorder {
  public:
   void event(const Event& /*event*/) override {}
   void sample(const Sample& /*sample*/) override {}
-  bool progress(double /*t*/) override { return !Interrupt::asked(); }
+  bool progress(double /*t*/) override { return !Interrupt::requested(); }
 };
 
 /// The requested parameters, those with a sigma included, and one sigma per parameter.
@@ -149,7 +149,7 @@ void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
 
 std::string swap_text(const Sensitivities& s) {
   std::string text;
-  for (const Swap& swap : least_swaps(s))
+  for (const SequenceChange& swap : smallest_sequence_changes(s))
     text += fmt::format("{0}: to first order events {1} and {2} coincide if {0} = {3} (change {4}{5})\n",
                         s.parameters[swap.parameter].path, swap.first + 1, swap.second + 1,
                         number(s.parameters[swap.parameter].value + swap.change),
@@ -284,8 +284,8 @@ struct FitOptions : KeyedOptions {
   std::string data;
 };
 
-const OwnedFolder& fit_folder() {
-  static const OwnedFolder folder = {"fit", "fit.json", {"residuals.csv", "report.html"}};
+const ResultFolder& fit_folder() {
+  static const ResultFolder folder = {"fit", "fit.json", {"residuals.csv", "report.html"}};
   return folder;
 }
 
@@ -308,7 +308,7 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
 Fit fitted(const FitOptions& options, const Measurements& measured) {
   try {
     return fit(reader_of(options.scene, overrides_of(options.settings)), options.parameters, measured,
-               [] { return !Interrupt::asked(); });
+               [] { return !Interrupt::requested(); });
   } catch (const UsageError& error) {
     const std::string message = error.what();
     if (!message.starts_with("the run has no column")) throw;
@@ -327,7 +327,7 @@ ExitCode run_fit(const FitOptions& options) {
   }
   std::optional<Interrupt> interrupt(std::in_place);
   const Fit result = fitted(options, measured);
-  const bool interrupted = Interrupt::asked();
+  const bool interrupted = Interrupt::requested();
   interrupt.reset();
   begin_folder(path, fit_folder());
   sensitivity_study::write_fit(path, result, measured);
@@ -338,7 +338,7 @@ ExitCode run_fit(const FitOptions& options) {
     print_error("interrupted; what was found is kept in " + path.string());
     return ExitCode::interrupted;
   }
-  for (const std::string& doubt : result.doubts) print_error("the fit has not converged: " + doubt);
+  for (const std::string& doubt : result.issues) print_error("the fit has not converged: " + doubt);
   return result.converged ? ExitCode::done : ExitCode::stopped;
 }
 

@@ -33,7 +33,7 @@ std::string study_table(const speed::WorkReport& report, TableStyle style) {
 
 std::string study_text(const speed::WorkReport& report) {
   std::string text = report.title.empty() ? "" : report.title + "\n";
-  text += speed::work_circumstances(report) + "\n" + speed::work_reference(report) + "\n\n";
+  text += speed::work_conditions(report) + "\n" + speed::work_reference(report) + "\n\n";
   text += study_table(report, TableStyle::plain) + "\n";
   for (const std::string& sentence : speed::work_conclusions(report)) text += sentence + "\n";
   for (const std::string& note : report.notes) text += "  note: " + note + "\n";
@@ -47,14 +47,14 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> names_of_engines() {
   std::vector<std::string> names;
-  for (const EngineName& engine : all_engines) names.emplace_back(engine.name);
+  for (const EngineInfo& engine : all_engines) names.emplace_back(engine.name);
   return names;
 }
 
 /// "newmark, friction-iteration": engines whose error is limited by a key.
 std::string engines_with(Accuracy accuracy) {
   std::string names;
-  for (const EngineName& engine : all_engines)
+  for (const EngineInfo& engine : all_engines)
     if (engine.accuracy == accuracy) names.append(names.empty() ? "" : ", ").append(engine.name);
   return names;
 }
@@ -71,8 +71,8 @@ struct StudyOptions : OutputOptions {
   std::string table;
 };
 
-const OwnedFolder& study_folder() {
-  static const OwnedFolder folder = {"study", "study.json", {"study.csv", "study.md", "report.html"}};
+const ResultFolder& study_folder() {
+  static const ResultFolder folder = {"study", "study.json", {"study.csv", "study.md", "report.html"}};
   return folder;
 }
 
@@ -174,7 +174,7 @@ speed::WorkRequest request_of(const StudyOptions& options, const std::vector<std
   if (!varied.empty()) request.ranges.varied.insert(request.ranges.varied.begin(), std::vector<Override>());
   request.repeats = static_cast<std::size_t>(options.repeats);
   request.directory = options.directory.value_or(fs::path(options.scene).stem().string() + "-study");
-  request.limits = {options.time_limit, [] { return !Interrupt::asked(); }, command_line};
+  request.limits = {options.time_limit, [] { return !Interrupt::requested(); }, command_line};
   try_engines(options, varied);
   sweep::check_overlaps(options.scene, varied, {});
   return request;
@@ -253,7 +253,7 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
     } catch (const Error&) {
       if (work.report().rows.empty()) {
         clear_runs(path);
-        leave_folder(path, study_folder());
+        undo_folder(path, study_folder());
       } else {
         speed::write_work(path, work.report());
       }

@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "base/machine.hpp"
+#include "base/host_info.hpp"
 #include "base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/plot.hpp"
@@ -84,7 +84,7 @@ void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
   for (sweep::ParameterRange& vary : sweep::draw_samples(options.samples, sample))
     spec.vary.push_back(std::move(vary));
   spec.sampling =
-      fmt::format("{} {}, seed {}", base::count_of(sample.count, "sample"), options.sequence, sample.seed);
+      fmt::format("{} {}, seed {}", base::count_text(sample.count, "sample"), options.sequence, sample.seed);
 }
 
 /// Sets how runs continue each other, before any scene is read.
@@ -134,12 +134,12 @@ std::string text_of_state(const Scene& scene) {
   for (const auto& [name, value] : state.motions) text += fmt::format("{}={} ", name, value);
   for (const auto& [name, value] : state.shears) text += fmt::format("{}={} ", name, value);
   for (const auto& [name, value] : state.slips) text += fmt::format("{}={} ", name, value);
-  for (const SavedState::Own& own : state.own)
+  for (const SavedState::UserLawMemory& own : state.user_law_states)
     text += fmt::format("{}={},{} ", own.contact, own.state, own.memory);
-  if (state.frozen) {
-    for (const Prestress::Element& e : state.frozen->elements)
+  if (state.prestress) {
+    for (const Prestress::Element& e : state.prestress->elements)
       text += fmt::format("{}-{}={},{} ", e.from, e.to, e.at_from, e.at_to);
-    for (const Prestress::Body& body : state.frozen->bodies)
+    for (const Prestress::Body& body : state.prestress->bodies)
       text += fmt::format("{}={} ", body.name, body.stiffness);
   }
   if (state.scales)
@@ -196,7 +196,7 @@ Specified specify(const SweepOptions& options) {
 
 std::size_t jobs_of(const SweepOptions& options) {
   if (!options.jobs)
-    return sweep::ranks(environment) > 1 ? 1 : base::processors();  // a launcher has filled the machine
+    return sweep::ranks(environment) > 1 ? 1 : base::processor_count();  // a launcher has filled the machine
   if (*options.jobs < 1) throw UsageError(fmt::format("--jobs {}: expected at least 1", *options.jobs));
   return static_cast<std::size_t>(*options.jobs);
 }
@@ -234,7 +234,7 @@ class Progress {
     }
     if (line_)
       progress_line(fmt::format("{} of {}, {} running{}", directory_.rows().size(),
-                                base::count_of(all_, "run"), running, time_left(now)));
+                                base::count_text(all_, "run"), running, time_left(now)));
   }
 
  private:
@@ -257,7 +257,7 @@ class Progress {
 /// Computes a row for every task, unless interrupted. False: interrupted.
 bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& options) {
   int file_error = 0;
-  const auto ended = [&](const WorkerEnd& end) {
+  const auto ended = [&](const TaskResult& end) {
     if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
       ++file_error;  // it has printed its message
       return false;
@@ -273,7 +273,7 @@ bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOp
   Progress progress(directory, directory.rows().size() + tasks.rows(), !options.quiet);
   const bool whole = run_workers(
       tasks.list(), jobs_of(options),
-      [&](std::size_t first, const Tell& tell) { return tasks.work(first, tell); }, ended,
+      [&](std::size_t first, const SendReport& tell) { return tasks.work(first, tell); }, ended,
       [&](std::size_t running) { progress.idle(running); });
   if (file_error > 0) {
     try {
@@ -282,14 +282,15 @@ bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOp
     }
     throw Error(ExitCode::file,
                 fmt::format("the sweep stopped where a file could not be written; {} kept in {}",
-                            base::count_of(directory.rows().size(), "row"), directory.path().string()));
+                            base::count_text(directory.rows().size(), "row"), directory.path().string()));
   }
   return whole;
 }
 
 void conclude(const SweepOptions& options, const sweep::SweepDirectory& directory) {
   directory.write_results();
-  const std::vector<sweep::Sampled> answers = sweep::sampled_answers(directory.spec(), directory.rows());
+  const std::vector<sweep::SampledResults> answers =
+      sweep::sampled_results(directory.spec(), directory.rows());
   if (!answers.empty()) {
     result::write_file(directory.path() / "quantiles.csv", sweep::quantile_table(directory.spec(), answers));
     result::write_file(directory.path() / "exceedance.csv",
@@ -318,7 +319,7 @@ void conclude(const SweepOptions& options, const sweep::SweepDirectory& director
   for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;
   if (failed > 0 && !options.quiet)
     print_note(fmt::format("{} of {} did not reach the end; the column reason of {} says why", failed,
-                           base::count_of(directory.rows().size(), "run"),
+                           base::count_text(directory.rows().size(), "run"),
                            (directory.path() / "sweep.csv").string()));
 }
 
@@ -331,7 +332,7 @@ void print_strobe_doubt(const SweepOptions& options, const sweep::SweepSpec& spe
     try {
       const Scene scene = parse_scene(text, options.scene, changes);
       const std::string doubt =
-          sweep::strobe_doubt(sweep::parse_strobe(options.strobe, scene, build_model(scene)), scene);
+          sweep::strobe_warning(sweep::parse_strobe(options.strobe, scene, build_model(scene)), scene);
       if (!doubt.empty()) return print_note(doubt);
     } catch (const Error&) {  // a refused row has its own message
     }
@@ -359,13 +360,13 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   if (kept > 0 && options.keep && !options.quiet)
     print_note("--keep: rows that are there already keep what they have; --force computes them again");
   if (kept > 0 && !options.quiet)
-    print_note(fmt::format("{} of {} there already, {} to go", base::count_of(kept, "row"),
+    print_note(fmt::format("{} of {} there already, {} to go", base::count_text(kept, "row"),
                            directory.spec().carry.on ? directory.points().size() : kept + tasks.rows(),
                            tasks.rows()));
   if (!run_rows(directory, tasks, options)) {
     directory.write_table();
     print_error(fmt::format("interrupted; {} of {} kept in {}, the same command goes on",
-                            directory.rows().size(), base::count_of(kept + tasks.rows(), "row"),
+                            directory.rows().size(), base::count_text(kept + tasks.rows(), "row"),
                             directory.path().string()));
     return ExitCode::interrupted;
   }
@@ -407,7 +408,8 @@ ExitCode merge(const SweepOptions& options) {
     list += (i > 0 ? ", " : "") + std::to_string(missing[i] + 1);
   if (missing.size() > most_named) list += ", ...";
   print_error(fmt::format("{} of {} missing ({}); the sweep itself with -o {} computes them", missing.size(),
-                          base::count_of(directory.points().size(), "row"), list, directory.path().string()));
+                          base::count_text(directory.points().size(), "row"), list,
+                          directory.path().string()));
   return ExitCode::stopped;
 }
 

@@ -11,15 +11,15 @@ namespace signorini::cli {
 
 namespace {
 
-constexpr std::size_t most_contacts = 3, most_responses = 6, most_answers = 12, most_rows = 60,
-                      first_rows = 40, last_rows = 10;
+constexpr std::size_t max_contacts = 3, max_responses = 6, max_answers = 12, max_rows = 60, first_rows = 40,
+                      last_rows = 10;
 
 std::vector<std::string> cells_of(const sweep::SweepRow& row, std::size_t responses,
                                   const std::vector<std::string>& contacts) {
   std::vector<std::string> cells = row.values;
   cells.push_back(row.outcome);
   cells.push_back(row.ran() ? std::to_string(row.changes()) : "");
-  for (std::size_t i = 0; i < std::min(responses, most_responses); ++i)
+  for (std::size_t i = 0; i < std::min(responses, max_responses); ++i)
     cells.push_back(i < row.responses.size() && std::isfinite(row.responses[i]) ? number(row.responses[i])
                                                                                 : "");
   if (responses > 0) return cells;
@@ -49,7 +49,7 @@ std::vector<std::string> shown_contacts(const std::vector<std::string>& contacts
     order.emplace_back(-greatest, k);
   }
   std::sort(order.begin(), order.end());
-  order.resize(std::min(order.size(), most_contacts));
+  order.resize(std::min(order.size(), max_contacts));
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<std::string> shown;
   for (const auto& [force, k] : order) shown.push_back(contacts[k]);
@@ -63,7 +63,7 @@ std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& row
   std::vector<std::string> header;
   for (const sweep::ParameterRange& vary : spec.vary) header.push_back(vary.path);
   header.insert(header.end(), {"outcome", "events"});
-  for (std::size_t i = 0; i < std::min(spec.responses.size(), most_responses); ++i)
+  for (std::size_t i = 0; i < std::min(spec.responses.size(), max_responses); ++i)
     header.push_back(spec.responses[i] +
                      (spec.response_units[i].empty() ? "" : " [" + spec.response_units[i] + "]"));
   const std::string length = " [" + spec.units.length + "]";
@@ -78,7 +78,7 @@ std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& row
   Table table(std::move(header), std::move(right));
   std::size_t i = 0;
   for (const auto& [index, row] : rows) {
-    const bool shown = style != TableStyle::plain || rows.size() <= most_rows || i < first_rows ||
+    const bool shown = style != TableStyle::plain || rows.size() <= max_rows || i < first_rows ||
                        i + last_rows >= rows.size();
     if (shown) table.row(cells_of(row, spec.responses.size(), contacts));
     if (!shown && i == first_rows)
@@ -87,9 +87,9 @@ std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& row
   }
   std::string text = table.str(style);
   if (style != TableStyle::plain) return text;
-  if (spec.responses.size() > most_responses)
-    text += fmt::format("  ... {} more responses; all are in sweep.csv\n",
-                        spec.responses.size() - most_responses);
+  if (spec.responses.size() > max_responses)
+    text +=
+        fmt::format("  ... {} more responses; all are in sweep.csv\n", spec.responses.size() - max_responses);
   if (figures && all.size() > contacts.size())
     text += fmt::format("  ... {} more contacts, which press less; all are in sweep.csv\n",
                         all.size() - contacts.size());
@@ -106,7 +106,7 @@ std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& row
   return text;
 }
 
-std::string quantile_text(const sweep::SweepSpec& spec, const std::vector<sweep::Sampled>& answers,
+std::string quantile_text(const sweep::SweepSpec& spec, const std::vector<sweep::SampledResults>& answers,
                           TableStyle style) {
   constexpr double shown[] = {0.05, 0.5, 0.95, 0.99};
   std::vector<std::string> header{fmt::format("quantiles of {}", spec.sampling)};
@@ -117,8 +117,8 @@ std::string quantile_text(const sweep::SweepSpec& spec, const std::vector<sweep:
   std::vector<bool> right(header.size(), true);
   right[0] = false;
   Table table(std::move(header), std::move(right));
-  for (std::size_t i = 0; i < answers.size() && i < most_answers; ++i) {
-    const sweep::Sampled& s = answers[i];
+  for (std::size_t i = 0; i < answers.size() && i < max_answers; ++i) {
+    const sweep::SampledResults& s = answers[i];
     if (s.sorted.empty()) continue;
     const std::string& unit = spec.response_units[s.query];
     std::vector<std::string> cells{spec.responses[s.query] + (unit.empty() ? "" : " [" + unit + "]")};
@@ -134,8 +134,8 @@ std::string quantile_text(const sweep::SweepSpec& spec, const std::vector<sweep:
   }
   std::string text = table.str(style);
   if (style != TableStyle::plain) return text;
-  if (answers.size() > most_answers)
-    text += fmt::format("  ... {} more; all are in quantiles.csv\n", answers.size() - most_answers);
+  if (answers.size() > max_answers)
+    text += fmt::format("  ... {} more; all are in quantiles.csv\n", answers.size() - max_answers);
   if (sweep::independent(spec)) text += "  in brackets: 95 % confidence, whatever the distribution\n";
   return text;
 }

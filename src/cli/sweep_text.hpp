@@ -15,7 +15,7 @@ namespace signorini::cli {
 
 /// Quantiles of the results with their intervals; if there are many combinations of keys, the first ones.
 [[nodiscard]] std::string quantile_text(const sweep::SweepSpec& spec,
-                                        const std::vector<sweep::Sampled>& answers,
+                                        const std::vector<sweep::SampledResults>& answers,
                                         TableStyle style = TableStyle::plain);
 
 }  // namespace signorini::cli

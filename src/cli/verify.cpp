@@ -25,8 +25,8 @@ struct VerifyOptions : OutputOptions {
   std::vector<std::string> settings;
 };
 
-const OwnedFolder& verify_folder() {
-  static const OwnedFolder folder = {"verification", "verify.json", {"events.csv", "report.html"}};
+const ResultFolder& verify_folder() {
+  static const ResultFolder folder = {"verification", "verify.json", {"events.csv", "report.html"}};
   return folder;
 }
 
@@ -57,7 +57,7 @@ std::string text_of(const verify::Verification& result) {
         "convergence test of the paper: with the step doubled to {:g} displacements change by less than {:g} "
         "of the greatest\n",
         *result.paper_dt, verify::paper_change);
-  text += result.witness + "\n";
+  text += result.exact_result + "\n";
   return text + fmt::format("{}: {}\n", verify::to_string(result.verdict), result.sentence);
 }
 
@@ -84,7 +84,7 @@ ExitCode run(const VerifyOptions& options) {
   verify::VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;
-  request.go_on = [] { return !Interrupt::asked(); };
+  request.go_on = [] { return !Interrupt::requested(); };
   std::optional<Interrupt> interrupt(std::in_place);
   const verify::Verification result = verify::verify(model, model, request);
   interrupt.reset();

@@ -17,7 +17,7 @@ struct WitnessOptions {
   bool json = false;
 };
 
-std::string text_of(const directory_check::DirectoryTestimony& found, const std::string& directory) {
+std::string text_of(const directory_check::DirectoryLawCheck& found, const std::string& directory) {
   std::string text;
   for (const Violation& v : found.testimony.violations)
     text += fmt::format("t = {:<14.9g} {:<14} {:<12} {:<22} {:.4g}, limit {:.2g}\n", v.t,
@@ -35,7 +35,7 @@ std::string text_of(const directory_check::DirectoryTestimony& found, const std:
 }
 
 ExitCode hear_witness(const WitnessOptions& options) {
-  const directory_check::DirectoryTestimony found = directory_check::witness_directory(options.directory);
+  const directory_check::DirectoryLawCheck found = directory_check::check_directory_laws(options.directory);
   print_unchecked(options.directory);
   if (!found.complete)
     print_note(options.directory + ": the run had not ended; its files are checked as far as they go");
@@ -44,7 +44,7 @@ ExitCode hear_witness(const WitnessOptions& options) {
                        {"events", found.events},
                        {"rows", found.rows},
                        {"ended", found.complete}};
-    json.update(result::witness_json(found.model, found.testimony));
+    json.update(result::law_check_json(found.model, found.testimony));
     print(base::json_text(json));
   } else {
     print(text_of(found, options.directory));

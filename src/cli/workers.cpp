@@ -26,8 +26,8 @@
 namespace signorini::cli {
 namespace {
 
-constexpr int between_looks = 200;     // milliseconds between two checks while nothing happens
-constexpr std::size_t most_ahead = 2;  // tasks per worker: the next one waits in its pipe
+constexpr int between_looks = 200;    // milliseconds between two checks while nothing happens
+constexpr std::size_t max_ahead = 2;  // tasks per worker: the next one waits in its pipe
 
 /// A file descriptor that is closed with its owner.
 class Descriptor {
@@ -126,7 +126,7 @@ bool report(int fd, std::uint64_t task, std::int64_t code, std::string text) {
 }
 
 /// Executes one task; returns its exit code and report.
-std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task, const Tell& tell) {
+std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task, const SendReport& tell) {
   try {
     return {ExitCode::done, work(task, tell)};
   } catch (const Error& error) {
@@ -160,7 +160,9 @@ void keep_only(int a, int b) {
   keep_only(tasks, reports);
   std::uint64_t task = 0;
   while (receive(tasks, &task, sizeof task)) {
-    const Tell tell = [&](const std::string& text) { (void)report(reports, task, Head::not_done, text); };
+    const SendReport tell = [&](const std::string& text) {
+      (void)report(reports, task, Head::not_done, text);
+    };
     auto [code, text] = carried_out(work, static_cast<std::size_t>(task), tell);
     if (!report(reports, task, static_cast<std::int64_t>(code), std::move(text))) break;
     if (code == ExitCode::bug) _exit(0);  // memory may be corrupt: a fresh process takes over
@@ -210,7 +212,7 @@ class Pool {
 
   /// Gives each worker a task, then each one a waiting task.
   void hand_out(std::deque<std::size_t>& queue) {
-    for (std::size_t ahead = 1; ahead <= most_ahead; ++ahead)
+    for (std::size_t ahead = 1; ahead <= max_ahead; ++ahead)
       for (Worker& w : workers_) {
         if (queue.empty()) return;
         if (w.given.size() >= ahead) continue;
@@ -223,7 +225,7 @@ class Pool {
 
   /// Waits for reports or a signal. Tasks that a dead worker has not begun return to the queue. True: a signal that
   /// ends all tasks.
-  bool listen(std::deque<std::size_t>& queue, std::vector<WorkerEnd>& ends) {
+  bool listen(std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     std::vector<pollfd> watched{{signals_.fd(), POLLIN, 0}};
     for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
     if (poll(watched.data(), watched.size(), between_looks) <= 0) return false;
@@ -255,7 +257,7 @@ class Pool {
   }
 
   /// Reads complete reports; false: the worker has closed its end.
-  static bool hear(Worker& w, std::vector<WorkerEnd>& ends) {
+  static bool hear(Worker& w, std::vector<TaskResult>& ends) {
     char block[65536];
     bool open = true;
     for (;;) {
@@ -286,7 +288,7 @@ class Pool {
     return open;
   }
 
-  static void bury(Worker& w, std::deque<std::size_t>& queue, std::vector<WorkerEnd>& ends) {
+  static void bury(Worker& w, std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     const int status = reap(w.process);
     const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // it ended between two tasks
     if (!w.given.empty() && !clean) {
@@ -306,7 +308,7 @@ class Pool {
 }  // namespace
 
 bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const Work& work,
-                 const std::function<bool(const WorkerEnd&)>& ended,
+                 const std::function<bool(const TaskResult&)>& ended,
                  const std::function<void(std::size_t)>& idle) {
   const HeldSignals signals;
   const auto pipes = std::signal(SIGPIPE, SIG_IGN);  // raised by the pipe of a dead worker
@@ -317,9 +319,9 @@ bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const 
     while (go_on && pool.size() < std::min(jobs, queue.size() + pool.under_way())) pool.start();
     if (go_on) pool.hand_out(queue);
     idle(pool.under_way());
-    std::vector<WorkerEnd> ends;
+    std::vector<TaskResult> ends;
     whole = !pool.listen(queue, ends);
-    for (const WorkerEnd& end : ends) go_on = ended(end) && go_on;
+    for (const TaskResult& end : ends) go_on = ended(end) && go_on;
   }
   pool.end_all();
   std::signal(SIGPIPE, pipes);
@@ -359,7 +361,7 @@ sweep::RowTask SweepTasks::task(std::size_t index) const {
   return task;
 }
 
-std::string SweepTasks::work(std::size_t first, const Tell& tell) const {
+std::string SweepTasks::work(std::size_t first, const SendReport& tell) const {
   if (!directory_.spec().carry.on) return sweep::row_line(sweep::compute_row(task(first)));
   std::optional<SavedState> carried;
   const std::size_t last = first + length_ - 1;
@@ -367,7 +369,7 @@ std::string SweepTasks::work(std::size_t first, const Tell& tell) const {
   return sweep::row_line(sweep::compute_row(task(last), carried));
 }
 
-void SweepTasks::take(const WorkerEnd& end) {
+void SweepTasks::take(const TaskResult& end) {
   if (!end.report.empty()) directory_.add(end.report);
   const auto reported = static_cast<std::size_t>(std::count(end.report.begin(), end.report.end(), '\n'));
   for (std::size_t i = end.task + reported; i < end.task + length_; ++i) {

@@ -20,7 +20,7 @@
 namespace signorini::cli {
 
 /// Result of one task.
-struct WorkerEnd {
+struct TaskResult {
   std::size_t task = 0;
   int code = 0;        ///< exit code; for an Error thrown by `work`, the exit code of the error
   int signal = 0;      ///< signal that ended its process, or 0
@@ -28,15 +28,15 @@ struct WorkerEnd {
 };
 
 /// Sends a part of the report before the task is done. It is kept if the worker dies.
-using Tell = std::function<void(const std::string&)>;
-using Work = std::function<std::string(std::size_t task, const Tell&)>;
+using SendReport = std::function<void(const std::string&)>;
+using Work = std::function<std::string(std::size_t task, const SendReport&)>;
 
 /// `work` runs in a worker, and its report is returned here; an exception becomes an exit code (the message goes to
 /// stderr). `ended` runs here, in the order of completion, and returns whether to continue. `idle` runs here
 /// periodically, with the number of tasks in progress. Returns false if interrupted. Errors: FileError if no process
 /// can be started; all others have ended then.
 [[nodiscard]] bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const Work& work,
-                               const std::function<bool(const WorkerEnd&)>& ended,
+                               const std::function<bool(const TaskResult&)>& ended,
                                const std::function<void(std::size_t)>& idle);
 
 // The rows of a sweep as tasks for workers: one row each or, if rows continue each other, all rows
@@ -52,9 +52,9 @@ class SweepTasks {
   [[nodiscard]] std::size_t rows() const { return list_.size() * length_; }
 
   /// Runs in a worker: computes the rows and sends their lines; the last line is the return value.
-  [[nodiscard]] std::string work(std::size_t first, const Tell& tell) const;
+  [[nodiscard]] std::string work(std::size_t first, const SendReport& tell) const;
   /// Takes the rows of a finished task; rows lost by a crash become rows with that message.
-  void take(const WorkerEnd& end);
+  void take(const TaskResult& end);
 
  private:
   [[nodiscard]] sweep::RowTask task(std::size_t index) const;

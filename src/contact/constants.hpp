@@ -33,15 +33,15 @@ template <class Visit>
 void visit_constants(Contact& contact, const Visit& visit) {
   visit(contact.gap, unit::length);
   visit_stiffnesses(contact, visit);
-  if (contact.bowl) {
-    visit(contact.bowl->radius, unit::length);
-    visit(contact.bowl->carried, unit::force);
+  if (contact.pendulum_surface) {
+    visit(contact.pendulum_surface->radius, unit::length);
+    visit(contact.pendulum_surface->nominal_force, unit::force);
   }
   for (const FrictionConstant& constant : friction_constants)
     if (auto& value = contact.friction.*constant.value) visit(*value, constant.unit);
   if (contact.capture_velocity) visit(*contact.capture_velocity, unit::velocity);
   visit(contact.initial_shear, unit::force);
-  visit(contact.own_memory, unit::length);
+  visit(contact.initial_memory, unit::length);
   if (auto law = contact.law->with_constants(visit)) contact.law = std::move(law);
 }
 

@@ -12,14 +12,15 @@ namespace signorini::contact {
 using ContactStates = std::vector<ContactState>;
 
 /// State that represents all states with the same rows: all open states of the built-in laws have the same rows.
-[[nodiscard]] constexpr State state_of_rows(State state) {
-  return is_open(state) && !is_own(state) ? State::open : state;
+[[nodiscard]] constexpr State representative_state(State state) {
+  return is_open(state) && !is_user_law_state(state) ? State::open : state;
 }
 
 /// States of a mode, which determine the matrix of its system; anchors are constants of rows and do not.
-[[nodiscard]] inline std::vector<State> states_of(const ContactStates& mode) {
-  std::vector<State> states(mode.size());
-  for (std::size_t k = 0; k < mode.size(); ++k) states[k] = state_of_rows(mode[k].state);
+[[nodiscard]] inline std::vector<State> states_of(const ContactStates& contact_states) {
+  std::vector<State> states(contact_states.size());
+  for (std::size_t k = 0; k < contact_states.size(); ++k)
+    states[k] = representative_state(contact_states[k].state);
   return states;
 }
 

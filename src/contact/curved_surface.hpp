@@ -11,18 +11,23 @@
 namespace signorini::contact {
 
 /// Restoring force F along the tangent; the force on the body is -F. Zero if the surface is not curved. Unit: force.
-[[nodiscard]] inline double bowl_force(const Contact& contact, double N, double ut) {
-  return contact.bowl ? (-N - contact.bowl->carried) / contact.bowl->radius * ut : 0.0;
+[[nodiscard]] inline double restoring_force(const Contact& contact, double N, double ut) {
+  return contact.pendulum_surface
+             ? (-N - contact.pendulum_surface->nominal_force) / contact.pendulum_surface->radius * ut
+             : 0.0;
 }
-/// Later term of the series of F, -N_i ut_j / R: the constant N_K occurs in the first term only, which is bowl_force.
-[[nodiscard]] inline double bowl_product(const Contact& contact, double N, double ut) {
-  return -N / contact.bowl->radius * ut;
+/// Later term of the series of F, -N_i ut_j / R: the constant N_K occurs in the first term only, which is restoring_force.
+[[nodiscard]] inline double restoring_product(const Contact& contact, double N, double ut) {
+  return -N / contact.pendulum_surface->radius * ut;
 }
 
 /// ( N_K - N_0 ) / R: stiffness in K beyond the spring N_0 / R of the scene's contact, which gives N_0; 0 if the
 /// surface is not curved.
-[[nodiscard]] inline double beyond_spring(const ContactSpec& in_scene, const Contact& contact) {
-  return contact.bowl ? (contact.bowl->carried - in_scene.bowl->carried) / contact.bowl->radius : 0.0;
+[[nodiscard]] inline double extra_stiffness(const ContactSpec& in_scene, const Contact& contact) {
+  return contact.pendulum_surface
+             ? (contact.pendulum_surface->nominal_force - in_scene.pendulum_surface->nominal_force) /
+                   contact.pendulum_surface->radius
+             : 0.0;
 }
 
 }  // namespace signorini::contact

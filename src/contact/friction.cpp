@@ -20,17 +20,18 @@ double next_of_exponential(const std::vector<double>& g, const std::vector<doubl
 
 double sliding_friction(const Contact& contact, double along) {
   const Friction& f = contact.friction;
-  if (!f.varies()) return f.kinetic;
+  if (!f.is_rate_dependent()) return f.kinetic;
   // Below zero slip rate, rising friction continues as a straight line: the exponential would grow without bound there.
-  if (f.rises() && along < 0.0) return f.static_ + (f.kinetic - f.static_) * along / f.rate_of_change();
-  return f.kinetic + (f.static_ - f.kinetic) * std::exp(-along / f.rate_of_change());
+  if (f.is_rate_strengthening() && along < 0.0)
+    return f.static_ + (f.kinetic - f.static_) * along / f.decay_velocity();
+  return f.kinetic + (f.static_ - f.kinetic) * std::exp(-along / f.decay_velocity());
 }
 
 double sliding_friction_slope(const Contact& contact, double along) {
   const Friction& f = contact.friction;
-  if (!f.varies()) return 0.0;
-  if (f.rises() && along < 0.0) return (f.kinetic - f.static_) / f.rate_of_change();
-  return (f.kinetic - sliding_friction(contact, along)) / f.rate_of_change();
+  if (!f.is_rate_dependent()) return 0.0;
+  if (f.is_rate_strengthening() && along < 0.0) return (f.kinetic - f.static_) / f.decay_velocity();
+  return (f.kinetic - sliding_friction(contact, along)) / f.decay_velocity();
 }
 
 Form sliding_row(int s, double f) {
@@ -41,12 +42,13 @@ Form sliding_row(int s, double f) {
 }
 
 double sliding_row_value(const Contact& contact, int s, const ContactMotion& m) {
-  if (contact.friction.by_force()) return m.T - s * friction_limit(contact.friction, -m.N);
+  if (contact.friction.is_load_dependent()) return m.T - s * friction_limit(contact.friction, -m.N);
   return m.T + s * sliding_friction(contact, s * m.vt) * m.N;
 }
 
 Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m) {
-  if (contact.friction.by_force()) return sliding_row(s, friction_limit_slope(contact.friction, -m.N));
+  if (contact.friction.is_load_dependent())
+    return sliding_row(s, friction_limit_slope(contact.friction, -m.N));
   Form row = sliding_row(s, sliding_friction(contact, s * m.vt));
   row.vt = sliding_friction_slope(contact, s * m.vt) * m.N;
   return row;
@@ -54,7 +56,7 @@ Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m) 
 
 void FrictionRecursion::begin(const Contact& contact, int s, double rate) {
   s_ = s;
-  velocity_ = contact.friction.rate_of_change();
+  velocity_ = contact.friction.decay_velocity();
   const double along = s * rate;
   first_ = sliding_friction(contact, along);
   varying_.assign(1, first_ - contact.friction.kinetic);
@@ -75,10 +77,10 @@ void FrictionRecursion::extend(double rate) {
 FrictionTangent::FrictionTangent(const Friction& friction, const Friction& by, int s)
     : static_(friction.static_),
       kinetic_(friction.kinetic),
-      velocity_(friction.rate_of_change()),
+      velocity_(friction.decay_velocity()),
       by_static_(by.static_),
       by_kinetic_(by.kinetic),
-      by_velocity_((friction.rises() ? by.velocity : by.stribeck_velocity).value_or(0.0)),
+      by_velocity_((friction.is_rate_strengthening() ? by.velocity : by.stribeck_velocity).value_or(0.0)),
       s_(s) {}
 
 void FrictionTangent::extend(double rate, double moved_rate) {
@@ -106,7 +108,7 @@ double friction_limit_slope(const Friction& f, double x) {
 
 void set_limit(const Contact& contact, ContactMotion& m) {
   const Friction& f = contact.friction;
-  if (!f.by_force()) return;
+  if (!f.is_load_dependent()) return;
   m.limit = friction_limit(f, -m.N);
   m.limit_rate =
       friction_limit_slope(f, -m.N) *
@@ -150,18 +152,18 @@ constexpr int most_steps =
 
 }  // namespace
 
-double rate_of_saturation(const Friction& friction) {
-  return -friction.rate_of_change() * std::log(saturated);
+double saturation_rate(const Friction& friction) {
+  return -friction.decay_velocity() * std::log(saturation_tolerance);
 }
 
 std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
                                          double pressed) {
-  const double slow = friction.static_, fast = friction.kinetic, v = friction.rate_of_change();
+  const double slow = friction.static_, fast = friction.kinetic, v = friction.decay_velocity();
   // Below slow |N|, friction continues as a straight line (contact/friction.cpp).
   if (pull <= slow * pressed) return (pull - slow * pressed) / (damping + (fast - slow) / v * pressed);
   if (!(damping > 0.0)) {
     const double rest = (fast * pressed - pull) / ((fast - slow) * pressed);
-    if (!(rest > saturated)) return std::nullopt;
+    if (!(rest > saturation_tolerance)) return std::nullopt;
     return -v * std::log(rest);
   }
   // The residual is increasing and concave in x: started from the left, Newton steps never pass the root.
@@ -170,7 +172,7 @@ std::optional<double> massless_slip_rate(const Friction& friction, double pull, 
     const double fading = (fast - slow) * std::exp(-x / v) * pressed;
     const double step = (pull - damping * x - fast * pressed + fading) / (damping + fading / v);
     x += step;
-    if (std::abs(step) <= rounding::of_few * (std::abs(x) + v)) break;
+    if (std::abs(step) <= rounding::few_operations * (std::abs(x) + v)) break;
   }
   return x;
 }

@@ -68,24 +68,24 @@ class LimitSeries {
 /// Static: greatest |T| / |N| in stick over all N. Kinetic: least |T| / |N| in slip over all slip rates.
 [[nodiscard]] inline double static_friction(const Contact& contact) {
   const Friction& f = contact.friction;
-  return f.by_force() ? std::max(f.static_, f.kinetic) : f.static_;
+  return f.is_load_dependent() ? std::max(f.static_, f.kinetic) : f.static_;
 }
 [[nodiscard]] inline double kinetic_friction(const Contact& contact) {
-  return contact.friction.rises() ? contact.friction.static_ : contact.friction.kinetic;
+  return contact.friction.is_rate_strengthening() ? contact.friction.static_ : contact.friction.kinetic;
 }
 /// Ratio |T| / |N| of a slipping state; the static coefficient if other contacts hold it; for friction that varies with
 /// the slip rate the least value.
 [[nodiscard]] inline double slipping_friction(const Contact& contact, State state) {
-  return is_held(state) ? static_friction(contact) : kinetic_friction(contact);
+  return is_at_static_limit(state) ? static_friction(contact) : kinetic_friction(contact);
 }
 /// Greatest |T| in stick, and |T| at the beginning of slip, for a normal force N <= 0.
 [[nodiscard]] inline double sticking_limit(const Contact& contact, double N) {
   const Friction& f = contact.friction;
-  return f.by_force() ? friction_limit(f, -N) : f.static_ * (0.0 - N);
+  return f.is_load_dependent() ? friction_limit(f, -N) : f.static_ * (0.0 - N);
 }
 [[nodiscard]] inline double sliding_limit(const Contact& contact, double N) {
-  return contact.friction.by_force() ? friction_limit(contact.friction, -N)
-                                     : kinetic_friction(contact) * (0.0 - N);
+  return contact.friction.is_load_dependent() ? friction_limit(contact.friction, -N)
+                                              : kinetic_friction(contact) * (0.0 - N);
 }
 /// Coefficient of friction at a slip rate along the slip, s p', smooth past zero; and its derivative with respect to
 /// the slip rate.
@@ -94,12 +94,12 @@ class LimitSeries {
 
 /// True if the coefficient depends on the slip rate or on N: the row of a slipping contact is then not linear.
 [[nodiscard]] inline bool friction_varies(const Contact& contact) {
-  return contact.friction.varies() || contact.friction.by_force();
+  return contact.friction.is_rate_dependent() || contact.friction.is_load_dependent();
 }
 /// Name of varying friction in messages.
-[[nodiscard]] inline const char* named_friction(const Contact& contact) {
-  return contact.friction.by_force() ? "friction that depends on the normal force"
-                                     : "friction that depends on the slip rate";
+[[nodiscard]] inline const char* friction_description(const Contact& contact) {
+  return contact.friction.is_load_dependent() ? "friction that depends on the normal force"
+                                              : "friction that depends on the slip rate";
 }
 [[nodiscard]] inline bool slips_nonlinearly(const Contact& contact, State state) {
   return friction_varies(contact) && slip_sign(state) != 0;
@@ -189,10 +189,10 @@ class FrictionTangent {
 
 /// Friction counts as `fast` if it differs from it by less than this fraction of fast - slow: the pull then no longer
 /// determines the rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
-inline constexpr double saturated = 1e-8;
+inline constexpr double saturation_tolerance = 1e-8;
 
 /// Rate beyond which friction counts as `fast`: -v ln(saturated).
-[[nodiscard]] double rate_of_saturation(const Friction& friction);
+[[nodiscard]] double saturation_rate(const Friction& friction);
 
 /// Slip rate x. pull: along the slip, at x = 0; pressed: |N| > 0; damping >= 0. nullopt: friction is at its greatest
 /// value.

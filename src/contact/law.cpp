@@ -34,7 +34,7 @@ const char* to_string(Guard guard) {
       return "none";
     case Guard::closing:
       return "gap";
-    case Guard::clearing:
+    case Guard::opening:
       return "open gap";
     case Guard::separation:
       return "compression";
@@ -44,11 +44,11 @@ const char* to_string(Guard guard) {
       return "friction limit (-)";
     case Guard::sliding:
       return "slip rate";
-    case Guard::own_1:
+    case Guard::user_1:
       return "first guard of its own law";
-    case Guard::own_2:
+    case Guard::user_2:
       return "second guard of its own law";
-    case Guard::own_3:
+    case Guard::user_3:
       return "third guard of its own law";
   }
   return "?";
@@ -143,7 +143,7 @@ double GuardForm::rounding_of_products(const ContactMotion* motion, const Contac
   return sum;
 }
 
-double GuardForm::change(const ContactMotion& m, const ContactMotion& by) const {
+double GuardForm::parameter_derivative(const ContactMotion& m, const ContactMotion& by) const {
   double sum = form.rate(by);
   for (std::size_t i = 0; !is_linear() && i < products->size(); ++i) {
     const auto& [a, b] = (*products)[i];
@@ -170,11 +170,11 @@ std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const C
 
 Form slip_rate(const Contact& contact, int s) { return contact.law->slip_rate(contact, s); }
 
-State slip_along(double direction) { return direction >= 0.0 ? State::slip_plus : State::slip_minus; }
+State slip_state(double direction) { return direction >= 0.0 ? State::slip_plus : State::slip_minus; }
 
 State state_at_rest(const Contact& contact) { return contact.has_friction() ? State::stick : State::closed; }
 
-State let_go(const Contact& contact, double gap) {
+State separated_state(const Contact& contact, double gap) {
   return contact.normal_damping > 0.0 && gap < 0.0 ? State::inside : State::open;
 }
 

@@ -43,14 +43,14 @@ namespace signorini {
 enum class Guard : unsigned char {
   none,
   closing,
-  clearing,
+  opening,
   separation,
   slip_plus,
   slip_minus,
   sliding,
-  own_1,
-  own_2,
-  own_3
+  user_1,
+  user_2,
+  user_3
 };
 
 }  // namespace signorini
@@ -94,7 +94,7 @@ struct GuardForm {
     return is_linear() ? r : r + rounding_of_products(motion, noise, k);
   }
   /// Derivative of G with respect to a parameter, from the derivative of the motion.
-  [[nodiscard]] double change(const ContactMotion& m, const ContactMotion& by) const;
+  [[nodiscard]] double parameter_derivative(const ContactMotion& m, const ContactMotion& by) const;
 
   [[nodiscard]] bool operator==(const GuardForm& other) const;
 
@@ -161,10 +161,10 @@ struct MotionJet {
 namespace signorini::contact {
 
 /// State that slips in a direction; state of a contact that bears a load and does not slip.
-[[nodiscard]] State slip_along(double direction);
+[[nodiscard]] State slip_state(double direction);
 [[nodiscard]] State state_at_rest(const Contact& contact);
 /// State of a contact without force: with a dashpot the force may vanish before the gap has opened.
-[[nodiscard]] State let_go(const Contact& contact, double gap);
+[[nodiscard]] State separated_state(const Contact& contact, double gap);
 
 /// The next state of one contact; `failed` is a guard of `now`, `jet` is the motion in state `now`.
 [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,

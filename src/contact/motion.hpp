@@ -25,7 +25,7 @@ template <class V>
 }
 
 template <class U>
-void set_place(const Contact& contact, const U& u, double surface, ContactMotion& m) {
+void set_displacement(const Contact& contact, const U& u, double surface, ContactMotion& m) {
   m.gap = contact.gap_at(u);
   m.ut = along_surface(contact, u, surface);
 }
@@ -52,7 +52,7 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
 }
 
 /// Compliance split: reduces m to the motion of the surfaces in contact, without the deformation of the springs.
-inline void leave_out_borrowed(const Contact& contact, State state, ContactMotion& m) {
+inline void remove_split_compliance(const Contact& contact, State state, ContactMotion& m) {
   if (!contact.compliance_split() || is_open(state)) return;
   if (contact.tangential_stiffness) {
     const int s = slip_sign(state);

@@ -2,7 +2,7 @@
 
 namespace signorini::contact {
 
-ContactWork work_on(const Contact& contact, State state, double N, double T, const ContactPath& path) {
+ContactWork work_on(const Contact& contact, State state, double N, double T, const ContactIncrement& path) {
   return contact.law->work(contact, state, N, T, path);
 }
 
@@ -15,7 +15,7 @@ double inside_loss(const Contact& contact, State state, double gap_from, double 
   return 0.5 * contact.normal_stiffness * (gap_from - gap_to) * (gap_from + gap_to);
 }
 
-bool slides_at_once(const Contact& contact) {
+bool slides_instantaneously(const Contact& contact) {
   if (!contact.shear) return false;
   // The form has more terms if the body beside the point is massless (model/rigid_contacts.cpp).
   return contact.shear->damping == 0.0 || contact.tangent.terms.size() > 1;

@@ -12,7 +12,7 @@
 namespace signorini {
 
 /// Small increments of a contact's path, or rates (dt = 1): increments, and g' on the path.
-struct ContactPath {
+struct ContactIncrement {
   double slip = 0.0, surface = 0.0, gap = 0.0;  ///< dp, ds, dg
   double gap_rate = 0.0;                        ///< g'
   double time = 0.0;                            ///< dt
@@ -30,9 +30,9 @@ namespace signorini::contact {
 
 /// Work of the forces N, T on the path, for a contact in this state.
 [[nodiscard]] ContactWork work_on(const Contact& contact, State state, double N, double T,
-                                  const ContactPath& path);
+                                  const ContactIncrement& path);
 
-/// Rate of ContactPath::slip: p' for a slipping state, ut' for a user-defined law; otherwise 0.
+/// Rate of ContactIncrement::slip: p' for a slipping state, ut' for a user-defined law; otherwise 0.
 [[nodiscard]] double working_slip_rate(const Contact& contact, State state, const ContactMotion& m);
 
 /// Energy dissipated in the dashpot of a contact in state `inside` between two gaps; 0 in any other state.
@@ -40,7 +40,7 @@ namespace signorini::contact {
 
 /// True if the sliding point jumps when its force does: it has no dashpot, or the body beside it follows
 /// instantaneously.
-[[nodiscard]] bool slides_at_once(const Contact& contact);
+[[nodiscard]] bool slides_instantaneously(const Contact& contact);
 
 /// Energy stored in the shear springs.
 [[nodiscard]] double shear_energy(const Contact& contact, double T);

@@ -28,10 +28,10 @@ Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
 
 /// True if the guard did not reach zero continuously: it was above its rounding just before, and another contact's new
 /// state made it jump below zero.
-bool is_pushed(const Failure& f, const Instant& instant, const ContactMotion& before,
+bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion& before,
                const ContactMotion& noise) {
   return f.sign.order == 0 && !instant.has_triggered(f.contact, f.guard) &&
-         f.form.value(before) > unlucky * f.form.rounding(&before, &noise, 0);
+         f.form.value(before) > retry_noise_factor * f.form.rounding(&before, &noise, 0);
 }
 
 std::vector<std::size_t> every_contact(const Model& model) {
@@ -56,10 +56,10 @@ std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& block
 }
 
 /// Refusal for a mode without a system: dependent rows of its contacts, or a singular structure.
-Refusal no_system(const Model& model, const contact::ContactStates& mode) {
+Refusal no_system(const Model& model, const contact::ContactStates& states) {
   std::vector<std::size_t> held;
-  for (std::size_t c = 0; c < mode.size(); ++c)
-    if (!mode[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
+  for (std::size_t c = 0; c < states.size(); ++c)
+    if (!states[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
       held.push_back(c);
   if (!held.empty()) {
     Refusal why = dependent_rows(held);
@@ -90,12 +90,12 @@ std::string springs_for_uniqueness(const Model& model, const std::vector<std::si
 
 }  // namespace
 
-std::vector<TriggeredGuard> resting(const Decision& decision) {
+std::vector<TriggeredGuard> find_resting_limits(const Decision& decision) {
   std::vector<TriggeredGuard> result;
   for (std::size_t i = 0; i < decision.guards.size(); ++i) {
     const GuardStart& guard = decision.guards[i];
     const bool limit = contact::is_friction_limit(guard.kind);
-    if (limit && guard.at_zero && guard.leading < 0)
+    if (limit && guard.at_zero && guard.leading_order < 0)
       result.push_back({contact::contact_of_guard(i), guard.kind});
   }
   return result;
@@ -106,56 +106,61 @@ ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_ro
     : model_(systems.model()),
       systems_(systems),
       jets_(systems),
-      every_(every_contact(model_)),
+      all_contacts_(every_contact(model_)),
       max_rounds_(max_rounds),
-      touching_(systems, jets_, capture_velocity),
+      rigid_solver_(systems, jets_, capture_velocity),
       guards_(model_),
       blocks_(model_),
-      circles_(systems, jets_, blocks_) {
+      cycle_fallback_(systems, jets_, blocks_) {
   const std::size_t rigid = most_rigid_in_a_block(model_, blocks_);
-  each_alone_ = rigid <= 1;
+  decide_separately_ = rigid <= 1;
   if (whole_jets || rigid > 0) return;
-  near_.emplace(systems);
-  if (!near_->possible()) near_.reset();
+  local_derivatives_.emplace(systems);
+  if (!local_derivatives_->possible()) local_derivatives_.reset();
 }
 
 /// Computes the motion in a mode. False: its rows are dependent.
-bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::ContactStates& mode,
-                                  SolverState& course) {
-  systems_.mark_static_limits(mode, forcing, course.instant.t);
-  Decision& d = course.decision;
-  const Instant& instant = course.instant;
-  d.system = systems_.of(mode);
+bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::ContactStates& states,
+                                  SolverState& solver_state) {
+  systems_.mark_static_limits(states, forcing, solver_state.instant.t);
+  Decision& d = solver_state.decision;
+  const Instant& instant = solver_state.instant;
+  d.system = systems_.system_of(states);
   if (!d.system) return false;
   d.u = instant.u;
   d.v = instant.v;
-  course.held = near_ ? Eigen::VectorXd() : motion::hold(model_, *d.system, forcing, instant.t, d.u, d.v);
-  motion::JetMaker::Enough enough;
-  if (each_alone_ && !course.found.sliders)
+  solver_state.held = local_derivatives_
+                          ? Eigen::VectorXd()
+                          : motion::project_constraints(model_, *d.system, forcing, instant.t, d.u, d.v);
+  motion::JetMaker::StopCriterion enough;
+  if (decide_separately_ && !solver_state.impact_result.sliders)
     enough = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
-      return decided_by(guards_.of(c, mode[c]), c, jet, orders, instant, course.found.known[c], unlucky);
+      return decided_by(guards_.of(c, states[c]), c, jet, orders, instant,
+                        solver_state.impact_result.known[c], retry_noise_factor);
     };
-  std::optional<motion::LocalDerivatives::Made> near;
-  if (near_) {
-    const bool same = course.open && course.forcing == &forcing && course.blur == instant.blur &&
-                      d.u == d.jet.u.col(0) && d.v == d.jet.u.col(1);
-    near = near_->make(
-        d.system, forcing, instant.t, d.u, d.v, course.jets, enough,
-        same ? std::optional<motion::LocalDerivatives::Beside>({d.jet, *course.open}) : std::nullopt);
-    course.forcing = &forcing;
-    course.blur = instant.blur;
+  std::optional<motion::LocalDerivatives::LocalJet> near;
+  if (local_derivatives_) {
+    const bool same = solver_state.open && solver_state.forcing == &forcing &&
+                      solver_state.noise_factor == instant.noise_factor && d.u == d.jet.u.col(0) &&
+                      d.v == d.jet.u.col(1);
+    near = local_derivatives_->make(
+        d.system, forcing, instant.t, d.u, d.v, solver_state.jets, enough,
+        same ? std::optional<motion::LocalDerivatives::PreviousJet>({d.jet, *solver_state.open})
+             : std::nullopt);
+    solver_state.forcing = &forcing;
+    solver_state.noise_factor = instant.noise_factor;
   }
-  course.open.reset();
+  solver_state.open.reset();
   if (near) {
     d.jet = std::move(near->jet);
-    course.open = std::move(near->open);
+    solver_state.open = std::move(near->open);
   } else {
-    d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, enough);
+    d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, solver_state.jets, enough);
   }
   d.u = d.jet.u.col(0);
   d.v = d.jet.u.col(1);
-  d.mode = mode;
-  return !forces_are_noise(model_, course.jets) || forces_are_unique(systems_, mode);
+  d.states = states;
+  return !forces_are_noise(model_, solver_state.jets) || forces_are_unique(systems_, states);
 }
 
 std::vector<motion::BodySlide> ContactStateSolver::slides(const motion::Forcing& forcing,
@@ -164,97 +169,118 @@ std::vector<motion::BodySlide> ContactStateSolver::slides(const motion::Forcing&
   result.reserve(model_.contacts.size());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     result.push_back(
-        motion::slide_of(model_.contacts[k], k, forcing, decision.jet.t, decision.u, decision.v));
+        motion::body_slide(model_.contacts[k], k, forcing, decision.jet.t, decision.u, decision.v));
   return result;
 }
 
 /// Computes the motion just before, in the old mode under the old forcing, and the states that follow from the forcing.
-Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& course) {
-  Instant& instant = course.instant;
-  Decision& d = course.decision;
-  if (!evaluate(before, instant.mode, course)) return no_system(model_, instant.mode);
-  d.before.reserve(course.jets.size());
-  course.noise_before.reserve(course.jets.size());
-  for (const MotionJet& jet : course.jets) {
+Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& solver_state) {
+  Instant& instant = solver_state.instant;
+  Decision& d = solver_state.decision;
+  if (!evaluate(before, instant.states, solver_state)) return no_system(model_, instant.states);
+  d.before.reserve(solver_state.jets.size());
+  solver_state.noise_before.reserve(solver_state.jets.size());
+  for (const MotionJet& jet : solver_state.jets) {
     d.before.push_back(jet.motion[0]);
-    course.noise_before.push_back(jet.noise[0]);
+    solver_state.noise_before.push_back(jet.noise[0]);
   }
-  if (!instant.rested.empty()) course.so_far = course.jets;
+  if (!instant.resting_limits.empty()) solver_state.so_far = solver_state.jets;
   d.slides_before = slides(before, d);
   // A rigidly sticking contact moves with its surface, and a rigid contact that touches has no gap: integration drift
   // must not influence the decision.
-  if (instant.start) course.given = instant.u;
+  if (instant.start) solver_state.initial_u = instant.u;
   instant.u = d.u;
   instant.v = d.v;
-  course.found.capture(std::exchange(course.held, {}));
-  course.mode = instant.mode;
+  solver_state.impact_result.capture(std::exchange(solver_state.held, {}));
+  solver_state.states = instant.states;
   if (!instant.jump) return {};
-  follow_forcing(model_, instant, before, course.after, d.before, course.mode);
+  apply_forcing_jump(model_, instant, before, solver_state.after, d.before, solver_state.states);
   do {  // ends: each round one more contact sticks
-    if (!evaluate(course.after, course.mode, course)) return no_system(model_, course.mode);
-  } while (turn_back(model_, d.before, course.jets, course.mode));
+    if (!evaluate(solver_state.after, solver_state.states, solver_state))
+      return no_system(model_, solver_state.states);
+  } while (resolve_slip_reversal(model_, d.before, solver_state.jets, solver_state.states));
   return {};
 }
 
-bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& course) const {
-  return systems_.may_share(c) && systems_.held_by_others(c, course.mode, course.after, course.instant.t);
+bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver_state) const {
+  return systems_.may_share(c) &&
+         systems_.held_by_others(c, solver_state.states, solver_state.after, solver_state.instant.t);
 }
 
 /// Finds the guards that fail in the evaluated mode. before: it is the mode of the motion up to the instant.
-void ContactStateSolver::look(SolverState& course, bool before) {
-  course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known,
-                           course.so_far, course.open ? *course.open : every_);
-  std::erase_if(course.failed, [&](const Failure& f) {
-    if (f.guard == Guard::sliding && held_by_others(f.contact, course)) return true;
-    return std::find(course.undecided.begin(), course.undecided.end(), blocks_.of[f.contact]) !=
-           course.undecided.end();
+void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
+  solver_state.failed =
+      find_failed_guards(model_, solver_state.jets, solver_state.states, solver_state.instant, before,
+                         solver_state.impact_result.known, solver_state.so_far,
+                         solver_state.open ? *solver_state.open : all_contacts_);
+  std::erase_if(solver_state.failed, [&](const FailedGuard& f) {
+    if (f.guard == Guard::sliding && held_by_others(f.contact, solver_state)) return true;
+    return std::find(solver_state.undecided.begin(), solver_state.undecided.end(), blocks_.of[f.contact]) !=
+           solver_state.undecided.end();
   });
   if (!listener_) return;
-  Round round{course.instant.t, course.decision.rounds, {}, {}, course.found.hit, course.mode, {}};
-  for (const TriggeredGuard& f : course.instant.triggered)
+  DecisionRound round{solver_state.instant.t,         solver_state.decision.rounds, {}, {},
+                      solver_state.impact_result.hit, solver_state.states,          {}};
+  for (const TriggeredGuard& f : solver_state.instant.triggered)
     round.triggered.push_back({f.contact, contact::to_string(f.guard)});
-  for (const Failure& f : course.failed)
+  for (const FailedGuard& f : solver_state.failed)
     round.failed.push_back({f.contact, contact::to_string(f.guard), f.sign.order, f.sign.excess});
-  for (std::size_t c = 0; c < course.found.known.size(); ++c)
-    if (course.found.known[c].touches) round.touching.push_back(c);
+  for (std::size_t c = 0; c < solver_state.impact_result.known.size(); ++c)
+    if (solver_state.impact_result.known[c].touches) round.touching.push_back(c);
   listener_(round);
 }
 
 /// Keeps a contact that stops on the way of massless parts where it stopped, not where it started. This is done once
 /// per contact, since the way is a different one afterwards.
-void ContactStateSolver::stop_there(const Failure& f, SolverState& course) const {
-  std::vector<std::size_t>& before = course.slid;
-  if (!stops_on_way(model_.contacts[f.contact], f, course.mode[f.contact].state,
-                    {course.instant.u, course.decision.u}, course.jets[f.contact].noise[0].ut) ||
+void ContactStateSolver::stop_there(const FailedGuard& f, SolverState& solver_state) const {
+  std::vector<std::size_t>& before = solver_state.slid_contacts;
+  if (!stops_on_path(model_.contacts[f.contact], f, solver_state.states[f.contact].state,
+                     {solver_state.instant.u, solver_state.decision.u},
+                     solver_state.jets[f.contact].noise[0].ut) ||
       std::find(before.begin(), before.end(), f.contact) != before.end())
     return;
   before.push_back(f.contact);
-  course.instant.u = course.decision.u;
-  course.seen.clear();
+  solver_state.instant.u = solver_state.decision.u;
+  solver_state.tried_states.clear();
 }
 
+namespace {
+
+std::vector<Block> selected(const std::vector<Block>& blocks, const std::vector<bool>& mask) {
+  std::vector<Block> result;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (mask[b]) result.push_back(blocks[b]);
+  return result;
+}
+
+}  // namespace
+
 /// Gives their next states to contacts that are decided separately. Returns the blocks that must be decided together.
-std::vector<Block> ContactStateSolver::react(SolverState& course) const {
-  ImpactResult& found = course.found;
+std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
+  ImpactResult& found = solver_state.impact_result;
   std::vector<bool> jointly(blocks_.all.size(), false);
   std::vector<std::size_t> turning;
-  const MasslessWay way{course.comes_from(), course.decision.u};
-  course.touched = first_touch(model_, way, course.failed);
-  const auto touched = [&](std::size_t c) { return course.touched && course.touched->contact == c; };
-  if (course.touched && model_.contacts[course.touched->contact].normal_damping > 0.0)
-    course.instant.u = way.from + course.touched->part * (way.to - way.from);
-  if (course.decision.rounds >= 2 && !course.blurred) {  // once: if modes repeat, all contacts are decided
-    leave_sliding_for_later(model_, course.failed);
-    if (!found.sliders) leave_pushed_for_later(model_, course.decision.visited, blocks_.of, course.failed);
+  const MasslessPath way{solver_state.jump_origin(), solver_state.decision.u};
+  solver_state.touched = first_touch(model_, way, solver_state.failed);
+  const auto touched = [&touch = solver_state.touched](std::size_t c) {
+    return touch && touch->contact == c;
+  };
+  if (solver_state.touched && model_.contacts[solver_state.touched->contact].normal_damping > 0.0)
+    solver_state.instant.u = way.from + solver_state.touched->fraction * (way.to - way.from);
+  // Once: if states repeat, all contacts are decided.
+  if (solver_state.decision.rounds >= 2 && !solver_state.noise_increased) {
+    defer_slip_failures(model_, solver_state.failed);
+    if (!found.sliders)
+      defer_pushed_failures(model_, solver_state.decision.visited, blocks_.of, solver_state.failed);
   }
-  for (const Failure& f : course.failed) {
+  for (const FailedGuard& f : solver_state.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
     // The time of a touch on the way is that of another contact's event.
-    if (!course.decision.visited[c] && !touched(c) &&
-        !is_pushed(f, course.instant, course.decision.before[c], course.noise_before[c]))
-      course.decision.crossings.insert_or_assign(c, crossing(f.form, course.jets[c]));
-    course.decision.visited[c] = true;
+    if (!solver_state.decision.visited[c] && !touched(c) &&
+        !is_pushed(f, solver_state.instant, solver_state.decision.before[c], solver_state.noise_before[c]))
+      solver_state.decision.crossings.insert_or_assign(c, crossing(f.form, solver_state.jets[c]));
+    solver_state.decision.visited[c] = true;
     if (found.sliders) jointly[blocks_.of[c]] = true;
     const bool slips = contact::is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
@@ -263,228 +289,241 @@ std::vector<Block> ContactStateSolver::react(SolverState& course) const {
       if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
-      stop_there(f, course);
-      course.mode[c] = contact::next_state(contact, course.mode[c], f.guard, course.jets[c]);
+      stop_there(f, solver_state);
+      ContactState& state = solver_state.states[c];
+      state = contact::next_state(contact, state, f.guard, solver_state.jets[c]);
       if (touched(c))  // elastic first; its limit decides about slip
-        course.mode[c] = {contact::state_at_rest(contact), course.jets[c].motion[0].ut + course.touched->ut};
+        state = {contact::state_at_rest(contact),
+                 solver_state.jets[c].motion[0].ut + solver_state.touched->ut};
       continue;
     }
     jointly[blocks_.of[c]] = true;
     // The contact was expected to leave, but g' is zero in the resulting mode; or its gap closed with g' zero.
     if (f.guard == Guard::closing && f.sign.order > 1 &&
-        (found.known[c].touches || course.instant.has_triggered(c, Guard::closing)))
+        (found.known[c].touches || solver_state.instant.has_triggered(c, Guard::closing)))
       found.stays[c] = true;
     // It was at its static limit, which is now exceeded.
-    if (slips && found.decided[c]) (held_by_others(c, course) ? found.bears_limit : found.kinetic)[c] = true;
+    if (slips && found.decided[c])
+      (held_by_others(c, solver_state) ? found.bears_limit : found.kinetic)[c] = true;
     if (f.guard == Guard::sliding && found.decided[c] &&
-        starts_at_zero(f.form, course.jets[c], course.instant))
+        starts_at_zero(f.form, solver_state.jets[c], solver_state.instant))
       found.rests[c] = true;
   }
-  stop(turning, course);
-  if (course.instant.start && course.decision.rounds == 1)
+  stop(turning, solver_state);
+  if (solver_state.instant.start && solver_state.decision.rounds == 1)
     for (std::size_t c = 0; c < blocks_.of.size(); ++c)
       if (model_.contacts[c].takes_impulses()) jointly[blocks_.of[c]] = true;
-  std::vector<Block> result;
-  for (std::size_t b = 0; b < blocks_.all.size(); ++b)
-    if (jointly[b]) result.push_back(blocks_.all[b]);
-  return result;
+  return selected(blocks_.all, jointly);
 }
 
 /// Stops sliders that reverse: the slip rate left by the location of the event would otherwise persist.
-void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverState& course) const {
+void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const {
   if (turning.empty()) return;
-  const motion::StateSystemPtr system = systems_.of(course.mode);
+  const motion::StateSystemPtr system = systems_.system_of(solver_state.states);
   if (!system) return;
-  std::vector<Fixed> fixed;
+  std::vector<FixedVelocity> fixed;
   for (std::size_t i = 0; i < turning.size(); ++i)
     fixed.push_back({tangent_place(i), &model_.contacts[turning[i]].tangent,
-                     course.after.surface(turning[i], course.instant.t, 1)});
-  if (settled(fixed, course.instant.v)) return;
-  const Eigen::VectorXd impulses = settle(delassus(model_, *system, turning), fixed, course.instant.v);
-  course.found.capture(with_reactions(model_, *system, turning, impulses));
+                     solver_state.after.surface(turning[i], solver_state.instant.t, 1)});
+  if (has_velocities(fixed, solver_state.instant.v)) return;
+  const Eigen::VectorXd impulses =
+      impose_velocities(delassus(model_, *system, turning), fixed, solver_state.instant.v);
+  solver_state.impact_result.capture(with_reactions(model_, *system, turning, impulses));
 }
 
 /// Records the crossings of gaps that closed together with others, up to rounding.
-void ContactStateSolver::note_hits(SolverState& course) const {
-  Decision& d = course.decision;
+void ContactStateSolver::note_hits(SolverState& solver_state) const {
+  Decision& d = solver_state.decision;
   if (d.rounds > 1) return;
   for (std::size_t c = 0; c < d.impulses.size(); ++c)
     if (d.impulses[c].hit)
-      d.crossings.try_emplace(
-          c, crossing(contact::guards(model_.contacts[c], course.instant.mode[c])[0], course.jets[c]));
+      d.crossings.try_emplace(c,
+                              crossing(contact::guards(model_.contacts[c], solver_state.instant.states[c])[0],
+                                       solver_state.jets[c]));
 }
 
 /// Proposes the next mode from the guards that failed in the last one.
-Refusal ContactStateSolver::propose(SolverState& course) {
-  Decision& d = course.decision;
-  const std::vector<Block> jointly = react(course);
-  course.found.hit = false;
+Refusal ContactStateSolver::propose(SolverState& solver_state) {
+  Decision& d = solver_state.decision;
+  const std::vector<Block> jointly = react(solver_state);
+  solver_state.impact_result.hit = false;
   if (!jointly.empty()) {
-    Refusal why = touching_.decide(course.instant, course.after, course.jets, course.failed, jointly,
-                                   course.found, d, course.mode);
-    note_hits(course);
+    Refusal why =
+        rigid_solver_.decide(solver_state.instant, solver_state.after, solver_state.jets, solver_state.failed,
+                             jointly, solver_state.impact_result, d, solver_state.states);
+    note_hits(solver_state);
     if (why) {
-      if (!course.failed.empty()) why.reason += " (after " + names_of(model_, course.failed) + ")";
+      if (!solver_state.failed.empty())
+        why.reason += " (after " + names_of(model_, solver_state.failed) + ")";
       return why;
     }
   }
-  if (course.found.hit) course.seen.clear();  // the velocities are new, so modes may recur
-  const bool again = std::find(course.seen.begin(), course.seen.end(), course.mode) != course.seen.end();
-  if (again && !(course.instant.start && d.rounds == 1))
-    if (Refusal why = circles_.leave(course)) return why;
-  course.seen.push_back(course.mode);
+  if (solver_state.impact_result.hit)
+    solver_state.tried_states.clear();  // the velocities are new, so modes may recur
+  const bool again = std::find(solver_state.tried_states.begin(), solver_state.tried_states.end(),
+                               solver_state.states) != solver_state.tried_states.end();
+  if (again && !(solver_state.instant.start && d.rounds == 1))
+    if (Refusal why = cycle_fallback_.next_step(solver_state)) return why;
+  solver_state.tried_states.push_back(solver_state.states);
   return {};
 }
 
 /// Proposes the next mode and computes its motion. A slider that stops beside sticking contacts need not stick: if the
 /// rows are dependent, they are decided together.
-Refusal ContactStateSolver::try_next(SolverState& course) {
-  const contact::ContactStates last = course.mode;
-  if (Refusal why = propose(course)) return why;
-  if (evaluate(course.after, course.mode, course)) return {};
-  if (!course.found.hit && !std::exchange(course.found.sliders, true)) {
-    course.seen.pop_back();
-    course.mode = last;
+Refusal ContactStateSolver::try_next(SolverState& solver_state) {
+  const contact::ContactStates last = solver_state.states;
+  if (Refusal why = propose(solver_state)) return why;
+  if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
+  if (!solver_state.impact_result.hit && !std::exchange(solver_state.impact_result.sliders, true)) {
+    solver_state.tried_states.pop_back();
+    solver_state.states = last;
     // The joint decision of several sliders needs all orders of their motions.
-    if (!evaluate(course.after, course.mode, course)) return no_system(model_, course.mode);
-    if (Refusal why = propose(course)) return why;
-    if (evaluate(course.after, course.mode, course)) return {};
+    if (!evaluate(solver_state.after, solver_state.states, solver_state))
+      return no_system(model_, solver_state.states);
+    if (Refusal why = propose(solver_state)) return why;
+    if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
   }
-  Refusal why = dependent_rows(contacts_of(course.failed));
-  why.reason += fmt::format(" (after {}); {} makes them so", names_of(model_, course.failed),
+  Refusal why = dependent_rows(contacts_of(solver_state.failed));
+  why.reason += fmt::format(" (after {}); {} makes them so", names_of(model_, solver_state.failed),
                             springs_for_uniqueness(model_, why.contacts));
   return why;
 }
 
-Refusal ContactStateSolver::go(const motion::Forcing& before, SolverState& course) {
-  if (Refusal why = begin(before, course)) return why;
-  course.seen.push_back(course.mode);
-  look(course, true);
-  if (course.failed.empty() && !course.instant.triggered.empty() && !course.instant.jump) {
-    course.make_blurred();  // the engine located a zero of a guard: its positive value may be rounding
-    look(course, true);
+Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& solver_state) {
+  if (Refusal why = begin(before, solver_state)) return why;
+  solver_state.tried_states.push_back(solver_state.states);
+  check_guards(solver_state, true);
+  if (solver_state.failed.empty() && !solver_state.instant.triggered.empty() && !solver_state.instant.jump) {
+    solver_state
+        .increase_noise();  // the engine located a zero of a guard: its positive value may be rounding
+    check_guards(solver_state, true);
   }
-  Decision& d = course.decision;
-  while (!course.failed.empty() || (course.instant.start && d.rounds == 0)) {
+  Decision& d = solver_state.decision;
+  while (!solver_state.failed.empty() || (solver_state.instant.start && d.rounds == 0)) {
     if (++d.rounds > max_rounds_)
       return {Refusal::Kind::endless,
               fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
-                          max_rounds_, names_of(model_, course.failed)),
-              contacts_of(course.failed)};
-    if (Refusal why = try_next(course)) return why;
-    look(course, false);
+                          max_rounds_, names_of(model_, solver_state.failed)),
+              contacts_of(solver_state.failed)};
+    if (Refusal why = try_next(solver_state)) return why;
+    check_guards(solver_state, false);
   }
   return {};
 }
 
 /// True if the contact sticks at its limit from this instant on, for a time that no derivative determines.
-bool ContactStateSolver::rests_at_limit(const SolverState& course, std::size_t c, const GuardStart& guard) {
+bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::size_t c,
+                                        const GuardStart& guard) {
   const bool limit = contact::is_friction_limit(guard.kind);
-  const bool asked =
-      course.instant.start || course.instant.jump || course.decision.visited[c] || course.found.decided[c];
-  return limit && asked && guard.at_zero && guard.leading < 0 &&
-         std::abs(course.jets[c].motion[0].T) > guard.noise;
+  const bool asked = solver_state.instant.start || solver_state.instant.jump ||
+                     solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
+  return limit && asked && guard.at_zero && guard.leading_order < 0 &&
+         std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
 }
 
 /// True if the contact stops at its static limit, up to rounding, and kinetic friction is lower. Beyond the limit it
 /// slips immediately, by much more than rounding. At a start the loads lead to the limit, not beyond it.
-bool ContactStateSolver::meets_static_limit(const SolverState& course, std::size_t c,
+bool ContactStateSolver::meets_static_limit(const SolverState& solver_state, std::size_t c,
                                             const GuardStart& guard) const {
-  const bool asked = course.decision.visited[c] || course.found.decided[c];
-  return model_.contacts[c].friction.drops() && contact::is_friction_limit(guard.kind) && asked &&
-         !course.instant.start && guard.at_zero && guard.leading > 0 &&
-         std::abs(course.jets[c].motion[0].T) > guard.noise;
+  const bool asked = solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
+  return model_.contacts[c].friction.has_static_drop() && contact::is_friction_limit(guard.kind) && asked &&
+         !solver_state.instant.start && guard.at_zero && guard.leading_order > 0 &&
+         std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
 }
 
 /// True if all its guards are positive at order 0.
-bool ContactStateSolver::clearly_holds(const SolverState& course, std::size_t c) {
-  return course.open && !std::binary_search(course.open->begin(), course.open->end(), c);
+bool ContactStateSolver::clearly_holds(const SolverState& solver_state, std::size_t c) {
+  return solver_state.open && !std::binary_search(solver_state.open->begin(), solver_state.open->end(), c);
 }
 
 /// For a guard that is not clearly positive: determines whether it starts at zero, and the order of its first nonzero
 /// derivative.
-void ContactStateSolver::look_at_start(SolverState& course, std::size_t c, const GuardForm& guard,
-                                       GuardStart& start) const {
-  Decision& d = course.decision;
-  const MotionJet& jet = course.jets[c];
-  const Known known = course.found.known[c].of(guard.kind);
-  const MotionJet* base = course.so_far.empty() ? nullptr
-                                                : rested(model_.contacts[c], c, course.mode[c], guard,
-                                                         course.so_far[c], course.instant);
-  const Sign sign = sign_of_guard(guard, jet, course.instant, known, base);
-  start.at_zero = known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard, jet, course.instant));
-  start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
-  if (start.at_zero && start.leading < 0)
-    for (std::size_t k = 0; k < start.loose.size(); ++k)
-      start.loose[k] = course.instant.blur * guard.rounding(jet.motion.data(), jet.noise.data(), k + 2);
-  const bool rests = rests_at_limit(course, c, start);
+void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_t c, const GuardForm& guard,
+                                           GuardStart& start) const {
+  Decision& d = solver_state.decision;
+  const MotionJet& jet = solver_state.jets[c];
+  const Known known = solver_state.impact_result.known[c].of(guard.kind);
+  const MotionJet* base = solver_state.so_far.empty()
+                              ? nullptr
+                              : resting_reference(model_.contacts[c], c, solver_state.states[c], guard,
+                                                  solver_state.so_far[c], solver_state.instant);
+  const Sign sign = sign_of_guard(guard, jet, solver_state.instant, known, base);
+  start.at_zero =
+      known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard, jet, solver_state.instant));
+  start.leading_order = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
+  if (start.at_zero && start.leading_order < 0)
+    for (std::size_t k = 0; k < start.derivative_noise.size(); ++k)
+      start.derivative_noise[k] =
+          solver_state.instant.noise_factor * guard.rounding(jet.motion.data(), jet.noise.data(), k + 2);
+  const bool rests = rests_at_limit(solver_state, c, start);
   d.undecided = d.undecided || rests;
   const double value = guard.value(jet.motion[0]);
-  if (rests || (known.zeros == 0 && meets_static_limit(course, c, start)))
+  if (rests || (known.zeros == 0 && meets_static_limit(solver_state, c, start)))
     d.at_limit.push_back({c, value, start.noise});
   // A value that the decision took as zero is rounding for the engine, too.
-  if (start.at_zero && (start.leading < 0 || base != nullptr))
+  if (start.at_zero && (start.leading_order < 0 || base != nullptr))
     start.noise = std::max(start.noise, std::abs(value));
 }
 
 /// Fills in the data about the new mode that engine and log need.
-void ContactStateSolver::finish(SolverState& course) {
-  Decision& d = course.decision;
+void ContactStateSolver::finish(SolverState& solver_state) {
+  Decision& d = solver_state.decision;
   d.consistent = true;
-  course.found.capture(course.held);
-  d.captures = course.found.captures;
-  d.departures = course.found.departures;
-  d.unresolved = course.found.unresolved;
-  d.slides_after = slides(course.after, d);
-  d.after.reserve(course.mode.size());
-  d.guards.reserve(contact::guard_count(course.mode.size()));
-  for (std::size_t c = 0; c < course.mode.size(); ++c) {
-    const MotionJet& jet = course.jets[c];
+  solver_state.impact_result.capture(solver_state.held);
+  d.capture_impulses = solver_state.impact_result.capture_impulses;
+  d.departures = solver_state.impact_result.departures;
+  d.unresolved = solver_state.impact_result.unresolved;
+  d.slides_after = slides(solver_state.after, d);
+  d.after.reserve(solver_state.states.size());
+  d.guards.reserve(contact::guard_count(solver_state.states.size()));
+  for (std::size_t c = 0; c < solver_state.states.size(); ++c) {
+    const MotionJet& jet = solver_state.jets[c];
     const ContactMotion& now = jet.motion[0];
     d.after.push_back(now);
-    d.jumped[c] = std::abs(now.N - d.before[c].N) > course.noise_before[c].N + jet.noise[0].N ||
-                  std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
-    const bool clear = clearly_holds(course, c);
-    for (const GuardForm& guard : guards_.of(c, course.mode[c])) {
+    d.jumped[c] = std::abs(now.N - d.before[c].N) > solver_state.noise_before[c].N + jet.noise[0].N ||
+                  std::abs(now.T - d.before[c].T) > solver_state.noise_before[c].T + jet.noise[0].T;
+    const bool clear = clearly_holds(solver_state, c);
+    for (const GuardForm& guard : guards_.of(c, solver_state.states[c])) {
       GuardStart& start = d.guards.emplace_back();
       // Other contacts may hold its slip rate at zero, except for rounding: the guard is then absent.
-      if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, course))) continue;
+      if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, solver_state)))
+        continue;
       start.kind = guard.kind;
-      start.noise =
-          course.instant.blur * (guard.is_linear() ? QuickForm(guard.form).magnitude(jet.noise[0])
-                                                   : guard.rounding(jet.motion.data(), jet.noise.data(), 0));
-      if (!clear) look_at_start(course, c, guard, start);
+      start.noise = solver_state.instant.noise_factor *
+                    (guard.is_linear() ? QuickForm(guard.form).magnitude(jet.noise[0])
+                                       : guard.rounding(jet.motion.data(), jet.noise.data(), 0));
+      if (!clear) check_guard_start(solver_state, c, guard, start);
     }
   }
   d.forms = guards_.all();
-  note_left(course, d);
+  record_released(solver_state, d);
 }
 
 /// Enumeration may give the same result as release(): a contact at its limit of friction opens, and its force drops to
 /// zero.
-void ContactStateSolver::note_left(const SolverState& course, Decision& d) const {
-  const Instant& now = course.instant;
+void ContactStateSolver::record_released(const SolverState& solver_state, Decision& d) const {
+  const Instant& now = solver_state.instant;
   if (now.jump || now.start || !d.released.empty()) return;
   for (const TriggeredGuard& f : now.triggered) {
     const bool limit = contact::is_friction_limit(f.guard);
-    if (limit && !now.mode[f.contact].is_open() && d.mode[f.contact].is_open() && d.jumped[f.contact] &&
-        carries_massless(model_, model_.contacts[f.contact]))
+    if (limit && !now.states[f.contact].is_open() && d.states[f.contact].is_open() && d.jumped[f.contact] &&
+        acts_on_massless(model_, model_.contacts[f.contact]))
       d.released.push_back(f.contact);
   }
 }
 
 /// Refuses a slipping contact whose slip rate is zero with all its derivatives if sticking contacts hold it: its own
 /// row is then dependent on theirs, and its force need not stay at the limit.
-Refusal ContactStateSolver::held_at_rest(const SolverState& course) const {
-  const Decision& d = course.decision;
+Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const {
+  const Decision& d = solver_state.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
     const GuardStart& guard = d.guards[slot];
     const std::size_t c = contact::contact_of_guard(slot);
-    const bool rests = guard.kind == Guard::sliding && guard.at_zero && guard.leading < 0;
+    const bool rests = guard.kind == Guard::sliding && guard.at_zero && guard.leading_order < 0;
     if (!rests || !model_.contacts[c].sticks_rigidly()) continue;
-    contact::ContactStates sticking = d.mode;
+    contact::ContactStates sticking = d.states;
     sticking[c].state = State::stick;
-    if (systems_.of(sticking)) continue;
+    if (systems_.system_of(sticking)) continue;
     Refusal why = dependent_rows({c});
     why.reason += fmt::format(" ('{}' slips no more); {} makes them so", model_.contacts[c].name,
                               springs_for_uniqueness(model_, why.contacts));
@@ -496,18 +535,19 @@ Refusal ContactStateSolver::held_at_rest(const SolverState& course) const {
 ContactStateSolver::Attempt ContactStateSolver::attempt(const Instant& instant, const motion::Forcing& before,
                                                         const motion::Forcing& after) {
   const std::size_t count = model_.contacts.size();
-  SolverState course{instant, after, {}, {}, {}, {}, {}, {}, ImpactResult(count), {}};
-  course.jets = std::move(room_);
-  course.decision.visited.assign(count, false);
-  course.decision.jumped.assign(count, false);
-  course.decision.refusal = go(before, course);
-  if (!course.decision.refusal) {
-    finish(course);
-    course.decision.refusal = held_at_rest(course);
-    course.decision.consistent = !course.decision.refusal;
+  SolverState solver_state{instant, after, {}, {}, {}, {}, {}, {}, ImpactResult(count), {}};
+  solver_state.jets = std::move(scratch_);
+  solver_state.decision.visited.assign(count, false);
+  solver_state.decision.jumped.assign(count, false);
+  solver_state.decision.refusal = iterate(before, solver_state);
+  if (!solver_state.decision.refusal) {
+    finish(solver_state);
+    solver_state.decision.refusal = held_at_rest(solver_state);
+    solver_state.decision.consistent = !solver_state.decision.refusal;
   }
-  room_ = std::move(course.jets);
-  return {std::move(course.decision), course.found.grounded, course.found.slowest};
+  scratch_ = std::move(solver_state.jets);
+  return {std::move(solver_state.decision), solver_state.impact_result.flight_taken_as_rest,
+          solver_state.impact_result.max_rest_speed};
 }
 
 Decision ContactStateSolver::decide(Instant instant, const motion::Forcing& before,
@@ -515,44 +555,45 @@ Decision ContactStateSolver::decide(Instant instant, const motion::Forcing& befo
   Attempt first = attempt(instant, before, after);
   const Refusal::Kind kind = first.decision.refusal.kind;
   if (kind == Refusal::Kind::none) return std::move(first.decision);
-  if (first.grounded) {
+  if (first.flight_taken_as_rest) {
     // A flight of a chattering contact is computed until the clock resolves no more, if resting has no consistent
     // state.
     Instant flying = instant;
-    flying.low_flights = true;
+    flying.keep_low_flights = true;
     if (Attempt a = attempt(flying, before, after); !a.decision.refusal) return std::move(a.decision);
   }
   // Otherwise slip rates as small as the flights taken as rest count as rest: hits that are left out would change them,
   // and the slip ends with the chatter.
   const bool painleve = kind == Refusal::Kind::ambiguous || kind == Refusal::Kind::paradox;
-  if (!painleve || !(first.slowest > 0.0)) return std::move(first.decision);
-  instant.slow = unlucky * first.slowest;
-  Attempt resting = attempt(instant, before, after);
-  if (resting.decision.refusal) return std::move(first.decision);
-  resting.decision.undecided = true;
-  return std::move(resting.decision);
+  if (!painleve || !(first.max_rest_speed > 0.0)) return std::move(first.decision);
+  instant.rest_speed = retry_noise_factor * first.max_rest_speed;
+  Attempt find_resting_limits = attempt(instant, before, after);
+  if (find_resting_limits.decision.refusal) return std::move(first.decision);
+  find_resting_limits.decision.undecided = true;
+  return std::move(find_resting_limits.decision);
 }
 
 Refusal ContactStateSolver::standstill(const Decision& last, std::vector<std::size_t> contacts,
                                        std::string reason) {
-  const double condition = Enumeration(systems_, jets_).condition(contacts, last.mode);
-  return {Refusal::Kind::standstill, std::move(reason), std::move(contacts), condition, last.forgiven};
+  const double condition = StateEnumeration(systems_, jets_).condition(contacts, last.states);
+  return {Refusal::Kind::standstill, std::move(reason), std::move(contacts), condition,
+          last.tolerated_violation};
 }
 
-Decision ContactStateSolver::adopt(const Instant& instant, const contact::ContactStates& mode,
+Decision ContactStateSolver::adopt(const Instant& instant, const contact::ContactStates& states,
                                    const motion::Forcing& forcing) {
-  SolverState course{instant, forcing, {}, {}, {}, {}, {}, {}, ImpactResult(mode.size()), {}};
-  Decision& d = course.decision;
-  d.visited.assign(mode.size(), false);
-  d.jumped.assign(mode.size(), false);
-  contact::ContactStates taken = mode;
-  if (!evaluate(forcing, taken, course)) {
-    d.refusal = no_system(model_, mode);
+  SolverState solver_state{instant, forcing, {}, {}, {}, {}, {}, {}, ImpactResult(states.size()), {}};
+  Decision& d = solver_state.decision;
+  d.visited.assign(states.size(), false);
+  d.jumped.assign(states.size(), false);
+  contact::ContactStates taken = states;
+  if (!evaluate(forcing, taken, solver_state)) {
+    d.refusal = no_system(model_, states);
     return std::move(d);
   }
   d.consistent = true;
-  d.captures = course.held;
-  for (const MotionJet& jet : course.jets) d.after.push_back(jet.motion[0]);
+  d.capture_impulses = solver_state.held;
+  for (const MotionJet& jet : solver_state.jets) d.after.push_back(jet.motion[0]);
   d.before = d.after;
   d.slides_after = d.slides_before = slides(forcing, d);
   for (std::size_t c = 0; c < taken.size(); ++c)

@@ -17,7 +17,7 @@
 namespace signorini::decide {
 
 /// Friction limits that are zero with all their derivatives, from now until they are found to fail.
-[[nodiscard]] std::vector<TriggeredGuard> resting(const Decision& decision);
+[[nodiscard]] std::vector<TriggeredGuard> find_resting_limits(const Decision& decision);
 
 class ContactStateSolver {
  public:
@@ -30,7 +30,7 @@ class ContactStateSolver {
   [[nodiscard]] Decision decide(Instant instant, const motion::Forcing& before, const motion::Forcing& after);
   /// Adopts the states of `mode` from an engine that finds states and no instants: computes their forces and
   /// accelerations, which are the same before and after.
-  [[nodiscard]] Decision adopt(const Instant& instant, const contact::ContactStates& mode,
+  [[nodiscard]] Decision adopt(const Instant& instant, const contact::ContactStates& states,
                                const motion::Forcing& forcing);
 
   /// Reason for ending a run whose events take no time, after the decision `last`.
@@ -43,47 +43,48 @@ class ContactStateSolver {
  private:
   struct Attempt {
     Decision decision;
-    bool grounded = false;  // Findings::grounded
-    double slowest = 0.0;
+    bool flight_taken_as_rest = false;  // Findings::grounded
+    double max_rest_speed = 0.0;
   };
   [[nodiscard]] Attempt attempt(const Instant& instant, const motion::Forcing& before,
                                 const motion::Forcing& after);
-  [[nodiscard]] bool evaluate(const motion::Forcing& forcing, contact::ContactStates& mode,
-                              SolverState& course);
-  [[nodiscard]] Refusal begin(const motion::Forcing& before, SolverState& course);
-  void look(SolverState& course, bool before);
-  void stop_there(const Failure& f, SolverState& course) const;
-  [[nodiscard]] std::vector<Block> react(SolverState& course) const;
-  void stop(const std::vector<std::size_t>& turning, SolverState& course) const;
-  void note_hits(SolverState& course) const;
-  [[nodiscard]] Refusal propose(SolverState& course);
-  [[nodiscard]] Refusal try_next(SolverState& course);
-  [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& course) const;
-  [[nodiscard]] Refusal go(const motion::Forcing& before, SolverState& course);
-  [[nodiscard]] static bool rests_at_limit(const SolverState& course, std::size_t c, const GuardStart& guard);
-  [[nodiscard]] bool meets_static_limit(const SolverState& course, std::size_t c,
+  [[nodiscard]] bool evaluate(const motion::Forcing& forcing, contact::ContactStates& states,
+                              SolverState& solver_state);
+  [[nodiscard]] Refusal begin(const motion::Forcing& before, SolverState& solver_state);
+  void check_guards(SolverState& solver_state, bool before);
+  void stop_there(const FailedGuard& f, SolverState& solver_state) const;
+  [[nodiscard]] std::vector<Block> react(SolverState& solver_state) const;
+  void stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const;
+  void note_hits(SolverState& solver_state) const;
+  [[nodiscard]] Refusal propose(SolverState& solver_state);
+  [[nodiscard]] Refusal try_next(SolverState& solver_state);
+  [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& solver_state) const;
+  [[nodiscard]] Refusal iterate(const motion::Forcing& before, SolverState& solver_state);
+  [[nodiscard]] static bool rests_at_limit(const SolverState& solver_state, std::size_t c,
+                                           const GuardStart& guard);
+  [[nodiscard]] bool meets_static_limit(const SolverState& solver_state, std::size_t c,
                                         const GuardStart& guard) const;
-  [[nodiscard]] static bool clearly_holds(const SolverState& course, std::size_t c);
-  void look_at_start(SolverState& course, std::size_t contact, const GuardForm& guard,
-                     GuardStart& start) const;
-  void finish(SolverState& course);
-  void note_left(const SolverState& course, Decision& decision) const;
-  [[nodiscard]] Refusal held_at_rest(const SolverState& course) const;
+  [[nodiscard]] static bool clearly_holds(const SolverState& solver_state, std::size_t c);
+  void check_guard_start(SolverState& solver_state, std::size_t contact, const GuardForm& guard,
+                         GuardStart& start) const;
+  void finish(SolverState& solver_state);
+  void record_released(const SolverState& solver_state, Decision& decision) const;
+  [[nodiscard]] Refusal held_at_rest(const SolverState& solver_state) const;
   [[nodiscard]] std::vector<motion::BodySlide> slides(const motion::Forcing& forcing,
                                                       const Decision& decision) const;
 
   const Model& model_;
   motion::StateSystems& systems_;
   motion::JetMaker jets_;
-  std::optional<motion::LocalDerivatives> near_;  // nullopt: jets use the whole structure
-  const std::vector<std::size_t> every_;          // all contacts
+  std::optional<motion::LocalDerivatives> local_derivatives_;  // nullopt: jets use the whole structure
+  const std::vector<std::size_t> all_contacts_;                // all contacts
   int max_rounds_;
-  RigidContactSolver touching_;
-  GuardsInForce guards_;
+  RigidContactSolver rigid_solver_;
+  GuardCache guards_;
   ContactBlocks blocks_;
-  CycleFallback circles_;
-  bool each_alone_ = false;      // contacts are decided separately, except if modes repeat
-  std::vector<MotionJet> room_;  // memory of the last decision, reused by the next one
+  CycleFallback cycle_fallback_;
+  bool decide_separately_ = false;  // contacts are decided separately, except if modes repeat
+  std::vector<MotionJet> scratch_;  // memory of the last decision, reused by the next one
   RoundListener listener_;
 };
 

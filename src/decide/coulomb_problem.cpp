@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/complementarity.hpp"
 #include "base/eigen_dense.hpp"
+#include "base/lcp.hpp"
 #include "base/rounding.hpp"
 
 namespace signorini::decide {
@@ -17,11 +17,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Tolerance for the conditions of a solution, relative to the size of the problem.
-constexpr double misses = rounding::of_elimination;
+constexpr double misses = rounding::elimination;
 // Responses are equal if they differ by less, relative to the size of the problem, or by `misses` times the condition
 // of their own equations. Chosen value: far below the differences in Painleve's paradox.
 constexpr double same_solution = 1e-9;
-// Upper limit of this difference for any condition. Chosen value: tests/unit/base/complementarity.cpp needs 1e-4 at a
+// Upper limit of this difference for any condition. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a
 // margin of 1e-10; motions of Painleve's paradox differ by the size itself.
 constexpr double most_alike = 1e-3;
 
@@ -49,7 +49,7 @@ Scaled scaled(const CoulombProblem& p) {
 
 /// Number of covering vectors tried with Lemke's method. With W semidefinite each one gives a solution except for
 /// rounding: with many contacts that share few motions the method may end in a ray. Chosen value: of 150 seams four
-/// need a second vector (tests/unit/base/complementarity.cpp).
+/// need a second vector (tests/unit/base/lcp.cpp).
 constexpr int most_ways = 12;
 
 /// Covering vector d: ones, then numbers from 1 to 2 without a pattern (multiples of the golden section).
@@ -117,28 +117,30 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   const VectorXd q = G * s.b + h;
   const double size_of_q = q.cwiseAbs().maxCoeff();
   if (!(size_of_q > 0.0)) return VectorXd::Zero(n);
-  const auto z = base::solve_complementarity(M, q / size_of_q, cover_of(size, way));
+  const auto z = base::solve_lcp(M, q / size_of_q, cover_of(size, way));
   if (!z) return std::nullopt;
   return VectorXd(F * *z * size_of_q);
 }
 
 /// States of an item in the enumeration. sign_of: direction of slip.
-enum class Try : unsigned char { open, stick, slip_plus, slip_minus };
+enum class TrialState : unsigned char { open, stick, slip_plus, slip_minus };
 
-int sign_of(Try state) { return state == Try::slip_plus ? 1 : state == Try::slip_minus ? -1 : 0; }
+int sign_of(TrialState state) {
+  return state == TrialState::slip_plus ? 1 : state == TrialState::slip_minus ? -1 : 0;
+}
 
-std::vector<Try> choices(const CoulombItem& item) {
+std::vector<TrialState> choices(const CoulombItem& item) {
   switch (item.kind) {
     case Kind::normal:
-      return {Try::open, Try::stick};  // stick means closed
+      return {TrialState::open, TrialState::stick};  // stick means closed
     case Kind::sliding:
-      return {Try::open, item.sign > 0 ? Try::slip_plus : Try::slip_minus};
+      return {TrialState::open, item.sign > 0 ? TrialState::slip_plus : TrialState::slip_minus};
     case Kind::frictional:
-      return {Try::open, Try::stick, Try::slip_plus, Try::slip_minus};
+      return {TrialState::open, TrialState::stick, TrialState::slip_plus, TrialState::slip_minus};
     case Kind::pressed:
-      return {Try::stick, Try::slip_plus, Try::slip_minus};
+      return {TrialState::stick, TrialState::slip_plus, TrialState::slip_minus};
     case Kind::limit:
-      return {Try::stick, Try::slip_plus};  // slip_plus means slip along its own sign
+      return {TrialState::stick, TrialState::slip_plus};  // slip_plus means slip along its own sign
   }
   return {};
 }
@@ -149,7 +151,7 @@ struct Equations {
   VectorXd c;
 };
 
-Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
+Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vector<TrialState>& states,
                        const std::vector<bool>& kinetic) {
   const Index n = s.b.size();
   Equations e{MatrixXd::Zero(n, n), VectorXd::Zero(n)};
@@ -164,12 +166,12 @@ Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vect
     };
     const auto no_force = [&](Index row) { e.A(row, row) = 1.0; };
     const bool own_normal = item.kind != Kind::pressed && item.kind != Kind::limit;
-    if (own_normal && states[i] != Try::open)
+    if (own_normal && states[i] != TrialState::open)
       respond(ni);
     else
       no_force(ni);
     const bool may_stick = item.kind != Kind::normal && item.kind != Kind::sliding;
-    if (states[i] == Try::stick && may_stick) {
+    if (states[i] == TrialState::stick && may_stick) {
       respond(ti);
     } else {
       no_force(ti);
@@ -187,10 +189,10 @@ struct Attempt {
   double miss = 0.0;
 };
 
-Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
+Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<TrialState>& states,
                 const std::vector<bool>& kinetic) {
   const Equations e = equations_of(p, s, states, kinetic);
-  Attempt result{base::some_solution(e.A, e.c)};
+  Attempt result{base::particular_solution(e.A, e.c)};
   const VectorXd& x = result.force;
   const VectorXd r = s.b + s.W * x;
   double miss = (e.A * x - e.c).cwiseAbs().maxCoeff();
@@ -201,13 +203,14 @@ Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<Try>
     const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     const int sign = sign_of(states[i]);
     if (item.kind == Kind::limit) {
-      must_not_be_negative(item.sign * (states[i] == Try::stick ? x[ti] : r[ti]));
+      must_not_be_negative(item.sign * (states[i] == TrialState::stick ? x[ti] : r[ti]));
       continue;
     }
     const double l = item.kind == Kind::pressed ? item.applied_normal_force * s.unit[ni] : x[ni];
     must_not_be_negative(l);
     if (item.kind != Kind::pressed) must_not_be_negative(r[ni]);
-    if (states[i] == Try::stick && item.kind != Kind::normal) must_not_be_negative(f * l - std::abs(x[ti]));
+    if (states[i] == TrialState::stick && item.kind != Kind::normal)
+      must_not_be_negative(f * l - std::abs(x[ti]));
     if (sign != 0 && item.kind != Kind::sliding) must_not_be_negative(sign * r[ti]);
   }
   const double size = s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff();
@@ -272,13 +275,13 @@ bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, 
 
 }  // namespace
 
-Enumerated all_solutions(const CoulombProblem& p) {
-  Enumerated all;
+EnumerationResult all_solutions(const CoulombProblem& p) {
+  EnumerationResult all;
   std::vector<CoulombSolution>& found = all.solutions;
-  if (p.items.size() > most_enumerated) return all;
+  if (p.items.size() > max_enumerated) return all;
   const Scaled s = scaled(p);
   const VectorXd inverse = s.unit.cwiseInverse();
-  std::vector<std::vector<Try>> options;
+  std::vector<std::vector<TrialState>> options;
   std::size_t combinations = 1;
   for (const CoulombItem& item : p.items) {
     options.push_back(choices(item));
@@ -286,7 +289,7 @@ Enumerated all_solutions(const CoulombProblem& p) {
   }
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> conditions;  // conditions of the solutions found
-  std::vector<Try> states(p.items.size());
+  std::vector<TrialState> states(p.items.size());
   for (std::size_t code = 0; code < combinations; ++code) {
     std::size_t rest = code;
     // A slipping item has the kinetic coefficient, a sticking item the static one.
@@ -315,7 +318,7 @@ Enumerated all_solutions(const CoulombProblem& p) {
     found.push_back(std::move(solution));
     conditions.push_back(condition);
   }
-  all.least_miss = found.empty() ? least / rounding::eps : 0.0;
+  all.min_violation = found.empty() ? least / rounding::eps : 0.0;
   return all;
 }
 
@@ -326,19 +329,19 @@ std::optional<CoulombSolution> solve(const CoulombProblem& p) {
     const auto x = by_lemke(p, s, kinetic, way);
     if (!x || !fulfils(p, s, *x, kinetic)) {
       // A few contacts are enumerated, which distinguishes Painleve's paradox from rounding.
-      way = p.items.size() > most_enumerated ? way + 1 : most_ways;
+      way = p.items.size() > max_enumerated ? way + 1 : most_ways;
       continue;
     }
     if (!mark_slipping(p, s, *x, kinetic)) return finished(p, s, *x, kinetic);
   }
-  Enumerated all = all_solutions(p);
+  EnumerationResult all = all_solutions(p);
   if (all.solutions.empty()) return std::nullopt;
   return std::move(all.solutions.front());
 }
 
-double condition_of(const CoulombProblem& p) { return amplification(scaled(p).W); }
+double condition_number(const CoulombProblem& p) { return amplification(scaled(p).W); }
 
-bool may_have_many(const CoulombProblem& p) {
+bool may_be_nonunique(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   const auto m = static_cast<Index>(p.items.size());
   MatrixXd nt(m, m);  // normal responses to friction at its limit
@@ -390,13 +393,13 @@ Acting acting(const CoulombProblem& p, const CoulombSolution& s) {
 
 }  // namespace
 
-CoulombReading::CoulombReading(const CoulombProblem& p, const CoulombSolution& s,
-                               const Eigen::VectorXd& noise)
+CoulombSignificance::CoulombSignificance(const CoulombProblem& p, const CoulombSolution& s,
+                                         const Eigen::VectorXd& noise)
     : problem_(p), solution_(s), force_noise_(Eigen::VectorXd::Zero(noise.size())), response_noise_(noise) {
   double greatest = 0.0;
   for (Eigen::Index i = 0; i < noise.size(); ++i)
     if (p.W(i, i) > 0.0) greatest = std::max(greatest, std::abs(p.b[i]) / std::sqrt(p.W(i, i)));
-  const double smallest = rounding::of_many * greatest;
+  const double smallest = rounding::many_operations * greatest;
   for (Eigen::Index i = 0; i < noise.size(); ++i) {
     if (!(p.W(i, i) > 0.0)) continue;
     const double unit = std::sqrt(p.W(i, i));
@@ -412,22 +415,24 @@ CoulombReading::CoulombReading(const CoulombProblem& p, const CoulombSolution& s
   response_noise_ += act.columns.cwiseAbs() * forces;
 }
 
-double CoulombReading::applied_normal_force(std::size_t i) const {
+double CoulombSignificance::applied_normal_force(std::size_t i) const {
   return item(i).kind == Kind::pressed ? item(i).applied_normal_force : force(normal_place(i));
 }
 
-double CoulombReading::friction(std::size_t i) const { return item(i).friction(solution_.kinetic[i]); }
+double CoulombSignificance::friction(std::size_t i) const { return item(i).friction(solution_.kinetic[i]); }
 
-double CoulombReading::zero_force(Eigen::Index row) const { return noise_of_solution * force_noise_[row]; }
+double CoulombSignificance::force_tolerance(Eigen::Index row) const {
+  return noise_of_solution * force_noise_[row];
+}
 
-bool CoulombReading::is_zero_response(Eigen::Index row) const {
+bool CoulombSignificance::is_zero_response(Eigen::Index row) const {
   return std::abs(response(row)) <= noise_of_solution * response_noise_[row];
 }
 
-bool CoulombReading::is_inside_cone(std::size_t i) const {
+bool CoulombSignificance::is_inside_cone(std::size_t i) const {
   const Eigen::Index n = normal_place(i), t = tangent_place(i);
   const double f = friction(i);
-  return f * applied_normal_force(i) - std::abs(force(t)) > zero_force(t) + f * zero_force(n);
+  return f * applied_normal_force(i) - std::abs(force(t)) > force_tolerance(t) + f * force_tolerance(n);
 }
 
 }  // namespace signorini::decide

@@ -69,28 +69,28 @@ struct CoulombSolution {
   std::vector<bool> kinetic;        ///< items that have begun to slip: f is the kinetic coefficient
 };
 
-/// Solution by Lemke's method, then, for up to `most_enumerated` items, by trying all states. nullopt: no solution was
+/// Solution by Lemke's method, then, for up to `max_enumerated` items, by trying all states. nullopt: no solution was
 /// found.
 [[nodiscard]] std::optional<CoulombSolution> solve(const CoulombProblem& problem);
 
-inline constexpr std::size_t most_enumerated = 6;
+inline constexpr std::size_t max_enumerated = 6;
 
 /// Result of trying all states.
-struct Enumerated {
+struct EnumerationResult {
   std::vector<CoulombSolution> solutions;  ///< solutions with different responses
   /// Largest violation of a condition by the best combination, in roundings of the problem's size; 0: there is a
   /// solution, NaN: there are too many items.
-  double least_miss = std::numeric_limits<double>::quiet_NaN();
+  double min_violation = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Tries all states of at most `most_enumerated` items.
-[[nodiscard]] Enumerated all_solutions(const CoulombProblem& problem);
+/// Tries all states of at most `max_enumerated` items.
+[[nodiscard]] EnumerationResult all_solutions(const CoulombProblem& problem);
 
 /// Condition number of W in units that make its diagonal one: largest over smallest singular value.
-[[nodiscard]] double condition_of(const CoulombProblem& problem);
+[[nodiscard]] double condition_number(const CoulombProblem& problem);
 
 /// False if friction couples tangent to normal too weakly for more than one solution.
-[[nodiscard]] bool may_have_many(const CoulombProblem& problem);
+[[nodiscard]] bool may_be_nonunique(const CoulombProblem& problem);
 
 // Values of a Coulomb problem's solution that are significant within its noise.
 //
@@ -99,11 +99,11 @@ struct Enumerated {
 // db: noise of the right-hand side. Each df is at least the noise for the contact alone, and at least the rounding of
 // the problem's largest entry, in units that make the diagonal of W one. Units: those of forces and responses.
 
-class CoulombReading {
+class CoulombSignificance {
  public:
   /// Problem and solution must outlive the object. noise: of problem.b, >= 0.
-  CoulombReading(const CoulombProblem& problem, const CoulombSolution& solution,
-                 const Eigen::VectorXd& noise);
+  CoulombSignificance(const CoulombProblem& problem, const CoulombSolution& solution,
+                      const Eigen::VectorXd& noise);
 
   [[nodiscard]] const CoulombItem& item(std::size_t i) const { return problem_.items[i]; }
   [[nodiscard]] double force(Eigen::Index row) const { return solution_.force[row]; }
@@ -112,7 +112,7 @@ class CoulombReading {
   [[nodiscard]] double applied_normal_force(std::size_t i) const;
   [[nodiscard]] double friction(std::size_t i) const;
 
-  [[nodiscard]] double zero_force(Eigen::Index row) const;
+  [[nodiscard]] double force_tolerance(Eigen::Index row) const;
   [[nodiscard]] bool is_zero_response(Eigen::Index row) const;
   /// True if friction is clearly inside its cone: the contact is then at rest, whatever rounding is left in its
   /// response.

@@ -9,97 +9,103 @@
 namespace signorini::decide {
 
 /// Tries all combinations of states of a block, if no other method finds a consistent one.
-Refusal CycleFallback::enumerate(std::size_t block, SolverState& course) {
-  Enumeration enumeration(systems_, jets_);
-  std::vector<Enumeration::Choice> choices;
-  for (const Participant& participant : course.found.participants)
+Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
+  StateEnumeration enumeration(systems_, jets_);
+  std::vector<StateEnumeration::Choice> choices;
+  for (const Participant& participant : solver_state.impact_result.participants)
     if (blocks_.of[participant.contact] == block) choices.push_back(enumeration.choice(participant));
   for (const std::size_t c : blocks_.all[block]) {
     const Contact& contact = model_.contacts[c];
-    if (contact.takes_impulses() || !course.decision.visited[c]) continue;
-    const bool takes_part = std::any_of(choices.begin(), choices.end(),
-                                        [&](const Enumeration::Choice& other) { return other.contact == c; });
+    if (contact.takes_impulses() || !solver_state.decision.visited[c]) continue;
+    const bool takes_part =
+        std::any_of(choices.begin(), choices.end(),
+                    [&](const StateEnumeration::Choice& other) { return other.contact == c; });
     if (!takes_part)
-      choices.push_back(enumeration.choice(c, course.instant.mode[c], course.decision.before[c]));
+      choices.push_back(
+          enumeration.choice(c, solver_state.instant.states[c], solver_state.decision.before[c]));
   }
   Refusal refusal{
       Refusal::Kind::endless,
-      "no combination of states is consistent; guards that fail: " + names_of(model_, course.failed),
-      contacts_of(course.failed)};
-  const auto best = enumeration.least_failing(course.instant, course.after, blocks_.all[block], choices,
-                                              course.found.known, course.mode);
+      "no combination of states is consistent; guards that fail: " + names_of(model_, solver_state.failed),
+      contacts_of(solver_state.failed)};
+  const auto best =
+      enumeration.best_combination(solver_state.instant, solver_state.after, blocks_.all[block], choices,
+                                   solver_state.impact_result.known, solver_state.states);
   if (!best) return refusal;
   refusal.condition = best->condition;
-  refusal.residual = best->forgiveness;
-  if (!best->rival.empty()) {
+  refusal.residual = best->relative_violation;
+  if (!best->alternative.empty()) {
     refusal.kind = Refusal::Kind::ambiguous;
-    refusal.reason = fmt::format("{}; guards that fail in the last that was tried: {}",
-                                 several_motions(model_, choices, *best), names_of(model_, course.failed));
+    refusal.reason =
+        fmt::format("{}; guards that fail in the last that was tried: {}",
+                    several_motions(model_, choices, *best), names_of(model_, solver_state.failed));
   }
   if (!best->acceptable()) return refusal;
-  course.mode = best->mode;
-  for (const std::size_t c : blocks_.all[block]) course.found.known[c] = course.found.known[c].of_motion();
-  course.undecided.push_back(block);
-  course.decision.undecided = true;
-  course.decision.forgiven = std::max(course.decision.forgiven, best->forgiveness);
+  solver_state.states = best->contact_states;
+  for (const std::size_t c : blocks_.all[block])
+    solver_state.impact_result.known[c] = solver_state.impact_result.known[c].of_motion();
+  solver_state.undecided.push_back(block);
+  solver_state.decision.undecided = true;
+  solver_state.decision.tolerated_violation =
+      std::max(solver_state.decision.tolerated_violation, best->relative_violation);
   return {};
 }
 
 /// Lets massless parts leave the failing contact if no combination of states is consistent. False: they cannot, or
 /// already have.
-bool CycleFallback::release(std::size_t block, SolverState& course) {
+bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
   std::vector<std::size_t> circling;
-  for (const Failure& f : course.failed)
+  for (const FailedGuard& f : solver_state.failed)
     if (blocks_.of[f.contact] == block) circling.push_back(f.contact);
   if (circling.size() != 1) return false;
   const std::size_t c = circling.front();
-  std::vector<std::size_t>& before = course.decision.released;
+  std::vector<std::size_t>& before = solver_state.decision.released;
   if (std::find(before.begin(), before.end(), c) != before.end()) return false;
-  auto u = released(systems_, jets_, course.after, course.instant, course.mode, c);
+  auto u = released(systems_, jets_, solver_state.after, solver_state.instant, solver_state.states, c);
   if (!u) return false;
   before.push_back(c);
-  course.instant.u = std::move(*u);
+  solver_state.instant.u = std::move(*u);
   const Contact& contact = model_.contacts[c];
-  course.mode[c] = {contact::let_go(contact, contact.gap_at(course.instant.u)), 0.0};
-  course.found.known[c] = {};
-  course.seen.clear();
+  solver_state.states[c] = {contact::separated_state(contact, contact.gap_at(solver_state.instant.u)), 0.0};
+  solver_state.impact_result.known[c] = {};
+  solver_state.tried_states.clear();
   return true;
 }
 
 /// Continues a decision whose modes repeat, in three steps. First, zeros are blurred: one sample of rounding, and the
 /// clock, may have separated them too sharply. Second, sliders are decided together with the other contacts. Third,
 /// rounding cannot decide, and all combinations are weighed.
-Refusal CycleFallback::leave(SolverState& course) {
-  if (course.make_blurred()) {
-    course.seen.clear();
+Refusal CycleFallback::next_step(SolverState& solver_state) {
+  if (solver_state.increase_noise()) {
+    solver_state.tried_states.clear();
     return {};
   }
-  if (!course.found.sliders) {
-    course.found.sliders = true;
+  if (!solver_state.impact_result.sliders) {
+    solver_state.impact_result.sliders = true;
     return {};
   }
   std::vector<std::size_t> circling;
-  for (const Failure& f : course.failed)
+  for (const FailedGuard& f : solver_state.failed)
     if (circling.empty() ||
         std::find(circling.begin(), circling.end(), blocks_.of[f.contact]) == circling.end())
       circling.push_back(blocks_.of[f.contact]);
   for (const std::size_t block : circling)
-    if (Refusal why = enumerate(block, course))
-      if (!release(block, course)) return why;
+    if (Refusal why = enumerate(block, solver_state))
+      if (!release(block, solver_state)) return why;
   return {};
 }
 
-void leave_pushed_for_later(const Model& model, const std::vector<bool>& visited,
-                            const std::vector<std::size_t>& block_of, std::vector<Failure>& failed) {
-  const auto does_not_stick = [&](const Failure& f) {
+void defer_pushed_failures(const Model& model, const std::vector<bool>& visited,
+                           const std::vector<std::size_t>& block_of, std::vector<FailedGuard>& failed) {
+  const auto does_not_stick = [&](const FailedGuard& f) {
     const Contact& contact = model.contacts[f.contact];
     return visited[f.contact] && contact::is_friction_limit(f.guard) && f.sign.order == 0 &&
            contact.sticks_rigidly() && !contact.takes_impulses();
   };
   std::vector<std::size_t> blocks;
-  for (const Failure& f : failed)
+  for (const FailedGuard& f : failed)
     if (does_not_stick(f)) blocks.push_back(block_of[f.contact]);
-  std::erase_if(failed, [&](const Failure& f) {
+  std::erase_if(failed, [&](const FailedGuard& f) {
     return !visited[f.contact] && f.sign.order == 0 &&
            std::find(blocks.begin(), blocks.end(), block_of[f.contact]) != blocks.end();
   });

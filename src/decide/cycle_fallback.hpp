@@ -34,11 +34,11 @@ class CycleFallback {
       : model_(systems.model()), systems_(systems), jets_(jets), blocks_(blocks) {}
 
   /// Takes the next step. A refusal means that there is none.
-  [[nodiscard]] Refusal leave(SolverState& course);
+  [[nodiscard]] Refusal next_step(SolverState& solver_state);
 
  private:
-  [[nodiscard]] Refusal enumerate(std::size_t block, SolverState& course);
-  [[nodiscard]] bool release(std::size_t block, SolverState& course);
+  [[nodiscard]] Refusal enumerate(std::size_t block, SolverState& solver_state);
+  [[nodiscard]] bool release(std::size_t block, SolverState& solver_state);
 
   const Model& model_;
   motion::StateSystems& systems_;
@@ -57,7 +57,7 @@ class CycleFallback {
 /// If a contact that was decided before is beyond the limit of rigid friction, removes failures of other contacts of
 /// its block that were not decided before: failures of values, not of rates. visited: one entry per contact; block_of:
 /// its block.
-void leave_pushed_for_later(const Model& model, const std::vector<bool>& visited,
-                            const std::vector<std::size_t>& block_of, std::vector<Failure>& failed);
+void defer_pushed_failures(const Model& model, const std::vector<bool>& visited,
+                           const std::vector<std::size_t>& block_of, std::vector<FailedGuard>& failed);
 
 }  // namespace signorini::decide

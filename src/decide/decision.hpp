@@ -17,15 +17,15 @@ namespace signorini::decide {
 /// Value of a guard just after the decision.
 struct GuardStart {
   Guard kind = Guard::none;
-  bool at_zero = false;  ///< starts at zero and rises
-  int leading = 0;       ///< order of its first nonzero derivative; -1: none is known
-  double noise = 0.0;    ///< rounding of its value at the start; at least the value that was taken as zero
-  std::array<double, 2> loose{};  ///< leading < 0: rounding of its second and third derivatives
+  bool at_zero = false;   ///< starts at zero and rises
+  int leading_order = 0;  ///< order of its first nonzero derivative; -1: none is known
+  double noise = 0.0;     ///< rounding of its value at the start; at least the value that was taken as zero
+  std::array<double, 2> derivative_noise{};  ///< leading < 0: rounding of its second and third derivatives
 
   /// Possible drift of the guard by rounding after a time h if no derivative determines it: a body at rest beside a
   /// wall drifts. 0 if the drift is beyond the range of numbers.
   [[nodiscard]] double drift(double h) const {
-    const double far = h * h * (loose[0] / 2.0 + h * loose[1] / 6.0);
+    const double far = h * h * (derivative_noise[0] / 2.0 + h * derivative_noise[1] / 6.0);
     return std::isfinite(far) ? far : 0.0;
   }
 };
@@ -38,16 +38,16 @@ struct Crossing {
 };
 
 /// A contact that sticks from an instant on, while rounding leaves open whether it slips.
-struct AtLimit {
+struct ContactAtLimit {
   std::size_t contact = 0;
-  double below = 0.0;  ///< limit of friction minus |T|, as computed; force
-  double noise = 0.0;  ///< rounding of that difference
+  double margin = 0.0;  ///< limit of friction minus |T|, as computed; force
+  double noise = 0.0;   ///< rounding of that difference
 };
 
 struct Decision {
   bool consistent = false;
   Refusal refusal;  ///< reason if there are no consistent states
-  contact::ContactStates mode;
+  contact::ContactStates states;
   motion::StateSystemPtr system;  ///< system of `mode`; engines continue with it
   Vector u, v;
   motion::Jet jet;
@@ -59,26 +59,26 @@ struct Decision {
   std::vector<bool> visited;  ///< contacts that changed state in between, one entry per contact
   std::vector<bool> jumped;   ///< contacts whose N or T jumps
   std::vector<std::size_t>
-      released;                    ///< contacts that massless parts left instantaneously (massless_jump.hpp)
-  std::vector<Impulse> impulses;   ///< one entry per contact if rigid contacts were hit; otherwise empty
-  std::vector<Blow> blows;         ///< single impacts, turn by turn, whose sums are `impulses`
-  std::vector<double> departures;  ///< Findings::departures
-  double impact_loss = 0.0;        ///< energy that the impacts dissipate
-  double impact_surface_work = 0.0;  ///< work of moving surfaces in the impacts
-  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
+      released;                   ///< contacts that massless parts left instantaneously (massless_jump.hpp)
+  std::vector<Impulse> impulses;  ///< one entry per contact if rigid contacts were hit; otherwise empty
+  std::vector<SingleImpact> single_impacts;  ///< single impacts, turn by turn, whose sums are `impulses`
+  std::vector<double> departures;            ///< Findings::departures
+  double impact_loss = 0.0;                  ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;          ///< work of moving surfaces in the impacts
+  bool impact_gains = false;                 ///< an impact gained energy (Newton's law with friction)
   /// True if rounding left the decision open: the states with the smallest violation were taken, or rest continues at
   /// the limit of friction.
   bool undecided = false;
   /// Contacts that rest there, or whose friction drops to the kinetic value if they do not.
-  std::vector<AtLimit> at_limit;
+  std::vector<ContactAtLimit> at_limit;
   /// True if a flight faster than capture_velocity was taken as rest because the clock does not resolve it, or as
   /// landed because it is lower than the rounding of its data.
   bool unresolved = false;
-  double forgiven = 0.0;  ///< violation of those states, in multiples of their rounding
+  double tolerated_violation = 0.0;  ///< violation of those states, in multiples of their rounding
   int rounds = 0;
   /// Impulses along n and t, indexed like forces, that no law of impact gives: they stop contacts that stay, and remove
   /// the velocities that rounding and tolerances leave where zero is exact. Empty: none.
-  Eigen::VectorXd captures = {};
+  Eigen::VectorXd capture_impulses = {};
 
   /// Guard after the decision.
   [[nodiscard]] const GuardForm& guard(std::size_t slot) const {

@@ -52,27 +52,27 @@ Eigen::VectorXd with_reactions(const Model& model, const motion::StateSystem& sy
   return all;
 }
 
-bool settled(const std::vector<Fixed>& fixed, const Vector& v) {
+bool has_velocities(const std::vector<FixedVelocity>& fixed, const Vector& v) {
   return std::all_of(fixed.begin(), fixed.end(),
-                     [&](const Fixed& f) { return f.value - f.form->dot(v) == 0.0; });
+                     [&](const FixedVelocity& f) { return f.value - f.form->dot(v) == 0.0; });
 }
 
-Eigen::VectorXd settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
-  if (settled(fixed, v)) return {};
+Eigen::VectorXd impose_velocities(const Delassus& d, const std::vector<FixedVelocity>& fixed, Vector& v) {
+  if (has_velocities(fixed, v)) return {};
   const auto count = static_cast<Eigen::Index>(fixed.size());
   std::vector<Eigen::Index> rows;
-  for (const Fixed& f : fixed) rows.push_back(f.row);
+  for (const FixedVelocity& f : fixed) rows.push_back(f.row);
   const Eigen::MatrixXd W = d.W(rows, rows), effect = d.effect(Eigen::all, rows);
   Eigen::VectorXd miss(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Fixed& f = fixed[static_cast<std::size_t>(i)];
+    const FixedVelocity& f = fixed[static_cast<std::size_t>(i)];
     miss[i] = f.value - f.form->dot(v);
   }
   Eigen::VectorXd impulses = Eigen::VectorXd::Zero(d.W.rows());
   impulses(rows) = base::least_squares(W, miss);
   v += effect * impulses(rows);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
-    const Fixed& f = fixed[i];
+    const FixedVelocity& f = fixed[i];
     const bool both = i + 1 < fixed.size() && is_normal_place(f.row) &&
                       fixed[i + 1].row == tangent_place(contact_of_place(f.row));
     if (both)
@@ -95,13 +95,13 @@ bool holds(const Contact& contact, const ContactState& state) {
 }
 
 /// Matrix A: constraint rows of accelerations, and their response to the constraint forces.
-Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& mode,
+Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& states,
                           const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& W) {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd effect = W;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model.contacts[contacts[i]];
-    const ContactState& state = mode[contacts[i]];
+    const ContactState& state = states[contacts[i]];
     const Eigen::Index n = normal_place(i), t = tangent_place(i);
     if (contact.takes_impulses()) rows.push_back(n);
     if (contact.has_friction() && state.state == State::stick) rows.push_back(t);
@@ -142,28 +142,29 @@ bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets) {
   return noise > suspicious * force;
 }
 
-bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStates& mode) {
+bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStates& states) {
   const Model& model = systems.model();
   std::vector<std::size_t> contacts;
-  contact::ContactStates free = mode;
-  for (std::size_t c = 0; c < mode.size(); ++c)
-    if (holds(model.contacts[c], mode[c])) {
+  contact::ContactStates free = states;
+  for (std::size_t c = 0; c < states.size(); ++c)
+    if (holds(model.contacts[c], states[c])) {
       contacts.push_back(c);
       free[c] = {State::open, 0.0};
     }
   if (contacts.size() < 2) return true;  // normal and tangent of one contact are independent
-  const motion::StateSystemPtr system = systems.of(free);
+  const motion::StateSystemPtr system = systems.system_of(free);
   if (!system) return true;
   Eigen::MatrixXd W = delassus(model, *system, contacts).W;
-  if (const motion::StateSystemPtr held = systems.of(mode))
+  if (const motion::StateSystemPtr held = systems.system_of(states))
     add_shares(model.layout, held->factorised().shared, contacts, W);
-  Eigen::MatrixXd a = held_part(model, mode, contacts, W);
+  Eigen::MatrixXd a = held_part(model, states, contacts, W);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
   for (Eigen::Index i = 0; i < a.rows(); ++i)
     for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) /= size[i] * size[j];
   const Eigen::VectorXd singular = base::singular_values(a);
-  return singular.minCoeff() > rounding::of_many * static_cast<double>(a.rows()) * singular.maxCoeff();
+  return singular.minCoeff() >
+         rounding::many_operations * static_cast<double>(a.rows()) * singular.maxCoeff();
 }
 
 namespace {
@@ -181,7 +182,7 @@ Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, co
   Shares shares;
   const Eigen::VectorXd size = p.W.cwiseAbs() * s.force.cwiseAbs() + p.b.cwiseAbs();
   const auto rests = [&](Eigen::Index row) {
-    return std::abs(s.response[row]) <= rounding::of_elimination * size[row];
+    return std::abs(s.response[row]) <= rounding::elimination * size[row];
   };
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
@@ -217,8 +218,8 @@ Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, co
 
 }  // namespace
 
-void share_fairly(const CoulombProblem& problem, const std::vector<bool>& may_share,
-                  CoulombSolution& solution) {
+void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may_share,
+                     CoulombSolution& solution) {
   const Shares shares = shares_of(problem, may_share, solution);
   if (shares.rows.size() < 2 || shares.resting.empty()) return;
   const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // moves nothing

@@ -24,16 +24,17 @@ struct Delassus {
 };
 
 /// A velocity along n or t of a listed contact that is known exactly. row: decide/coulomb_problem.hpp.
-struct Fixed {
+struct FixedVelocity {
   Eigen::Index row;
   const Combination* form;
   double value;
 };
 /// True if v has exactly these velocities.
-[[nodiscard]] bool settled(const std::vector<Fixed>& fixed, const Vector& v);
+[[nodiscard]] bool has_velocities(const std::vector<FixedVelocity>& fixed, const Vector& v);
 /// Gives v these velocities to the last digit, by the smallest change in the norm of M; the computed v has them only up
 /// to the rounding of an elimination. Returns the impulses of this change, one per row of `delassus`; empty: none.
-Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);
+Eigen::VectorXd impose_velocities(const Delassus& delassus, const std::vector<FixedVelocity>& fixed,
+                                  Vector& v);
 
 [[nodiscard]] Delassus delassus(const Model& model, const motion::StateSystem& system,
                                 const std::vector<std::size_t>& contacts);
@@ -56,7 +57,7 @@ Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed
 [[nodiscard]] bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets);
 
 /// False if the smallest singular value is the rounding of zero.
-[[nodiscard]] bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStates& mode);
+[[nodiscard]] bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStates& states);
 
 // Forces of rigid contacts and sliders that accelerations leave open.
 //
@@ -72,7 +73,7 @@ Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed
 // whose force of least norm lies on its cone is at its limit.
 
 /// Replaces the forces of items of which others may hold the same motion, `may_share`, where that changes no response.
-void share_fairly(const CoulombProblem& problem, const std::vector<bool>& may_share,
-                  CoulombSolution& solution);
+void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may_share,
+                     CoulombSolution& solution);
 
 }  // namespace signorini::decide

@@ -8,7 +8,7 @@
 #include "contact/friction.hpp"
 #include "decide/coulomb_problem.hpp"
 #include "decide/delassus.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 
 namespace signorini::decide {
 namespace {
@@ -33,16 +33,16 @@ void hold_normals(CoulombProblem& p) {
 enum class Verdict : unsigned char { open, limit, decided };  // open: not decided yet
 
 void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
-  state.state = contact::slip_along(sign);
+  state.state = contact::slip_state(sign);
   guards.sliding = {order + 1, true};
 }
 
 /// Decides a contact whose friction is at its limit: back into the cone, slip, or still undecided.
-Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, ContactState& state,
+Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t i, ContactState& state,
                     KnownGuards& guards) {
   const int sign = r.item(i).sign;
   const Eigen::Index t = tangent_place(i);
-  if (sign * r.force(t) > r.zero_force(t)) {
+  if (sign * r.force(t) > r.force_tolerance(t)) {
     state.state = State::stick;
     (sign > 0 ? guards.slip_plus : guards.slip_minus) = {order, true};
     return Verdict::decided;
@@ -53,8 +53,8 @@ Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, C
 }
 
 /// Decides the friction of a contact that presses and has not slipped before.
-Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t i, Participant& participant,
-                        ContactState& state, KnownGuards& guards) {
+Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::size_t i,
+                        Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index t = tangent_place(i);
   state.state = State::stick;
@@ -64,20 +64,21 @@ Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t 
     return Verdict::decided;
   }
   const bool two = item.static_friction != item.kinetic_friction;
-  if ((two && !participant.bears_limit) || std::abs(r.force(t)) <= r.zero_force(t)) return Verdict::decided;
+  if ((two && !participant.bears_limit) || std::abs(r.force(t)) <= r.force_tolerance(t))
+    return Verdict::decided;
   // At its limit: with one coefficient the next derivative decides. With two the contact sticks until the guard of the
   // static limit fails; from then on it bears that limit if other contacts hold it.
   participant.sign = -sign_of(r.force(t));
-  state.state = contact::slip_along(participant.sign);
+  state.state = contact::slip_state(participant.sign);
   return Verdict::limit;
 }
 
 /// Decides a contact. If its force is not zero, its response is zero, whatever rounding is left in it.
-Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i, Participant& participant,
-                       ContactState& state, KnownGuards& guards) {
+Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
+                       Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index n = normal_place(i), t = tangent_place(i);
-  if (item.kind != Kind::pressed && !(r.force(n) > r.zero_force(n))) {
+  if (item.kind != Kind::pressed && !(r.force(n) > r.force_tolerance(n))) {
     if (!(r.force(n) > 0.0) && !r.is_zero_response(n)) {
       guards.closing = {order + 2, true};
       return Verdict::decided;
@@ -94,7 +95,7 @@ Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i
     return Verdict::decided;
   }
   if (item.kind == Kind::sliding) {
-    state.state = contact::slip_along(item.sign);
+    state.state = contact::slip_state(item.sign);
     return Verdict::decided;
   }
   return settle_friction(r, order, i, participant, state, guards);
@@ -102,10 +103,10 @@ Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i
 
 /// Contacts whose rows are constraints.
 std::vector<std::size_t> in_force(const std::vector<Participant>& participants,
-                                  const contact::ContactStates& mode) {
+                                  const contact::ContactStates& states) {
   std::vector<std::size_t> result;
   for (const Participant& participant : participants)
-    if (!mode[participant.contact].is_open()) result.push_back(participant.contact);
+    if (!states[participant.contact].is_open()) result.push_back(participant.contact);
   return result;
 }
 
@@ -135,7 +136,7 @@ CoulombItem DerivativeLevels::item_of(const Entry& entry, const motion::Forcing&
   item.kinetic_friction = entry.participant.sliding_friction;
   item.static_friction =
       entry.participant.kinetic ? item.kinetic_friction : contact::static_friction(contact);
-  if (entry.standing == Standing::limit) {
+  if (entry.status == Status::limit) {
     item.kind = Kind::limit;
   } else if (contact.normal_force_given()) {
     item.kind = Kind::pressed;
@@ -148,7 +149,7 @@ CoulombItem DerivativeLevels::item_of(const Entry& entry, const motion::Forcing&
   return item;
 }
 
-Refusal DerivativeLevels::refusal(const Level& level, const Enumerated& all) const {
+Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& all) const {
   const CoulombProblem& problem = level.problem;
   const bool several = all.solutions.size() > 1;
   Refusal result{several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
@@ -157,7 +158,7 @@ Refusal DerivativeLevels::refusal(const Level& level, const Enumerated& all) con
                        "a contact may either press or open)"
                      : "no motion continues this one (Painleve's paradox: friction is so strong that "
                        "pressing a sliding contact pushes it into its surface)",
-                 level.contacts, condition_of(problem), all.least_miss};
+                 level.contacts, condition_number(problem), all.min_violation};
   const double acceleration = model::in_scene_units(model_, 1.0, unit::acceleration);
   const double per_force = acceleration / model::in_scene_units(model_, 1.0, unit::force);
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
@@ -170,7 +171,7 @@ Refusal DerivativeLevels::refusal(const Level& level, const Enumerated& all) con
     const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);
     if (item.kind == Kind::sliding)
       result.reason += fmt::format(", with friction {:.6g} while it slips ({})", sliding * per_force,
-                                   to_string(contact::slip_along(item.sign)));
+                                   to_string(contact::slip_state(item.sign)));
     else if (item.kind == Kind::frictional)
       result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}",
                                    problem.W(n, t) * per_force, item.static_friction);
@@ -192,8 +193,8 @@ void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forci
     const double an = last ? 0.0 : jet.motion[level.order + 1].an,
                  at = last ? 0.0 : jet.motion[level.order + 1].at;
     const Eigen::Index n = normal_place(i), t = tangent_place(i);
-    level.noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
-    level.noise[t] = instant.blur * zero.at + instant.resolution * std::abs(at);
+    level.noise[n] = instant.noise_factor * zero.an + instant.resolution * std::abs(an);
+    level.noise[t] = instant.noise_factor * zero.at + instant.resolution * std::abs(at);
     if (std::abs(now.an) > level.noise[n]) level.problem.b[n] = now.an;
     if (std::abs(now.at) > level.noise[t]) level.problem.b[t] = now.at;
     level.problem.items.push_back(item_of(entries[level.entries[i]], forcing, instant.t));
@@ -202,12 +203,12 @@ void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forci
 
 /// Sets up the problems of the given levels (order, block) for all undecided contacts. False: constraint rows are
 /// dependent.
-bool DerivativeLevels::pose(const Instant& instant, const motion::Forcing& forcing,
-                            const std::vector<Entry>& entries, const contact::ContactStates& mode,
-                            std::vector<Level>& levels) {
+bool DerivativeLevels::set_up_levels(const Instant& instant, const motion::Forcing& forcing,
+                                     const std::vector<Entry>& entries, const contact::ContactStates& states,
+                                     std::vector<Level>& levels) {
   for (Level& level : levels) level = {level.order, level.block, {}, {}, {}, {}, {}};
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (entries[i].standing == Standing::decided) continue;
+    if (entries[i].status == Status::decided) continue;
     const auto of = std::find_if(levels.begin(), levels.end(), [&](const Level& level) {
       return level.block == entries[i].participant.block;
     });
@@ -217,7 +218,7 @@ bool DerivativeLevels::pose(const Instant& instant, const motion::Forcing& forci
   }
   std::erase_if(levels, [](const Level& level) { return level.entries.empty(); });
   if (levels.empty()) return true;
-  const motion::StateSystemPtr system = systems_.of(mode);
+  const motion::StateSystemPtr system = systems_.system_of(states);
   if (!system) return false;
   std::vector<MotionJet> jets;
   const motion::StateSystemPtr at_slip =
@@ -241,8 +242,8 @@ Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolutio
   if (!solution) return refusal(level, all_solutions(problem));
   std::vector<bool> may_share;
   for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
-  share_fairly(problem, may_share, *solution);
-  if (level.entries.size() > most_compared || !may_have_many(problem)) return {};
+  min_norm_forces(problem, may_share, *solution);
+  if (level.entries.size() > most_compared || !may_be_nonunique(problem)) return {};
   // A contact between static and kinetic friction that sticks may also slip; by the law it sticks, so this is not a
   // paradox.
   CoulombProblem settled = problem;
@@ -250,25 +251,25 @@ Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolutio
     CoulombItem& item = settled.items[i];
     item.static_friction = item.kinetic_friction = item.friction(solution->kinetic[i]);
   }
-  const Enumerated all = all_solutions(settled);
+  const EnumerationResult all = all_solutions(settled);
   return all.solutions.size() > 1 ? refusal(level, all) : Refusal{};
 }
 
 /// Takes over the decisions of the solution. True: at least one contact was decided.
-bool DerivativeLevels::settle(const Level& level, const CoulombSolution& solution,
-                              std::vector<Entry>& entries, contact::ContactStates& mode,
-                              std::vector<KnownGuards>& known) const {
-  const CoulombReading reading(level.problem, solution, level.noise);
+bool DerivativeLevels::apply_solution(const Level& level, const CoulombSolution& solution,
+                                      std::vector<Entry>& entries, contact::ContactStates& states,
+                                      std::vector<KnownGuards>& known) const {
+  const CoulombSignificance reading(level.problem, solution, level.noise);
   bool decides = false;
   for (std::size_t i = 0; i < level.entries.size(); ++i) {
     Entry& entry = entries[level.entries[i]];
-    ContactState& state = mode[entry.participant.contact];
+    ContactState& state = states[entry.participant.contact];
     KnownGuards& guards = known[entry.participant.contact];
     const Verdict verdict = level.problem.items[i].kind == Kind::limit
                                 ? leave_limit(reading, level.order, i, state, guards)
                                 : settle_contact(reading, level.order, i, entry.participant, state, guards);
     if (verdict == Verdict::open) continue;
-    entry.standing = verdict == Verdict::limit ? Standing::limit : Standing::decided;
+    entry.status = verdict == Verdict::limit ? Status::limit : Status::decided;
     decides = true;
   }
   return decides;
@@ -276,12 +277,12 @@ bool DerivativeLevels::settle(const Level& level, const CoulombSolution& solutio
 
 Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& forcing,
                                  const std::vector<Participant>& participants,
-                                 const contact::ContactStates& old, contact::ContactStates& mode,
+                                 const contact::ContactStates& old, contact::ContactStates& states,
                                  std::vector<KnownGuards>& known) {
   std::vector<Entry> entries;
   for (const Participant& participant : participants) {
     entries.push_back({participant});
-    mode[participant.contact] = {State::open, 0.0};
+    states[participant.contact] = {State::open, 0.0};
   }
   for (std::size_t order = 0; order < MotionJet::orders; ++order) {
     std::vector<Level> levels;
@@ -291,28 +292,30 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
     // An order of a block is solved again as long as it decides a contact: with the large forces as constraints the
     // small ones stand out from the rounding.
     while (!levels.empty()) {
-      if (!pose(instant, forcing, entries, mode, levels)) return dependent_rows(in_force(participants, mode));
+      if (!set_up_levels(instant, forcing, entries, states, levels))
+        return dependent_rows(in_force(participants, states));
       std::vector<Level> again;
       for (Level& level : levels) {
         std::optional<CoulombSolution> solution;
         if (Refusal why = solve_level(level, solution)) return why;
-        if (solution && settle(level, *solution, entries, mode, known)) again.push_back(std::move(level));
-        systems_.mark_static_limits(mode, forcing, instant.t);
+        if (solution && apply_solution(level, *solution, entries, states, known))
+          again.push_back(std::move(level));
+        systems_.mark_static_limits(states, forcing, instant.t);
       }
       levels = std::move(again);
     }
   }
   // No derivative decides the rest: touching contacts keep their states, contacts at their limit stick.
   for (const Entry& entry : entries) {
-    if (entry.standing == Standing::limit &&
-        systems_.held_by_others(entry.participant.contact, mode, forcing, instant.t)) {
+    if (entry.status == Status::limit &&
+        systems_.held_by_others(entry.participant.contact, states, forcing, instant.t)) {
       known[entry.participant.contact].sliding = Known::at_limit();  // bears its limit at rest
-    } else if (entry.standing == Standing::limit) {
-      mode[entry.participant.contact].state = State::stick;
+    } else if (entry.status == Status::limit) {
+      states[entry.participant.contact].state = State::stick;
       KnownGuards& guards = known[entry.participant.contact];
       (entry.participant.sign > 0 ? guards.slip_plus : guards.slip_minus) = Known::at_limit();
     }
-    if (entry.standing == Standing::apex) mode[entry.participant.contact] = old[entry.participant.contact];
+    if (entry.status == Status::apex) states[entry.participant.contact] = old[entry.participant.contact];
   }
   return {};
 }

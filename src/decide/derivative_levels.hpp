@@ -44,14 +44,14 @@ class DerivativeLevels {
   /// guards, one entry per contact.
   [[nodiscard]] Refusal decide(const Instant& instant, const motion::Forcing& forcing,
                                const std::vector<Participant>& participants,
-                               const contact::ContactStates& old, contact::ContactStates& mode,
+                               const contact::ContactStates& old, contact::ContactStates& states,
                                std::vector<KnownGuards>& known);
 
  private:
-  enum class Standing : unsigned char { apex, limit, decided };
+  enum class Status : unsigned char { apex, limit, decided };
   struct Entry {
     Participant participant;
-    Standing standing = Standing::apex;
+    Status status = Status::apex;
   };
   /// The Coulomb problem of one block and order.
   struct Level {
@@ -64,13 +64,14 @@ class DerivativeLevels {
   [[nodiscard]] CoulombItem item_of(const Entry& entry, const motion::Forcing& forcing, double t) const;
   void fill(const Instant& instant, const motion::Forcing& forcing, const std::vector<Entry>& entries,
             const std::vector<MotionJet>& jets, Level& level) const;
-  [[nodiscard]] bool pose(const Instant& instant, const motion::Forcing& forcing,
-                          const std::vector<Entry>& entries, const contact::ContactStates& mode,
-                          std::vector<Level>& levels);
+  [[nodiscard]] bool set_up_levels(const Instant& instant, const motion::Forcing& forcing,
+                                   const std::vector<Entry>& entries, const contact::ContactStates& states,
+                                   std::vector<Level>& levels);
   [[nodiscard]] Refusal solve_level(Level& level, std::optional<CoulombSolution>& solution) const;
-  [[nodiscard]] bool settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
-                            contact::ContactStates& mode, std::vector<KnownGuards>& known) const;
-  [[nodiscard]] Refusal refusal(const Level& level, const Enumerated& all) const;
+  [[nodiscard]] bool apply_solution(const Level& level, const CoulombSolution& solution,
+                                    std::vector<Entry>& entries, contact::ContactStates& states,
+                                    std::vector<KnownGuards>& known) const;
+  [[nodiscard]] Refusal refusal(const Level& level, const EnumerationResult& all) const;
 
   const Model& model_;
   motion::StateSystems& systems_;

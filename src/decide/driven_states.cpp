@@ -26,13 +26,14 @@ double left_size(const Model& model, const Combination& form, const Vector& x, d
 
 }  // namespace
 
-std::vector<TriggeredGuard> zero_at_start(const Model& model, const Vector& u, const Vector& v,
-                                          const contact::ContactStates& mode) {
+std::vector<TriggeredGuard> guards_zero_at_start(const Model& model, const Vector& u, const Vector& v,
+                                                 const contact::ContactStates& states) {
   std::vector<TriggeredGuard> result;
-  for (std::size_t c = 0; c < model.continues.size(); ++c) {
+  for (std::size_t c = 0; c < model.saved_contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (!contact.is_elastic_along_normal() || contact.compliance_split()) continue;
-    const bool was_open = model.continues[c].state == to_string(State::open), is_now = mode[c].is_open();
+    const bool was_open = model.saved_contacts[c].state == to_string(State::open),
+               is_now = states[c].is_open();
     if (was_open == is_now) continue;
     const double kn = contact.normal_stiffness, cn = contact.normal_damping, gap = contact.gap_at(u);
     const Scales& scales = model.scales;
@@ -41,29 +42,29 @@ std::vector<TriggeredGuard> zero_at_start(const Model& model, const Vector& u, c
     const double rate_terms = left_size(model, contact.normal, v, scales.velocity, scales.angular_velocity);
     // The contact closes at g = 0, and opens at N = kn g + cn g' = 0.
     const double off = was_open ? kn * gap + cn * contact::gap_rate(contact, v) : kn * gap;
-    const double zero =
-        rounding::of_many * kn * gap_terms + (was_open ? rounding::of_many * cn * rate_terms : 0.0);
+    const double zero = rounding::many_operations * kn * gap_terms +
+                        (was_open ? rounding::many_operations * cn * rate_terms : 0.0);
     if (std::abs(off) <= zero) result.push_back({c, was_open ? Guard::separation : Guard::closing});
   }
   return result;
 }
 
-contact::ContactStates first_mode(const Model& model, const motion::Forcing& forcing, double t,
-                                  const Vector& u, const Vector& v) {
-  contact::ContactStates mode;
+contact::ContactStates initial_states(const Model& model, const motion::Forcing& forcing, double t,
+                                      const Vector& u, const Vector& v) {
+  contact::ContactStates states;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (const std::vector<State> own = contact.law->own_states(); !own.empty()) {
-      mode.push_back({own[contact.own_state], contact.own_memory});
+    if (const std::vector<State> own = contact.law->user_law_states(); !own.empty()) {
+      states.push_back({own[contact.initial_law_state], contact.initial_memory});
       continue;
     }
     ContactState s;
     ContactMotion m;
-    contact::set_place(contact, u, forcing.surface(c, t, 0), m);
+    contact::set_displacement(contact, u, forcing.surface(c, t, 0), m);
     contact::set_velocity(contact, v, forcing.surface(c, t, 1), m);
     // A touching rigid contact is decided together with the others.
     const bool carries =
-        contact.normal_force_given() ? !forcing.lifted(c) : contact.normal_spring() && m.gap < 0.0;
+        contact.normal_force_given() ? !forcing.is_unloaded(c) : contact.normal_spring() && m.gap < 0.0;
     if (carries) {
       s.state = contact::state_at_rest(contact);
       if (contact.tangential_stiffness) {
@@ -71,22 +72,22 @@ contact::ContactStates first_mode(const Model& model, const motion::Forcing& for
       }
       const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
       if (contact.sticks_rigidly() &&
-          std::abs(m.vt) > rounding::of_many * size + forcing.surface_rounding(c, t))
-        s.state = contact::slip_along(m.vt);
+          std::abs(m.vt) > rounding::many_operations * size + forcing.surface_rounding(c, t))
+        s.state = contact::slip_state(m.vt);
       else if (contact.has_friction() && contact.initial_slip != 0)
         s.state = contact.initial_slip > 0 ? State::slip_plus : State::slip_minus;
     }
-    mode.push_back(s);
+    states.push_back(s);
   }
-  return mode;
+  return states;
 }
 
-bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
-               const std::vector<MotionJet>& after, contact::ContactStates& mode) {
+bool resolve_slip_reversal(const Model& model, const std::vector<ContactMotion>& before,
+                           const std::vector<MotionJet>& after, contact::ContactStates& states) {
   bool turned = false;
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    const int sign = slip_sign(mode[c].state);
+    const int sign = slip_sign(states[c].state);
     if (sign == 0 || !contact.anchor_spring()) continue;
     const bool massless = std::any_of(
         contact.tangent.terms.begin(), contact.tangent.terms.end(),
@@ -96,24 +97,24 @@ bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
                  slip = contact::slip_of(contact, after[c].motion[0]) - p;
     const ContactMotion& noise = after[c].noise[0];
     if (!(-sign * slip > 2.0 * (noise.ut + noise.T / *contact.tangential_stiffness))) continue;
-    mode[c] = {State::stick, p};
+    states[c] = {State::stick, p};
     turned = true;
   }
   return turned;
 }
 
-void follow_forcing(const Model& model, const Instant& instant, const motion::Forcing& before,
-                    const motion::Forcing& after, const std::vector<ContactMotion>& motion,
-                    contact::ContactStates& mode) {
+void apply_forcing_jump(const Model& model, const Instant& instant, const motion::Forcing& before,
+                        const motion::Forcing& after, const std::vector<ContactMotion>& motion,
+                        contact::ContactStates& states) {
   const double t = instant.t;
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    ContactState& s = mode[c];
+    ContactState& s = states[c];
     if (contact.normal_spring() || (contact.takes_impulses() && s.is_open())) continue;
     ContactMotion m;
-    contact::set_place(contact, instant.u, after.surface(c, t, 0), m);
+    contact::set_displacement(contact, instant.u, after.surface(c, t, 0), m);
     contact::set_velocity(contact, instant.v, after.surface(c, t, 1), m);
-    if (after.lifted(c)) {
+    if (after.is_unloaded(c)) {
       s = {State::open, 0.0};
       continue;
     }
@@ -121,12 +122,12 @@ void follow_forcing(const Model& model, const Instant& instant, const motion::Fo
     const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
     if (std::abs(surface_jump) <= same_value * (speed + model.scales.velocity)) surface_jump = 0.0;
-    const bool moves =
-        std::abs(m.vt) > rounding::of_many * (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
-                             after.surface_rounding(c, t);
+    const bool moves = std::abs(m.vt) > rounding::many_operations *
+                                                (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
+                                            after.surface_rounding(c, t);
     if (s.is_open()) {
       s = {contact::state_at_rest(contact), m.ut};
-      if (contact.sticks_rigidly() && moves) s.state = contact::slip_along(m.vt);
+      if (contact.sticks_rigidly() && moves) s.state = contact::slip_state(m.vt);
       continue;
     }
     const int sign = slip_sign(s.state);
@@ -136,7 +137,7 @@ void follow_forcing(const Model& model, const Instant& instant, const motion::Fo
       if (sign != 0 && now - then > same_value * (std::abs(now) + std::abs(then)))
         s = {State::stick, contact::slip_of(contact, m.ut, motion[c].T)};
     } else if (contact.sticks_rigidly() && surface_jump != 0.0 && moves) {
-      s.state = contact::slip_along(m.vt);
+      s.state = contact::slip_state(m.vt);
     }
   }
 }

@@ -13,24 +13,25 @@
 namespace signorini::decide {
 
 /// Initial guess of the states from displacements and velocities at the start.
-[[nodiscard]] contact::ContactStates first_mode(const Model& model, const motion::Forcing& forcing, double t,
-                                                const Vector& u, const Vector& v);
+[[nodiscard]] contact::ContactStates initial_states(const Model& model, const motion::Forcing& forcing,
+                                                    double t, const Vector& u, const Vector& v);
 
 /// Guards of compliant contacts that were zero at the end of the run that is continued: that run left the contact in
 /// another state than `mode`, which follows from the position alone, and the guard between the two states is zero up to
 /// rounding. Without this the event would occur again.
-[[nodiscard]] std::vector<TriggeredGuard> zero_at_start(const Model& model, const Vector& u, const Vector& v,
-                                                        const contact::ContactStates& mode);
+[[nodiscard]] std::vector<TriggeredGuard> guards_zero_at_start(const Model& model, const Vector& u,
+                                                               const Vector& v,
+                                                               const contact::ContactStates& states);
 
 /// Corrects slip where ut itself may jump, on massless parts: the slip of that instant is found as in statics. A
 /// slipping contact continues if p moves along its slip, from the motion before to that in `mode` after. Otherwise it
 /// sticks where it was, elastic first; its limits decide the rest. True: one more contact sticks.
-[[nodiscard]] bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
-                             const std::vector<MotionJet>& after, contact::ContactStates& mode);
+[[nodiscard]] bool resolve_slip_reversal(const Model& model, const std::vector<ContactMotion>& before,
+                                         const std::vector<MotionJet>& after, contact::ContactStates& states);
 
 /// Changes the states in `mode` where the forcing is not smooth. motion: just before, one entry per contact.
-void follow_forcing(const Model& model, const Instant& instant, const motion::Forcing& before,
-                    const motion::Forcing& after, const std::vector<ContactMotion>& motion,
-                    contact::ContactStates& mode);
+void apply_forcing_jump(const Model& model, const Instant& instant, const motion::Forcing& before,
+                        const motion::Forcing& after, const std::vector<ContactMotion>& motion,
+                        contact::ContactStates& states);
 
 }  // namespace signorini::decide

@@ -30,7 +30,7 @@ double zero_of(const F& guard, const MotionJet& jet, double blur, double resolut
   return zero;
 }
 double zero_of(const GuardForm& guard, const MotionJet& jet, const Instant& instant, std::size_t k) {
-  return zero_of(guard, jet, instant.blur, instant.resolution, k);
+  return zero_of(guard, jet, instant.noise_factor, instant.resolution, k);
 }
 
 /// True if the first `orders` orders determine the sign.
@@ -48,11 +48,11 @@ bool decided_by_orders(const F& guard, const MotionJet& jet, std::size_t first, 
 }
 
 /// The guard of a contact that fails first.
-std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const MotionJet& jet,
-                                  const ContactState& state, const Instant& instant, bool before,
-                                  const KnownGuards& known, const MotionJet* so_far) {
+std::optional<FailedGuard> failure_of(const Contact& contact, std::size_t c, const MotionJet& jet,
+                                      const ContactState& state, const Instant& instant, bool before,
+                                      const KnownGuards& known, const MotionJet* so_far) {
   const auto all = contact::guards(contact, state);
-  std::optional<Failure> soonest;
+  std::optional<FailedGuard> soonest;
   for (const GuardForm& guard : all) {
     if (guard.kind == Guard::none) continue;
     // A guard that the integrator located is zero even if the last rounding is positive. It also decreases, so a
@@ -61,7 +61,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
     Known guard_known = known.of(guard.kind);
     if (triggered && guard.value(jet.motion[0]) > 0.0)
       guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
-    const MotionJet* base = so_far ? rested(contact, c, state, guard, *so_far, instant) : nullptr;
+    const MotionJet* base = so_far ? resting_reference(contact, c, state, guard, *so_far, instant) : nullptr;
     Sign sign = sign_of_guard(guard, jet, instant, guard_known, base);
     if (triggered && !instant.jump && sign.sign > 0 && sign.order == 1) {
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
@@ -70,7 +70,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
     // The guard that fails first counts: a friction limit exceeded now takes precedence over a compression that ends
     // later. In a tie, separation (the first guard) counts: with N = 0 the friction limit is zero, too.
     if (sign.sign >= 0 || (soonest && sign.order >= soonest->sign.order)) continue;
-    soonest = Failure{c, guard.kind, guard, sign};
+    soonest = FailedGuard{c, guard.kind, guard, sign};
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
   // In a vertical lift-off, friction limit and compression vanish together: one separation.
@@ -87,11 +87,11 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
 
 }  // namespace
 
-const MotionJet* rested(const Contact& contact, std::size_t c, const ContactState& state,
-                        const GuardForm& guard, const MotionJet& so_far, const Instant& instant) {
+const MotionJet* resting_reference(const Contact& contact, std::size_t c, const ContactState& state,
+                                   const GuardForm& guard, const MotionJet& so_far, const Instant& instant) {
   const auto rests = [&](const GuardForm& limit) {
     const bool is_zero = limit.value(so_far.motion[0]) <= zero_of(limit, so_far, instant, 0);
-    return is_zero && instant.has_rested(c, limit.kind);
+    return is_zero && instant.is_resting_limit(c, limit.kind);
   };
   bool any = rests(guard);
   if (guard.kind == Guard::sliding && contact.anchor_spring())
@@ -120,11 +120,11 @@ Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& i
 
 bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant) {
   const double zero =
-      instant.blur * noise_of(form, jet, 0) + instant.resolution * std::abs(derivative(form, jet, 1));
+      instant.noise_factor * noise_of(form, jet, 0) + instant.resolution * std::abs(derivative(form, jet, 1));
   return std::abs(form.value(jet.motion[0])) <= zero;
 }
 
-const GuardsOfState& GuardsInForce::of(std::size_t c, const ContactState& state) {
+const GuardsOfState& GuardCache::of(std::size_t c, const ContactState& state) {
   if (states_[c] != state) {
     states_[c] = state;
     forms_.set(c, contact::guards(model_.contacts[c], state));
@@ -136,8 +136,9 @@ bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet
                 const Instant& instant, const KnownGuards& known, double most_blur) {
   if (orders == MotionJet::orders) return true;
   // If a limit has rested, differences to another motion count: rested().
-  if (instant.has_rested(c, Guard::slip_plus) || instant.has_rested(c, Guard::slip_minus)) return false;
-  const double blur = most_blur * instant.blur, resolution = most_blur * instant.resolution;
+  if (instant.is_resting_limit(c, Guard::slip_plus) || instant.is_resting_limit(c, Guard::slip_minus))
+    return false;
+  const double blur = most_blur * instant.noise_factor, resolution = most_blur * instant.resolution;
   for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
     // A located guard is zero, and so is a positive rate: failure_of().
@@ -151,7 +152,8 @@ bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet
   return true;
 }
 
-double forgiveness(const GuardForm& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
+double relative_violation(const GuardForm& form, const MotionJet& jet, const Instant& instant,
+                          std::size_t first) {
   double most = 0.0;
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
     const double ratio = derivative(form, jet, k) / zero_of(form, jet, instant, k);
@@ -161,13 +163,14 @@ double forgiveness(const GuardForm& form, const MotionJet& jet, const Instant& i
   return most;
 }
 
-std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
-                              const contact::ContactStates& mode, const Instant& instant, bool before,
-                              const std::vector<KnownGuards>& known, const std::vector<MotionJet>& so_far,
-                              const std::vector<std::size_t>& asked) {
-  std::vector<Failure> result;
+std::vector<FailedGuard> find_failed_guards(const Model& model, const std::vector<MotionJet>& jets,
+                                            const contact::ContactStates& states, const Instant& instant,
+                                            bool before, const std::vector<KnownGuards>& known,
+                                            const std::vector<MotionJet>& so_far,
+                                            const std::vector<std::size_t>& asked) {
+  std::vector<FailedGuard> result;
   for (const std::size_t c : asked)
-    if (auto failed = failure_of(model.contacts[c], c, jets[c], mode[c], instant, before, known[c],
+    if (auto failed = failure_of(model.contacts[c], c, jets[c], states[c], instant, before, known[c],
                                  so_far.empty() ? nullptr : &so_far[c]))
       result.push_back(std::move(*failed));
   return result;

@@ -86,10 +86,10 @@ struct KnownGuards {
       case Guard::sliding:
         return sliding;
       case Guard::none:
-      case Guard::clearing:
-      case Guard::own_1:
-      case Guard::own_2:
-      case Guard::own_3:
+      case Guard::opening:
+      case Guard::user_1:
+      case Guard::user_2:
+      case Guard::user_3:
         break;
     }
     return {};
@@ -105,17 +105,17 @@ struct Sign {
 /// Returns so_far, the motion of the contact up to the instant, if the guard has rested and has not risen since;
 /// otherwise null. The slip rate of a slipping state, p' = -(fs |N| - T)' / kt, counts as rested if the limit that the
 /// contact left has rested.
-[[nodiscard]] const MotionJet* rested(const Contact& contact, std::size_t c, const ContactState& state,
-                                      const GuardForm& guard, const MotionJet& so_far,
-                                      const Instant& instant);
+[[nodiscard]] const MotionJet* resting_reference(const Contact& contact, std::size_t c,
+                                                 const ContactState& state, const GuardForm& guard,
+                                                 const MotionJet& so_far, const Instant& instant);
 /// Sign of the first derivative of the form, from order `first` on, that is not zero to working precision. base: a
 /// motion in which the form is exactly zero; the difference to it counts.
 [[nodiscard]] Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                               std::size_t first, const MotionJet* base = nullptr);
 [[nodiscard]] bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant);
 /// Factor of its rounding that makes the form lexicographically nonnegative; 0: it is nonnegative.
-[[nodiscard]] double forgiveness(const GuardForm& form, const MotionJet& jet, const Instant& instant,
-                                 std::size_t first);
+[[nodiscard]] double relative_violation(const GuardForm& form, const MotionJet& jet, const Instant& instant,
+                                        std::size_t first);
 /// Sign of a guard with known signs; a guard that is known to rise is tested only for a clear contradiction.
 [[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
@@ -129,13 +129,13 @@ using GuardsOfState = std::array<GuardForm, contact::guards_per_contact>;
                               double most_blur);
 
 /// The guards of every contact; copies share those of contacts whose states have not changed since.
-using GuardForms = base::SharedVector<GuardsOfState>;
+using GuardForms = base::CopyOnWriteVector<GuardsOfState>;
 
 /// Cache of the guards of contacts in their last states, most of which have not changed.
-class GuardsInForce {
+class GuardCache {
  public:
   /// The model must outlive the object.
-  explicit GuardsInForce(const Model& model)
+  explicit GuardCache(const Model& model)
       : model_(model), states_(model.contacts.size()), forms_(model.contacts.size()) {}
   [[nodiscard]] const GuardsOfState& of(std::size_t contact, const ContactState& state);
   /// All guards in the cache.
@@ -147,7 +147,7 @@ class GuardsInForce {
   GuardForms forms_;
 };
 
-struct Failure {
+struct FailedGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
   GuardForm form = {};
@@ -157,10 +157,9 @@ struct Failure {
 /// The guard that fails first, for each contact with a failing guard. before: the mode is that of the motion up to the
 /// instant, so located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one entry
 /// per contact, needed if limits have rested. asked: contacts that may fail, ascending.
-[[nodiscard]] std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
-                                            const contact::ContactStates& mode, const Instant& instant,
-                                            bool before, const std::vector<KnownGuards>& known,
-                                            const std::vector<MotionJet>& so_far,
-                                            const std::vector<std::size_t>& asked);
+[[nodiscard]] std::vector<FailedGuard> find_failed_guards(
+    const Model& model, const std::vector<MotionJet>& jets, const contact::ContactStates& states,
+    const Instant& instant, bool before, const std::vector<KnownGuards>& known,
+    const std::vector<MotionJet>& so_far, const std::vector<std::size_t>& asked);
 
 }  // namespace signorini::decide

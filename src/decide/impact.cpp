@@ -11,7 +11,7 @@
 #include "contact/motion.hpp"
 #include "decide/coulomb_problem.hpp"
 #include "decide/delassus.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 
 namespace signorini::decide {
 namespace {
@@ -21,18 +21,18 @@ namespace {
 constexpr double no_gain = 1e-9;
 
 /// Lets all contacts go that can stick rigidly: only then does the system's matrix give the effect of an impulse.
-contact::ContactStates released(const Model& model, contact::ContactStates mode) {
-  for (std::size_t c = 0; c < mode.size(); ++c)
+contact::ContactStates released(const Model& model, contact::ContactStates states) {
+  for (std::size_t c = 0; c < states.size(); ++c)
     if (const Contact& contact = model.contacts[c]; contact.takes_impulses() || contact.sticks_rigidly())
-      mode[c] = {State::open, 0.0};
-  return mode;
+      states[c] = {State::open, 0.0};
+  return states;
 }
 
 }  // namespace
 
-Vector Impacts::close(const contact::ContactStates& mode, const std::vector<std::size_t>& touching,
-                      Vector u) {
-  const motion::StateSystemPtr system = systems_.of(released(model_, mode));
+Vector ImpactSolver::close_gaps(const contact::ContactStates& states,
+                                const std::vector<std::size_t>& touching, Vector u) {
+  const motion::StateSystemPtr system = systems_.system_of(released(model_, states));
   if (!system) return u;
   const Delassus d = delassus(model_, *system, touching);
   const auto m = static_cast<Eigen::Index>(touching.size());
@@ -50,17 +50,19 @@ Vector Impacts::close(const contact::ContactStates& mode, const std::vector<std:
   return u;
 }
 
-Impacts::Hit Impacts::meet(const motion::Forcing& forcing, double t, const motion::StateSystem& system,
-                           const std::vector<std::size_t>& touching, const Vector& v) const {
+ImpactSolver::ImpactProblem ImpactSolver::set_up(const motion::Forcing& forcing, double t,
+                                                 const motion::StateSystem& system,
+                                                 const std::vector<std::size_t>& touching,
+                                                 const Vector& v) const {
   const auto m = static_cast<Eigen::Index>(touching.size());
-  Hit hit{delassus(model_, system, touching),
-          {},
-          Eigen::VectorXd(place_count(m)),
-          Eigen::VectorXd(place_count(m)),
-          {},
-          Eigen::VectorXd(m),
-          {},
-          {}};
+  ImpactProblem hit{delassus(model_, system, touching),
+                    {},
+                    Eigen::VectorXd(place_count(m)),
+                    Eigen::VectorXd(place_count(m)),
+                    {},
+                    Eigen::VectorXd(m),
+                    {},
+                    {}};
   hit.problem.W = hit.d.W;
   for (Eigen::Index i = 0; i < m; ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
@@ -75,7 +77,7 @@ Impacts::Hit Impacts::meet(const motion::Forcing& forcing, double t, const motio
     item.static_friction = contact::static_friction(contact);
     item.kinetic_friction = contact::kinetic_friction(contact);
     // In a hit, friction that rises with the slip rate keeps its value from just before.
-    if (contact.friction.rises())
+    if (contact.friction.is_rate_strengthening())
       item.static_friction = item.kinetic_friction =
           contact::sliding_friction(contact, std::abs(hit.before[tangent_place(i)]));
     hit.problem.items.push_back(item);
@@ -85,7 +87,7 @@ Impacts::Hit Impacts::meet(const motion::Forcing& forcing, double t, const motio
 
 /// Computes the velocities after the impact; rebounds slower than capture_velocity are suppressed. False: there is no
 /// solution.
-bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const {
+bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProblem& hit) const {
   const Eigen::Index m = hit.restitution.size();
   hit.rebound = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::quiet_NaN());
   std::vector<bool> may_share;
@@ -97,7 +99,7 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
       hit.problem.b[normal_place(i)] += hit.restitution[i] * std::min(hit.before[normal_place(i)], 0.0);
     hit.solution = signorini::decide::solve(hit.problem);
     if (!hit.solution) return false;
-    share_fairly(hit.problem, may_share, *hit.solution);
+    min_norm_forces(hit.problem, may_share, *hit.solution);
     hit.after = hit.before + hit.d.W * hit.solution->force;
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
@@ -113,10 +115,11 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
 }
 
 /// Makes velocities exact that the solution determines.
-void Impacts::come_to_rest(const motion::Forcing& forcing, double t, const std::vector<std::size_t>& touching,
-                           Hit& hit, Impact& impact) const {
-  const CoulombReading reading(hit.problem, *hit.solution, rounding::of_many * hit.size);
-  std::vector<Fixed> fixed;
+void ImpactSolver::come_to_rest(const motion::Forcing& forcing, double t,
+                                const std::vector<std::size_t>& touching, ImpactProblem& hit,
+                                Impact& impact) const {
+  const CoulombSignificance reading(hit.problem, *hit.solution, rounding::many_operations * hit.size);
+  std::vector<FixedVelocity> fixed;
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const std::size_t c = touching[at];
@@ -131,18 +134,19 @@ void Impacts::come_to_rest(const motion::Forcing& forcing, double t, const std::
     fixed.push_back({along_t, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
     impact.impulses[c].sticks = true;
   }
-  impact.settled = settle(hit.d, fixed, impact.v);
+  impact.correction_impulses = impose_velocities(hit.d, fixed, impact.v);
 }
 
 /// Computes impulses and energies.
-void Impacts::balance(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
-                      const std::vector<std::size_t>& touching, const Hit& hit, Impact& impact) const {
+void ImpactSolver::balance(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
+                           const std::vector<std::size_t>& touching, const ImpactProblem& hit,
+                           Impact& impact) const {
   double greatest = 0.0;
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const double n = hit.solution->force[normal_place(i)], k = hit.solution->force[tangent_place(i)];
     Impulse& impulse = impact.impulses[c];
-    impulse.hit = n > 0.0 && mode[c].is_open();
+    impulse.hit = n > 0.0 && states[c].is_open();
     impulse.normal = n;
     impulse.tangent = k;
     impulse.rebound = hit.rebound[i];
@@ -156,21 +160,21 @@ void Impacts::balance(const motion::Forcing& forcing, double t, const contact::C
   impact.gains = impact.loss < -no_gain * greatest;
 }
 
-Impact Impacts::solve(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
-                      const std::vector<std::size_t>& touching, const Vector& v) {
+Impact ImpactSolver::solve(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
+                           const std::vector<std::size_t>& touching, const Vector& v) {
   Impact impact;
   impact.v = v;
   impact.impulses.resize(model_.contacts.size());
-  const motion::StateSystemPtr system = systems_.of(released(model_, mode));
+  const motion::StateSystemPtr system = systems_.system_of(released(model_, states));
   if (!system) {
     impact.refusal = {Refusal::Kind::singular, "the mass matrix is singular", touching};
     return impact;
   }
-  Hit hit = meet(forcing, t, *system, touching, v);
+  ImpactProblem hit = set_up(forcing, t, *system, touching, v);
   if (!rebound(touching, hit)) {
     impact.refusal = {Refusal::Kind::impact,
                       "the impact has no solution: its complementarity problem ends in a ray", touching,
-                      condition_of(hit.problem)};
+                      condition_number(hit.problem)};
     const double shown = model::in_scene_units(model_, 1.0, unit::velocity);
     for (std::size_t i = 0; i < touching.size(); ++i) {
       const Eigen::Index n = normal_place(i);
@@ -182,39 +186,39 @@ Impact Impacts::solve(const motion::Forcing& forcing, double t, const contact::C
   }
   impact.v += hit.d.effect * hit.solution->force;
   come_to_rest(forcing, t, touching, hit, impact);
-  balance(forcing, t, mode, touching, hit, impact);
+  balance(forcing, t, states, touching, hit, impact);
   return impact;
 }
 
-contact::ContactStates mode_of_impact(const Model& model, contact::ContactStates mode,
-                                      const std::vector<Impulse>& impulses) {
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+contact::ContactStates states_of_impact(const Model& model, contact::ContactStates states,
+                                        const std::vector<Impulse>& impulses) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (!contact.takes_impulses() && !contact.sticks_rigidly()) continue;
-    mode[c] = {State::open, 0.0};
+    states[c] = {State::open, 0.0};
     const Impulse& impulse = impulses[c];
     if (!(impulse.normal > 0.0)) continue;
     if (!contact.has_friction())
-      mode[c].state = State::closed;
+      states[c].state = State::closed;
     else if (impulse.sticks)
-      mode[c].state = State::stick;
+      states[c].state = State::stick;
     else
-      mode[c].state = impulse.tangent > 0.0 ? State::slip_minus : State::slip_plus;
+      states[c].state = impulse.tangent > 0.0 ? State::slip_minus : State::slip_plus;
   }
-  return mode;
+  return states;
 }
 
-std::vector<std::size_t> next_turn(std::vector<Approach>& all) {
+std::vector<std::size_t> next_impact(std::vector<Approach>& all) {
   double soonest = std::numeric_limits<double>::infinity();
   for (const Approach& a : all)
-    if (a.closes()) soonest = std::min(soonest, a.gap / -a.rate);
+    if (a.is_closing()) soonest = std::min(soonest, a.gap / -a.rate);
   std::vector<std::size_t> struck;
   if (soonest == std::numeric_limits<double>::infinity()) return struck;
   for (Approach& a : all) {
     const bool rests = a.gap == 0.0 && a.rate <= a.rest;
     const double gap = rests ? 0.0 : a.gap + a.rate * soonest;
-    a.gap = gap > rounding::of_few * a.gap ? gap : 0.0;  // rounding of a product and a difference
-    if (a.gap == 0.0 && (a.closes() || a.rate <= a.rest)) struck.push_back(a.contact);
+    a.gap = gap > rounding::few_operations * a.gap ? gap : 0.0;  // rounding of a product and a difference
+    if (a.gap == 0.0 && (a.is_closing() || a.rate <= a.rest)) struck.push_back(a.contact);
   }
   return struck;
 }

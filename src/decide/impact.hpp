@@ -33,7 +33,7 @@ struct Impulse {
 };
 
 /// Impulse on one touching contact in one impact. Impacts of an instant are successive: turn 1, 2, ...
-struct Blow {
+struct SingleImpact {
   std::size_t contact = 0;
   int turn = 1;
   double normal = 0.0, tangent = 0.0;
@@ -47,37 +47,38 @@ struct Impact {
   double surface_work = 0.0;      ///< work of moving surfaces
   bool gains = false;             ///< the loss is negative: possible for Newton's law with friction
   /// Impulses that make known velocities exact, rows as in Delassus; empty: none.
-  Eigen::VectorXd settled = {};
+  Eigen::VectorXd correction_impulses = {};
 };
 
-class Impacts {
+class ImpactSolver {
  public:
-  Impacts(motion::StateSystems& systems, double capture_velocity)
+  ImpactSolver(motion::StateSystems& systems, double capture_velocity)
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
   /// u with closed gaps of all touching contacts, by the smallest change in the norm of M; mode: of all other contacts.
-  [[nodiscard]] Vector close(const contact::ContactStates& mode, const std::vector<std::size_t>& touching,
-                             Vector u);
+  [[nodiscard]] Vector close_gaps(const contact::ContactStates& states,
+                                  const std::vector<std::size_t>& touching, Vector u);
   /// Solves an impact. v: velocities before; touching: rigid contacts with g = 0; mode: of all other contacts.
-  [[nodiscard]] Impact solve(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+  [[nodiscard]] Impact solve(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                              const std::vector<std::size_t>& touching, const Vector& v);
 
  private:
   /// Velocities of all touching contacts before and after the impact, and the problem between; rows as in Delassus.
-  struct Hit {
+  struct ImpactProblem {
     Delassus d;
     CoulombProblem problem;
     Eigen::VectorXd before, size, after, restitution;  // size: sum of the absolute terms of `before`
     Eigen::VectorXd rebound;                           // Impulse::rebound, one entry per touching contact
     std::optional<CoulombSolution> solution;
   };
-  [[nodiscard]] Hit meet(const motion::Forcing& forcing, double t, const motion::StateSystem& system,
-                         const std::vector<std::size_t>& touching, const Vector& v) const;
-  [[nodiscard]] bool rebound(const std::vector<std::size_t>& touching, Hit& hit) const;
+  [[nodiscard]] ImpactProblem set_up(const motion::Forcing& forcing, double t,
+                                     const motion::StateSystem& system,
+                                     const std::vector<std::size_t>& touching, const Vector& v) const;
+  [[nodiscard]] bool rebound(const std::vector<std::size_t>& touching, ImpactProblem& hit) const;
   void come_to_rest(const motion::Forcing& forcing, double t, const std::vector<std::size_t>& touching,
-                    Hit& hit, Impact& impact) const;
-  void balance(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
-               const std::vector<std::size_t>& touching, const Hit& hit, Impact& impact) const;
+                    ImpactProblem& hit, Impact& impact) const;
+  void balance(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
+               const std::vector<std::size_t>& touching, const ImpactProblem& hit, Impact& impact) const;
 
   const Model& model_;
   motion::StateSystems& systems_;
@@ -86,8 +87,8 @@ class Impacts {
 
 /// States during an impact: a contact that takes an impulse is closed, sticks or slides according to it; all other
 /// contacts that could take one are open. impulses: one entry per contact.
-[[nodiscard]] contact::ContactStates mode_of_impact(const Model& model, contact::ContactStates mode,
-                                                    const std::vector<Impulse>& impulses);
+[[nodiscard]] contact::ContactStates states_of_impact(const Model& model, contact::ContactStates states,
+                                                      const std::vector<Impulse>& impulses);
 
 // Order of the hits of rigid contacts at one instant.
 //
@@ -106,10 +107,10 @@ struct Approach {
   double hit = 0.0;   ///< closing faster than this is a hit
   bool open = false;  ///< false: it does not close, it presses
 
-  [[nodiscard]] bool closes() const { return open && rate < -hit; }
+  [[nodiscard]] bool is_closing() const { return open && rate < -hit; }
 };
 
 /// Advances all contacts to the next meeting. Returns the contacts hit there; empty: none closes.
-[[nodiscard]] std::vector<std::size_t> next_turn(std::vector<Approach>& all);
+[[nodiscard]] std::vector<std::size_t> next_impact(std::vector<Approach>& all);
 
 }  // namespace signorini::decide

@@ -16,34 +16,34 @@ namespace signorini::decide {
 struct TriggeredGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
-  bool unseen = false;  ///< zero at the beginning, and never observed above its rounding
+  bool never_positive = false;  ///< zero at the beginning, and never observed above its rounding
 };
 
 struct Instant {
   double t = 0.0;
   double resolution = 0.0;  ///< events closer than this in time count as one instant
   Vector u, v;
-  contact::ContactStates mode;  ///< just before
+  contact::ContactStates states;  ///< just before
   std::vector<TriggeredGuard> triggered;
   /// Friction limits that were zero with all their derivatives at the start of the integrator, and that it has not
   /// found to fail since: they are zero under the forcing up to now, whatever rounding has accumulated in them.
-  std::vector<TriggeredGuard> rested = {};
+  std::vector<TriggeredGuard> resting_limits = {};
   /// Last time at which each contact had g = 0, the start if it never had; empty: unknown.
-  std::vector<double> touched = {};
-  bool jump = false;   ///< the forcing is not smooth here
-  double blur = 1.0;   ///< factor of a jet's noise below which its entries are zero
+  std::vector<double> last_touch = {};
+  bool jump = false;          ///< the forcing is not smooth here
+  double noise_factor = 1.0;  ///< factor of a jet's noise below which its entries are zero
   bool start = false;  ///< start of the run: touching rigid contacts are decided even if no guard fails
   /// True if flights lower than the rounding of their gaps are known: a series begins with g = 0 (Stepper).
-  bool knows_low_flights = false;
-  double slow = 0.0;  ///< slip rates up to this one count as rest, in addition to rounding
+  bool resolves_low_flights = false;
+  double rest_speed = 0.0;  ///< slip rates up to this one count as rest, in addition to rounding
   /// True if flights are computed that otherwise count as rest, being slower than capture_velocity or unknown.
-  bool low_flights = false;
+  bool keep_low_flights = false;
 
   [[nodiscard]] bool has_triggered(std::size_t contact, Guard guard) const {
     return has(triggered, contact, guard);
   }
-  [[nodiscard]] bool has_rested(std::size_t contact, Guard guard) const {
-    return has(rested, contact, guard) && !has_triggered(contact, guard);
+  [[nodiscard]] bool is_resting_limit(std::size_t contact, Guard guard) const {
+    return has(resting_limits, contact, guard) && !has_triggered(contact, guard);
   }
 
  private:
@@ -59,7 +59,7 @@ template <class Guarded>
   std::vector<std::string> names;
   for (const Guarded& g : list)
     names.push_back("'" + model.contacts[g.contact].name + "' (" + contact::to_string(g.guard) + ")");
-  return base::listed_plainly(names);
+  return base::join_texts(names);
 }
 template <class Guarded>
 [[nodiscard]] std::vector<std::size_t> contacts_of(const std::vector<Guarded>& list) {

@@ -16,31 +16,31 @@
 
 namespace signorini::decide {
 
-struct MasslessWay {
+struct MasslessPath {
   const Vector &from, &to;
 };
 
 /// A contact that is touched on the way.
-struct TouchOnWay {
+struct PathTouch {
   std::size_t contact;
-  double part;  ///< x
-  double ut;    ///< its ut at this position, relative to the end of the way
+  double fraction;  ///< x
+  double ut;        ///< its ut at this position, relative to the end of the way
 };
 
 /// Contact that the way closes first. Removes from `failed` the contacts that it closes later: after the first touch
 /// the way is a different one. nullopt: the way closes no contact.
-[[nodiscard]] std::optional<TouchOnWay> first_touch(const Model& model, const MasslessWay& way,
-                                                    std::vector<Failure>& failed);
+[[nodiscard]] std::optional<PathTouch> first_touch(const Model& model, const MasslessPath& way,
+                                                   std::vector<FailedGuard>& failed);
 
 /// If another contact of massless parts fails in the value of a guard, these parts are still on their way to the
 /// equilibrium of the tried states. Their slip rates are known only at its end, so failures of slip rates are removed
 /// from `failed`.
-void leave_sliding_for_later(const Model& model, std::vector<Failure>& failed);
+void defer_slip_failures(const Model& model, std::vector<FailedGuard>& failed);
 
 /// True if friction has let a massless part go, and the part has slid instantaneously along its slip and stops at the
 /// end of the way, where the dashpot beside it holds it. noise: of its ut.
-[[nodiscard]] bool stops_on_way(const Contact& contact, const Failure& failure, State slip,
-                                const MasslessWay& way, double noise);
+[[nodiscard]] bool stops_on_path(const Contact& contact, const FailedGuard& failure, State slip,
+                                 const MasslessPath& way, double noise);
 
 // Massless parts that leave a contact instantaneously.
 //
@@ -54,12 +54,12 @@ void leave_sliding_for_later(const Model& model, std::vector<Failure>& failed);
 // close meanwhile, so its gap must have opened by the jump.
 
 /// True if the contact acts on a massless part.
-[[nodiscard]] bool carries_massless(const Model& model, const Contact& contact);
+[[nodiscard]] bool acts_on_massless(const Model& model, const Contact& contact);
 
 /// Displacements after contact c has let go and massless parts have followed. `mode`: states of all other contacts.
 /// nullopt: the contact acts on no massless part, or its gap would not open.
 [[nodiscard]] std::optional<Vector> released(motion::StateSystems& systems, motion::JetMaker& jets,
                                              const motion::Forcing& forcing, const Instant& instant,
-                                             contact::ContactStates mode, std::size_t c);
+                                             contact::ContactStates states, std::size_t c);
 
 }  // namespace signorini::decide

@@ -33,7 +33,7 @@ double rounding_of(const Combination& form, const Vector& v) {
   const double rest = rounding::eps * v.norm();
   double v_squared = 0.0;
   for (const auto& [dof, factor] : form.terms) v_squared += v[dof] * v[dof];
-  return rounding::of_many * norm_of(form) * (std::sqrt(v_squared) + rest);
+  return rounding::many_operations * norm_of(form) * (std::sqrt(v_squared) + rest);
 }
 
 /// Norm of all velocities; rotations have another unit and are omitted.
@@ -64,17 +64,17 @@ double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd&
 void ImpactResult::capture(const Model& model, const std::vector<std::size_t>& contacts,
                            const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return;
-  if (captures.size() == 0) captures.setZero(model.force_count());
+  if (capture_impulses.size() == 0) capture_impulses.setZero(model.force_count());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    captures.data()[model.layout.normal(contacts[i])] += impulses[normal_place(i)];
-    captures.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(i)];
+    capture_impulses.data()[model.layout.normal(contacts[i])] += impulses[normal_place(i)];
+    capture_impulses.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(i)];
   }
 }
 
 void ImpactResult::capture(const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return;
-  if (captures.size() == 0) captures.setZero(impulses.size());
-  captures += impulses;
+  if (capture_impulses.size() == 0) capture_impulses.setZero(impulses.size());
+  capture_impulses += impulses;
 }
 
 RigidContactSolver::RigidContactSolver(motion::StateSystems& systems, motion::JetMaker& jets,
@@ -90,13 +90,13 @@ RigidContactSolver::RigidContactSolver(motion::StateSystems& systems, motion::Je
 /// rounding of the scene's velocities.
 double RigidContactSolver::rounding_of_slide(std::size_t c, const motion::Forcing& forcing,
                                              const Instant& instant) const {
-  const double given = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
+  const double given = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
   return given + rounding_of(model_.contacts[c].tangent, instant.v) +
-         rounding::of_many * std::abs(forcing.surface(c, instant.t, 1)) +
-         forcing.surface_rounding(c, instant.t) + instant.slow;
+         rounding::many_operations * std::abs(forcing.surface(c, instant.t, 1)) +
+         forcing.surface_rounding(c, instant.t) + instant.rest_speed;
 }
 
-double RigidContactSolver::slowest_flight(std::size_t c) const {
+double RigidContactSolver::min_flight_speed(std::size_t c) const {
   return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
 }
 
@@ -111,15 +111,15 @@ RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const
   const ContactMotion &m = free.motion[0], &noise = free.noise[0];
   const double pull = std::max(-m.an, pull_before);
   // A body at rest moves by the rounding of its equilibrium, not of its velocity.
-  const double rounding =
-      instant.blur * noise.vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
-  if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::How::stays : Departure::How::leaves};
-  double low = slowest_flight(c);
-  if (!instant.knows_low_flights)
+  const double rounding = instant.noise_factor * noise.vn + rounding_of(contact.normal, instant.v) +
+                          instant.resolution * std::abs(pull);
+  if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::Type::stays : Departure::Type::leaves};
+  double low = min_flight_speed(c);
+  if (!instant.resolves_low_flights)
     low = std::max(low, std::sqrt(2.0 * pull * std::max(noise.gap, std::abs(m.gap))));
   const double ratio = m.vn / (rounding + low);
-  if (m.vn <= rounding) return {Departure::How::stays, ratio};
-  return {m.vn <= rounding + low ? Departure::How::low : Departure::How::leaves, ratio};
+  if (m.vn <= rounding) return {Departure::Type::stays, ratio};
+  return {m.vn <= rounding + low ? Departure::Type::low : Departure::Type::leaves, ratio};
 }
 
 /// True if a dashpot makes the compression of a contact jump up, by n . (v+ - v-). For velocities that no impulse
@@ -130,7 +130,7 @@ bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, con
   // Rounding of an elimination: the effect of a hit decays by a factor of 0.3 per node of a beam, and is no jump once
   // it is that small.
   const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
-                          4.0 * rounding::of_elimination * norm_of(contact.normal) *
+                          4.0 * rounding::elimination * norm_of(contact.normal) *
                               (speed_of(model_, before) + speed_of(model_, after));
   return contact::gap_rate(contact, after) - contact::gap_rate(contact, before) < -rounding;
 }
@@ -141,29 +141,30 @@ bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, con
 void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& before,
                                          const motion::Forcing& after, const Block& block,
                                          const std::vector<ContactMotion>& motion,
-                                         contact::ContactStates& mode) const {
+                                         contact::ContactStates& states) const {
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
-    if (contact.tangential_stiffness && slip_sign(mode[c].state) != 0 && presses_harder(c, before, instant.v))
-      mode[c] = {State::stick, contact::slip_of(contact, motion[c])};
-    if (!contact.holds_tangent_only() || mode[c].is_open()) continue;
+    if (contact.tangential_stiffness && slip_sign(states[c].state) != 0 &&
+        presses_harder(c, before, instant.v))
+      states[c] = {State::stick, contact::slip_of(contact, motion[c])};
+    if (!contact.holds_tangent_only() || states[c].is_open()) continue;
     const double vt = contact::along_surface(contact, instant.v, after.surface(c, instant.t, 1));
     // Same rounding as in presses_harder: a contact that stuck is at rest up to the rounding of all jumps.
     const double of_jump =
-        slip_sign(mode[c].state) == 0
-            ? rounding::of_elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
+        slip_sign(states[c].state) == 0
+            ? rounding::elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
             : 0.0;
     if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant))
-      mode[c].state = contact::slip_along(vt);
+      states[c].state = contact::slip_state(vt);
   }
 }
 
 /// Sets velocities that count as zero to zero, for all contacts at once: setting one to zero moves the others. False:
 /// they were zero already.
-bool RigidContactSolver::settle_resting(Instant& instant, const motion::Forcing& forcing,
-                                        const motion::StateSystem& free, const Met& met,
-                                        ImpactResult& found) const {
-  std::vector<Fixed> fixed;
+bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
+                                                const motion::StateSystem& free, const TouchingContacts& met,
+                                                ImpactResult& found) const {
+  std::vector<FixedVelocity> fixed;
   for (std::size_t i = 0; i < met.contacts.size(); ++i) {
     const std::size_t c = met.contacts[i];
     const Contact& contact = model_.contacts[c];
@@ -177,15 +178,15 @@ bool RigidContactSolver::settle_resting(Instant& instant, const motion::Forcing&
     fixed.push_back({row + 1, &contact.tangent, forcing.surface(c, instant.t, 1)});
     found.known[c].sliding.zeros = 1;
   }
-  if (settled(fixed, instant.v)) return false;
-  const Eigen::VectorXd impulses = settle(delassus(model_, free, met.contacts), fixed, instant.v);
+  if (has_velocities(fixed, instant.v)) return false;
+  const Eigen::VectorXd impulses = impose_velocities(delassus(model_, free, met.contacts), fixed, instant.v);
   found.capture(with_reactions(model_, free, met.contacts, impulses));
   return true;
 }
 
 /// Updates the direction of slip after other velocities were set to zero. True: one more contact rests.
-bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcing& forcing, const Met& met,
-                                    ImpactResult& found) const {
+bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcing& forcing,
+                                    const TouchingContacts& met, ImpactResult& found) const {
   bool rests = false;
   for (Participant& participant : found.participants) {
     const std::size_t c = participant.contact;
@@ -209,8 +210,8 @@ bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcin
 /// any case.
 RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double da,
                                                            const Instant& instant) const {
-  if (instant.touched.empty()) return {};
-  const double t = instant.t, s = t - instant.touched[c], w = model_.omega_max, du = 0.5 * t * t * da;
+  if (instant.last_touch.empty()) return {};
+  const double t = instant.t, s = t - instant.last_touch[c], w = model_.omega_max, du = 0.5 * t * t * da;
   const double angle = std::min(1.0, w * s);
   const double most = half_of_digits * model_.scales.velocity;
   return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
@@ -219,35 +220,37 @@ RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double
 /// Rounding of a gap. A flight begins with g = 0, so its gap is accurate to the rounding of the sum that g is. For a
 /// contact that never touched, the data of the sum have errors of a few roundings.
 double RigidContactSolver::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
-  const bool flew = !instant.touched.empty() && instant.touched[c] > 0.0;
+  const bool flew = !instant.last_touch.empty() && instant.last_touch[c] > 0.0;
   const Contact& contact = model_.contacts[c];
-  return flew ? rounding::of_few * (contact.normal.magnitude(instant.u) + std::abs(contact.gap)) : of_data;
+  return flew ? rounding::few_operations * (contact.normal.magnitude(instant.u) + std::abs(contact.gap))
+              : of_data;
 }
 
-RigidContactSolver::Met RigidContactSolver::meet(const Instant& instant, const std::vector<MotionJet>& jets,
-                                                 const std::vector<Failure>& failed, const Block& block,
-                                                 const contact::ContactStates& mode) const {
+RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
+    const Instant& instant, const std::vector<MotionJet>& jets, const std::vector<FailedGuard>& failed,
+    const Block& block, const contact::ContactStates& states) const {
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
   // Given motions of rounding size determine a gap no better than motions of the scene's size.
-  const double given = instant.start ? rounding::of_few * model_.scales.displacement : 0.0;
-  const double given_rate = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
-  Met met;
+  const double given = instant.start ? rounding::few_operations * model_.scales.displacement : 0.0;
+  const double given_rate = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
+  TouchingContacts met;
   int together = 0;
   bool doubtful = false;
   for (const std::size_t c : block) {
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
-    const bool open = mode[c].is_open();
+    const bool open = states[c].is_open();
     const Carried carried = carried_by(c, noise.an, instant);
     const double known = rounding_of_gap(c, noise.gap, instant) + given;
     // Whatever has accumulated, closing faster than a rebound that would not rest is a hit.
-    const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
-    Approach a{c, 0.0, m.vn, noise.vn + given_rate + slowest_flight(c), noise.vn + unsure + given_rate, open};
+    const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), min_flight_speed(c));
+    Approach a{c,   0.0, m.vn, noise.vn + given_rate + min_flight_speed(c), noise.vn + unsure + given_rate,
+               open};
     // A contact whose gap has become negative touches, too: it closed with others, within the resolution of the clock.
     const bool pull_before =
-        std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
+        std::any_of(failed.begin(), failed.end(), [&](const FailedGuard& f) { return f.contact == c; });
     const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known;
     const bool split = !touches && (pull_before || std::abs(m.gap) <= known + carried.gap) &&
                        lands_alike(a, instant, jets, failed, block);
@@ -259,11 +262,12 @@ RigidContactSolver::Met RigidContactSolver::meet(const Instant& instant, const s
     met.contacts.push_back(c);
     met.approaches.push_back(a);
     met.apart = met.apart || m.gap != 0.0;
-    met.hit = met.hit || a.closes();
+    met.hit = met.hit || a.is_closing();
     // These contacts are hit together within the accuracy of their data, which do not determine the order.
-    const double own = rounding::of_few * (model_.contacts[c].normal.magnitude(instant.u) +
-                                           std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
-    if (!a.closes() || a.gap > 0.0) continue;
+    const double own =
+        rounding::few_operations * (model_.contacts[c].normal.magnitude(instant.u) +
+                                    std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
+    if (!a.is_closing() || a.gap > 0.0) continue;
     ++together;
     doubtful = doubtful || (!instant.has_triggered(c, Guard::closing) && std::abs(m.gap) > own + given);
   }
@@ -273,35 +277,36 @@ RigidContactSolver::Met RigidContactSolver::meet(const Instant& instant, const s
 
 /// True if the contact moves like one that closes now, up to the rounding of both, or does not move.
 bool RigidContactSolver::lands_alike(const Approach& a, const Instant& instant,
-                                     const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
-                                     const Block& block) const {
+                                     const std::vector<MotionJet>& jets,
+                                     const std::vector<FailedGuard>& failed, const Block& block) const {
   if (std::abs(a.rate) <= a.rest) return true;
   const double alike = a.hit + half_of_digits * model_.scales.velocity;
   return std::any_of(block.begin(), block.end(), [&](std::size_t c) {
     const bool falls =
         instant.has_triggered(c, Guard::closing) ||
-        std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
+        std::any_of(failed.begin(), failed.end(), [&](const FailedGuard& f) { return f.contact == c; });
     const double apart = std::abs(jets[c].motion[0].vn - a.rate);
     return c != a.contact && falls && model_.contacts[c].takes_impulses() && apart <= alike;
   });
 }
 
 /// Computes hits turn by turn, until no contact closes.
-Refusal RigidContactSolver::strike(Instant& instant, const motion::Forcing& forcing, const Met& met,
-                                   const Block& block, ImpactResult& found, Decision& decision,
-                                   contact::ContactStates& mode) {
+Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcing& forcing,
+                                          const TouchingContacts& met, const Block& block,
+                                          ImpactResult& found, Decision& decision,
+                                          contact::ContactStates& states) {
   std::vector<Approach> all = met.approaches;
   for (int turn = 0; turn < most_turns; ++turn) {
-    const Block struck = next_turn(all);
+    const Block struck = next_impact(all);
     if (struck.empty()) return {};
-    if (Refusal why = strike_once(instant, forcing, struck, block, found, decision, mode)) return why;
+    if (Refusal why = apply_impact(instant, forcing, struck, block, found, decision, states)) return why;
     for (Approach& a : all) {
       a.rate = contact::gap_rate(model_.contacts[a.contact], instant.v);
       a.rest = std::max(
-          a.rest, slowest_flight(a.contact) + rounding_of(model_.contacts[a.contact].normal, instant.v));
+          a.rest, min_flight_speed(a.contact) + rounding_of(model_.contacts[a.contact].normal, instant.v));
       a.hit = a.rest;
       if (!(a.rate > a.rest)) continue;
-      mode[a.contact] = {State::open, 0.0};
+      states[a.contact] = {State::open, 0.0};
       a.open = true;
       // A contact that had stopped is thrown off; the record of a contact's own rebound is kept.
       if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
@@ -316,13 +321,13 @@ Refusal RigidContactSolver::strike(Instant& instant, const motion::Forcing& forc
 }
 
 /// Computes one turn.
-Refusal RigidContactSolver::strike_once(Instant& instant, const motion::Forcing& forcing, const Block& struck,
-                                        const Block& block, ImpactResult& found, Decision& decision,
-                                        contact::ContactStates& mode) {
-  const Impact result = impacts_.solve(forcing, instant.t, mode, struck, instant.v);
+Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing& forcing,
+                                         const Block& struck, const Block& block, ImpactResult& found,
+                                         Decision& decision, contact::ContactStates& states) {
+  const Impact result = impacts_.solve(forcing, instant.t, states, struck, instant.v);
   if (result.refusal) return result.refusal;
   const Vector before = std::exchange(instant.v, result.v);
-  found.capture(model_, struck, result.settled);
+  found.capture(model_, struck, result.correction_impulses);
   for (const std::size_t c : block) {
     found.stays[c] = found.rests[c] = false;
     found.known[c].sliding = {};
@@ -330,11 +335,11 @@ Refusal RigidContactSolver::strike_once(Instant& instant, const motion::Forcing&
   decision.impact_loss += result.loss;
   decision.impact_surface_work += result.surface_work;
   decision.impact_gains = decision.impact_gains || result.gains;
-  if (decision.impulses.empty()) decision.impulses.resize(mode.size());
-  const int turn = decision.blows.empty() ? 1 : decision.blows.back().turn + 1;
+  if (decision.impulses.empty()) decision.impulses.resize(states.size());
+  const int turn = decision.single_impacts.empty() ? 1 : decision.single_impacts.back().turn + 1;
   for (const std::size_t c : struck) {
     Impulse& sum = decision.impulses[c];
-    decision.blows.push_back({c, turn, result.impulses[c].normal, result.impulses[c].tangent});
+    decision.single_impacts.push_back({c, turn, result.impulses[c].normal, result.impulses[c].tangent});
     sum.hit = sum.hit || result.impulses[c].hit;
     sum.normal += result.impulses[c].normal;
     sum.tangent += result.impulses[c].tangent;
@@ -342,28 +347,28 @@ Refusal RigidContactSolver::strike_once(Instant& instant, const motion::Forcing&
     sum.sticks = result.impulses[c].sticks;
     sum.rebound = result.impulses[c].rebound;
   }
-  follow_velocity(instant, before, forcing, block, decision.before, mode);
+  follow_velocity(instant, before, forcing, block, decision.before, states);
   return {};
 }
 
 /// Adds contacts that do not leave. free: the motion without forces at all touching contacts.
-void RigidContactSolver::add_staying(const Instant& instant, const motion::Forcing& forcing, const Met& met,
-                                     const std::vector<MotionJet>& free, const Decision& decision,
-                                     ImpactResult& found) const {
+void RigidContactSolver::add_staying(const Instant& instant, const motion::Forcing& forcing,
+                                     const TouchingContacts& met, const std::vector<MotionJet>& free,
+                                     const Decision& decision, ImpactResult& found) const {
   for (const std::size_t c : met.contacts) {
     const Contact& contact = model_.contacts[c];
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
     const Impulse struck = met.hit ? decision.impulses[c] : Impulse{};
     if (!struck.rests && !found.stays[c]) {
-      using How = Departure::How;
-      const bool open = instant.mode[c].is_open();
+      using How = Departure::Type;
+      const bool open = instant.states[c].is_open();
       const double pull_before = open ? -decision.before[c].an : 0.0;
       const auto [how, ratio] = departure(c, free[c], pull_before, instant);
       found.departures[c] = ratio;
-      if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
-      found.grounded = found.grounded || how == How::low;
-      found.unresolved = found.unresolved || (slowest_flight(c) > 0.0 && m.vn > slowest_flight(c));
-      found.slowest = std::max(found.slowest, m.vn);
+      if (how == How::leaves || (how == How::low && instant.keep_low_flights)) continue;
+      found.flight_taken_as_rest = found.flight_taken_as_rest || how == How::low;
+      found.unresolved = found.unresolved || (min_flight_speed(c) > 0.0 && m.vn > min_flight_speed(c));
+      found.max_rest_speed = std::max(found.max_rest_speed, m.vn);
     }
     found.stays[c] = true;
     const double zero =
@@ -382,17 +387,17 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
 
 /// Sets contacts to rest that resting contacts hold, whatever rounding is left in their slip: feet of one body.
 void RigidContactSolver::rest_together(const Instant& instant, const motion::Forcing& forcing,
-                                       const contact::ContactStates& mode, ImpactResult& found) const {
-  contact::ContactStates held = mode;
+                                       const contact::ContactStates& states, ImpactResult& found) const {
+  contact::ContactStates held = states;
   for (const Participant& participant : found.participants)
     held[participant.contact].state = !model_.contacts[participant.contact].has_friction() ? State::closed
-                                      : participant.slipping ? contact::slip_along(participant.sign)
+                                      : participant.slipping ? contact::slip_state(participant.sign)
                                                              : State::stick;
   for (Participant& participant : found.participants) {
     const std::size_t c = participant.contact;
     if (!participant.slipping || !systems_.held_by_others(c, held, forcing, instant.t)) continue;
     const double vt = contact::along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
-    if (std::abs(vt) > slowest_flight(c) + rounding::of_many * model_.scales.velocity) continue;
+    if (std::abs(vt) > min_flight_speed(c) + rounding::many_operations * model_.scales.velocity) continue;
     participant.slipping = false;
     participant.sliding_friction = contact::sliding_friction(model_.contacts[c], 0.0);
     held[c].state = State::stick;
@@ -401,25 +406,25 @@ void RigidContactSolver::rest_together(const Instant& instant, const motion::For
 
 /// Contacts at rest among those that share one motion, if one of these has let go or stopped.
 std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, const motion::Forcing& forcing,
-                                                     const contact::ContactStates& mode,
+                                                     const contact::ContactStates& states,
                                                      const Decision& decision) const {
   std::vector<std::size_t> at_rest;
   for (const std::vector<std::size_t>& group : systems_.sharing()) {
     if (std::none_of(group.begin(), group.end(), [&](std::size_t c) { return decision.visited[c]; }))
       continue;
-    contact::ContactStates held = mode;
+    contact::ContactStates held = states;
     const auto stops = [&](std::size_t c) {
-      if (mode[c].state == State::stick || instant.has_triggered(c, Guard::sliding)) return true;
+      if (states[c].state == State::stick || instant.has_triggered(c, Guard::sliding)) return true;
       const double vt =
           contact::along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
       const double held_too = systems_.held_by_others(c, held, forcing, instant.t)
-                                  ? slowest_flight(c) + rounding::of_many * model_.scales.velocity
+                                  ? min_flight_speed(c) + rounding::many_operations * model_.scales.velocity
                                   : 0.0;
       return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);
     };
     for (int round = 0; round < 2; ++round)  // a stopped contact holds others
       for (const std::size_t c : group)
-        if (model_.contacts[c].normal_force_given() && !mode[c].is_open() && stops(c))
+        if (model_.contacts[c].normal_force_given() && !states[c].is_open() && stops(c))
           held[c].state = State::stick;
     std::copy_if(group.begin(), group.end(), std::back_inserter(at_rest), [&](std::size_t c) {
       return model_.contacts[c].normal_force_given() && held[c].state == State::stick;
@@ -430,17 +435,18 @@ std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, con
 
 /// Adds sliders whose friction has let go or has stopped them, if sliders take part, and sliders that a hit has
 /// stopped.
-void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forcing& forcing, const Met& met,
-                                     const Block& block, const contact::ContactStates& mode,
-                                     const Decision& decision, ImpactResult& found) const {
-  const std::vector<std::size_t> together = sharing(instant, forcing, mode, decision);
+void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forcing& forcing,
+                                     const TouchingContacts& met, const Block& block,
+                                     const contact::ContactStates& states, const Decision& decision,
+                                     ImpactResult& found) const {
+  const std::vector<std::size_t> together = sharing(instant, forcing, states, decision);
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (!contact.holds_tangent_only()) continue;
     const bool shares = std::find(together.begin(), together.end(), c) != together.end();
     const double vt = contact::along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     const bool stopped =
-        met.hit && slip_sign(mode[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
+        met.hit && slip_sign(states[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
     if (!stopped && !shares && !(found.sliders && decision.visited[c])) continue;
     Participant participant{c};
     participant.sliding_friction = contact::sliding_friction(contact, 0.0);
@@ -454,7 +460,7 @@ void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forci
 
 /// Adds sliders that stick rigidly and would otherwise be kept: a consistent state may need them to let go. False:
 /// there are none.
-bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& mode,
+bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,
                                       ImpactResult& found) const {
   std::vector<Participant> all;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -464,7 +470,7 @@ bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const co
       const Contact& contact = model_.contacts[c];
       const bool takes_part = std::any_of(
           all.begin(), all.end(), [&](const Participant& participant) { return participant.contact == c; });
-      if (!contact.holds_tangent_only() || mode[c].state != State::stick || takes_part) continue;
+      if (!contact.holds_tangent_only() || states[c].state != State::stick || takes_part) continue;
       Participant participant{c};
       participant.sliding_friction = contact::sliding_friction(contact, 0.0);
       participant.kinetic = found.kinetic[c];
@@ -482,30 +488,31 @@ bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const co
 /// are decided with the rest.
 Refusal RigidContactSolver::solve_levels(const Instant& instant, const motion::Forcing& forcing,
                                          const std::vector<Block>& blocks, const contact::ContactStates& old,
-                                         ImpactResult& found, contact::ContactStates& mode) {
-  const contact::ContactStates held = mode;
+                                         ImpactResult& found, contact::ContactStates& states) {
+  const contact::ContactStates held = states;
   const std::vector<KnownGuards> known = found.known;
-  Refusal refusal = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  Refusal refusal = levels_.decide(instant, forcing, found.participants, old, states, found.known);
   const bool painleve = refusal.kind == Refusal::Kind::paradox || refusal.kind == Refusal::Kind::ambiguous;
-  const bool dependent = refusal ? refusal.kind == Refusal::Kind::dependent : systems_.of(mode) == nullptr;
+  const bool dependent =
+      refusal ? refusal.kind == Refusal::Kind::dependent : systems_.system_of(states) == nullptr;
   if (!(painleve || dependent) || !add_sticking(blocks, held, found)) return refusal;
-  mode = held;
+  states = held;
   found.known = known;
   for (const Participant& participant : found.participants)
     if (model_.contacts[participant.contact].normal_force_given())
       found.known[participant.contact] = known[participant.contact].of_motion();
-  const Refusal together = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  const Refusal together = levels_.decide(instant, forcing, found.participants, old, states, found.known);
   return together ? refusal : Refusal{};
 }
 
 Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forcing,
-                                   const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                                   const std::vector<MotionJet>& jets, const std::vector<FailedGuard>& failed,
                                    const std::vector<Block>& blocks, ImpactResult& found, Decision& decision,
-                                   contact::ContactStates& mode) {
-  const contact::ContactStates old = mode;
-  std::vector<Met> all;
+                                   contact::ContactStates& states) {
+  const contact::ContactStates old = states;
+  std::vector<TouchingContacts> all;
   for (const Block& block : blocks) {
-    const Met& met = all.emplace_back(meet(instant, jets, failed, block, mode));
+    const TouchingContacts& met = all.emplace_back(find_touching(instant, jets, failed, block, states));
     found.hit = found.hit || met.hit;
     found.unresolved = found.unresolved || met.unresolved;
     for (const std::size_t c : met.contacts) {
@@ -515,38 +522,39 @@ Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forc
     }
   }
   for (std::size_t b = 0; b < all.size(); ++b) {
-    const Met& met = all[b];
+    const TouchingContacts& met = all[b];
     if (met.hit)
-      if (Refusal why = strike(instant, forcing, met, blocks[b], found, decision, mode)) return why;
-    if (met.apart) instant.u = impacts_.close(mode, met.contacts, instant.u);
+      if (Refusal why = apply_impacts(instant, forcing, met, blocks[b], found, decision, states)) return why;
+    if (met.apart) instant.u = impacts_.close_gaps(states, met.contacts, instant.u);
   }
-  for (const Met& met : all)
-    for (const std::size_t c : met.contacts) mode[c] = {State::open, 0.0};
-  const motion::StateSystemPtr system = systems_.of(mode);
+  for (const TouchingContacts& met : all)
+    for (const std::size_t c : met.contacts) states[c] = {State::open, 0.0};
+  const motion::StateSystemPtr system = systems_.system_of(states);
   if (!system)
     return {Refusal::Kind::singular, "the equations of motion without rigid contacts are singular", {}};
   Block touching;
-  for (const Met& met : all) touching.insert(touching.end(), met.contacts.begin(), met.contacts.end());
+  for (const TouchingContacts& met : all)
+    touching.insert(touching.end(), met.contacts.begin(), met.contacts.end());
   std::vector<MotionJet> free;
   const motion::Jet free_jet = jets_.make(system, forcing, instant.t, instant.u, instant.v, free);
   found.participants.clear();
   const Vector moving = instant.v;
-  const Eigen::VectorXd captured = found.captures;
+  const Eigen::VectorXd captured = found.capture_impulses;
   std::size_t placed = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
     add_staying(instant, forcing, all[b], free, decision, found);
-    rest_together(instant, forcing, mode, found);
-    while (settle_resting(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
+    rest_together(instant, forcing, states, found);
+    while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
       if (!slide_anew(instant, forcing, all[b], found)) break;
-    add_sliders(instant, forcing, all[b], blocks[b], mode, decision, found);
+    add_sliders(instant, forcing, all[b], blocks[b], states, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }
   // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: its energy is lost.
-  decision.impact_loss += loss_of(model_, touching, captured, found.captures, moving + instant.v);
-  Refusal refusal = solve_levels(instant, forcing, blocks, old, found, mode);
+  decision.impact_loss += loss_of(model_, touching, captured, found.capture_impulses, moving + instant.v);
+  Refusal refusal = solve_levels(instant, forcing, blocks, old, found, states);
   for (const Participant& participant : found.participants) {
     found.decided[participant.contact] = true;
-    if (mode[participant.contact] != old[participant.contact]) decision.visited[participant.contact] = true;
+    if (states[participant.contact] != old[participant.contact]) decision.visited[participant.contact] = true;
   }
   return refusal;
 }

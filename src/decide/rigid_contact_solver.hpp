@@ -32,18 +32,18 @@ struct ImpactResult {
         rests(n, false),
         departures(n, std::numeric_limits<double>::quiet_NaN()),
         known(n) {}
-  bool hit = false;               ///< the last decision began with an impact
-  bool sliders = false;           ///< sliders that stick rigidly take part
-  bool grounded = false;          ///< a flight was taken as rest because of its height only
-  bool unresolved = false;        ///< Decision::unresolved
-  double slowest = 0.0;           ///< largest speed of leaving that was taken as rest
-  std::vector<bool> decided;      ///< the contact took part
+  bool hit = false;                   ///< the last decision began with an impact
+  bool sliders = false;               ///< sliders that stick rigidly take part
+  bool flight_taken_as_rest = false;  ///< a flight was taken as rest because of its height only
+  bool unresolved = false;            ///< Decision::unresolved
+  double max_rest_speed = 0.0;        ///< largest speed of leaving that was taken as rest
+  std::vector<bool> decided;          ///< the contact took part
   std::vector<bool> kinetic;      ///< the contact has begun to slip: the static coefficient no longer applies
   std::vector<bool> bears_limit;  ///< other contacts hold it: it stays at its static limit
   std::vector<bool> stays, rests;  ///< vn, vt count as zero
   /// Speed of leaving divided by the speed below which a contact stays; NaN: not computed.
   std::vector<double> departures;
-  Eigen::VectorXd captures;  ///< Decision::captures; empty: none so far
+  Eigen::VectorXd capture_impulses;  ///< Decision::captures; empty: none so far
   /// Adds impulses of rows 2 i, 2 i + 1 for the i-th of these contacts; empty: none.
   void capture(const Model& model, const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
   /// Adds impulses of all contacts.
@@ -59,13 +59,13 @@ class RigidContactSolver {
 
   /// Computes impacts if there are any, then the states of the given blocks. failed: the guards that led here.
   [[nodiscard]] Refusal decide(Instant& instant, const motion::Forcing& forcing,
-                               const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                               const std::vector<MotionJet>& jets, const std::vector<FailedGuard>& failed,
                                const std::vector<Block>& blocks, ImpactResult& found, Decision& decision,
-                               contact::ContactStates& mode);
+                               contact::ContactStates& states);
 
  private:
   /// Rigid contacts of a block with g = 0.
-  struct Met {
+  struct TouchingContacts {
     Block contacts;
     std::vector<Approach> approaches;  // one per contact
     bool hit = false, apart = false;   // one closes; a gap is not exactly zero
@@ -75,50 +75,51 @@ class RigidContactSolver {
     double gap = 0.0, rate = 0.0;
   };
   /// Speed below which a rebound of the contact counts as rest.
-  [[nodiscard]] double slowest_flight(std::size_t contact) const;
+  [[nodiscard]] double min_flight_speed(std::size_t contact) const;
   [[nodiscard]] double rounding_of_gap(std::size_t contact, double of_data, const Instant& instant) const;
   [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
-  [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
-                         const std::vector<Failure>& failed, const Block& block,
-                         const contact::ContactStates& mode) const;
+  [[nodiscard]] TouchingContacts find_touching(const Instant& instant, const std::vector<MotionJet>& jets,
+                                               const std::vector<FailedGuard>& failed, const Block& block,
+                                               const contact::ContactStates& states) const;
   [[nodiscard]] bool lands_alike(const Approach& approach, const Instant& instant,
-                                 const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                                 const std::vector<MotionJet>& jets, const std::vector<FailedGuard>& failed,
                                  const Block& block) const;
-  [[nodiscard]] Refusal strike_once(Instant& instant, const motion::Forcing& forcing, const Block& struck,
-                                    const Block& block, ImpactResult& found, Decision& decision,
-                                    contact::ContactStates& mode);
-  [[nodiscard]] Refusal strike(Instant& instant, const motion::Forcing& forcing, const Met& met,
-                               const Block& block, ImpactResult& found, Decision& decision,
-                               contact::ContactStates& mode);
-  void add_staying(const Instant& instant, const motion::Forcing& forcing, const Met& met,
+  [[nodiscard]] Refusal apply_impact(Instant& instant, const motion::Forcing& forcing, const Block& struck,
+                                     const Block& block, ImpactResult& found, Decision& decision,
+                                     contact::ContactStates& states);
+  [[nodiscard]] Refusal apply_impacts(Instant& instant, const motion::Forcing& forcing,
+                                      const TouchingContacts& met, const Block& block, ImpactResult& found,
+                                      Decision& decision, contact::ContactStates& states);
+  void add_staying(const Instant& instant, const motion::Forcing& forcing, const TouchingContacts& met,
                    const std::vector<MotionJet>& free, const Decision& decision, ImpactResult& found) const;
   void rest_together(const Instant& instant, const motion::Forcing& forcing,
-                     const contact::ContactStates& mode, ImpactResult& found) const;
+                     const contact::ContactStates& states, ImpactResult& found) const;
   [[nodiscard]] std::vector<std::size_t> sharing(const Instant& instant, const motion::Forcing& forcing,
-                                                 const contact::ContactStates& mode,
+                                                 const contact::ContactStates& states,
                                                  const Decision& decision) const;
-  void add_sliders(const Instant& instant, const motion::Forcing& forcing, const Met& met, const Block& block,
-                   const contact::ContactStates& mode, const Decision& decision, ImpactResult& found) const;
+  void add_sliders(const Instant& instant, const motion::Forcing& forcing, const TouchingContacts& met,
+                   const Block& block, const contact::ContactStates& states, const Decision& decision,
+                   ImpactResult& found) const;
   [[nodiscard]] bool presses_harder(std::size_t contact, const Vector& before, const Vector& after) const;
   void follow_velocity(const Instant& instant, const Vector& before, const motion::Forcing& after,
                        const Block& block, const std::vector<ContactMotion>& motion,
-                       contact::ContactStates& mode) const;
-  [[nodiscard]] bool settle_resting(Instant& instant, const motion::Forcing& forcing,
-                                    const motion::StateSystem& free, const Met& met,
-                                    ImpactResult& found) const;
-  [[nodiscard]] bool slide_anew(const Instant& instant, const motion::Forcing& forcing, const Met& met,
-                                ImpactResult& found) const;
+                       contact::ContactStates& states) const;
+  [[nodiscard]] bool set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
+                                            const motion::StateSystem& free, const TouchingContacts& met,
+                                            ImpactResult& found) const;
+  [[nodiscard]] bool slide_anew(const Instant& instant, const motion::Forcing& forcing,
+                                const TouchingContacts& met, ImpactResult& found) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const motion::Forcing& forcing,
                                          const Instant& instant) const;
-  [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& mode,
+  [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,
                                   ImpactResult& found) const;
   [[nodiscard]] Refusal solve_levels(const Instant& instant, const motion::Forcing& forcing,
                                      const std::vector<Block>& blocks, const contact::ContactStates& old,
-                                     ImpactResult& found, contact::ContactStates& mode);
+                                     ImpactResult& found, contact::ContactStates& states);
   /// Fate of a contact with g = 0, and g' relative to the largest value with which it would stay.
   struct Departure {
-    enum class How : unsigned char { stays, low, leaves } how;  // low: it leaves, but below its rounding
-    double ratio = std::numeric_limits<double>::quiet_NaN();    // NaN: no speed is too low
+    enum class Type : unsigned char { stays, low, leaves } type;  // low: it leaves, but below its rounding
+    double ratio = std::numeric_limits<double>::quiet_NaN();      // NaN: no speed is too low
   };
   [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, double pull_before,
                                     const Instant& instant) const;
@@ -127,7 +128,7 @@ class RigidContactSolver {
   motion::StateSystems& systems_;
   motion::JetMaker& jets_;
   double capture_velocity_;
-  Impacts impacts_;
+  ImpactSolver impacts_;
   DerivativeLevels levels_;
 };
 

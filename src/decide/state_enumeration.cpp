@@ -20,9 +20,10 @@ namespace {
 constexpr double same_acceleration = 1e-8;
 
 /// Applies the combination with this number, one digit per choice.
-void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, contact::ContactStates& mode) {
-  for (const Enumeration::Choice& choice : choices) {
-    mode[choice.contact] = choice.states[code % choice.states.size()];
+void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t code,
+           contact::ContactStates& contact_states) {
+  for (const StateEnumeration::Choice& choice : choices) {
+    contact_states[choice.contact] = choice.states[code % choice.states.size()];
     code /= choice.states.size();
   }
 }
@@ -36,34 +37,35 @@ bool differ_by_law(const Model& model, const contact::ContactStates& one,
     const Contact& contact = model.contacts[c];
     const bool lets_go = one[c].state == State::stick && slip_sign(other[c].state) != 0;
     const Friction& f = contact.friction;
-    if (!lets_go || f.by_force() || !(f.static_ > f.kinetic)) return false;
+    if (!lets_go || f.is_load_dependent() || !(f.static_ > f.kinetic)) return false;
   }
   return true;
 }
 
 /// States of the contacts in question, as text: "'first' stick, 'second' slip+".
-std::string named_states(const Model& model, const std::vector<Enumeration::Choice>& choices,
-                         const contact::ContactStates& mode) {
+std::string named_states(const Model& model, const std::vector<StateEnumeration::Choice>& choices,
+                         const contact::ContactStates& contact_states) {
   std::string text;
-  for (const Enumeration::Choice& choice : choices)
+  for (const StateEnumeration::Choice& choice : choices)
     text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", model.contacts[choice.contact].name,
-                        to_string(mode[choice.contact].state));
+                        to_string(contact_states[choice.contact].state));
   return text;
 }
 
 }  // namespace
 
-std::string several_motions(const Model& model, const std::vector<Enumeration::Choice>& choices,
-                            const Enumeration::Best& best) {
+std::string several_motions(const Model& model, const std::vector<StateEnumeration::Choice>& choices,
+                            const StateEnumeration::BestCombination& best) {
   return fmt::format("several motions continue this one, as {} and as {}",
-                     named_states(model, choices, best.mode), named_states(model, choices, best.rival));
+                     named_states(model, choices, best.contact_states),
+                     named_states(model, choices, best.alternative));
 }
 
-bool Enumeration::Best::acceptable() const {
-  return rival.empty() && forgiveness <= std::max(1.0, condition);
+bool StateEnumeration::BestCombination::acceptable() const {
+  return alternative.empty() && relative_violation <= std::max(1.0, condition);
 }
 
-Enumeration::Choice Enumeration::choice(const Participant& participant) const {
+StateEnumeration::Choice StateEnumeration::choice(const Participant& participant) const {
   const Contact& contact = model_.contacts[participant.contact];
   const ContactState open{State::open, 0.0}, closed{State::closed, 0.0}, stick{State::stick, 0.0},
       plus{State::slip_plus, 0.0}, minus{State::slip_minus, 0.0};
@@ -73,83 +75,81 @@ Enumeration::Choice Enumeration::choice(const Participant& participant) const {
   return {participant.contact, {open, stick, plus, minus}};
 }
 
-Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state,
-                                        const ContactMotion& before) const {
+StateEnumeration::Choice StateEnumeration::choice(std::size_t c, const ContactState& state,
+                                                  const ContactMotion& before) const {
   const Contact& contact = model_.contacts[c];
   return {c, contact.law->candidates(contact, state, before)};
 }
 
 /// nullopt: the rows of the mode are dependent.
-std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, const motion::Forcing& forcing,
-                                                       const Block& block,
-                                                       const std::vector<KnownGuards>& known,
-                                                       const contact::ContactStates& mode) {
-  const motion::StateSystemPtr system = systems_.of(mode);
+std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
+    const Instant& instant, const motion::Forcing& forcing, const Block& block,
+    const std::vector<KnownGuards>& known, const contact::ContactStates& contact_states) {
+  const motion::StateSystemPtr system = systems_.system_of(contact_states);
   if (!system) return std::nullopt;
   Vector u = instant.u, v = instant.v;
-  motion::hold(model_, *system, forcing, instant.t, u, v);
+  motion::project_constraints(model_, *system, forcing, instant.t, u, v);
   std::vector<MotionJet> motions;
   const motion::Jet jet = jets_.make(system, forcing, instant.t, u, v, motions);
-  if (forces_are_noise(model_, motions) && !forces_are_unique(systems_, mode)) return std::nullopt;
-  Weighed result{0.0, jet.a()};
+  if (forces_are_noise(model_, motions) && !forces_are_unique(systems_, contact_states)) return std::nullopt;
+  Evaluation result{0.0, jet.a()};
   for (const std::size_t c : block)
-    for (const GuardForm& guard : contact::guards(model_.contacts[c], mode[c]))
+    for (const GuardForm& guard : contact::guards(model_.contacts[c], contact_states[c]))
       if (guard.kind != Guard::none)
-        result.forgiveness =
-            std::max(result.forgiveness,
-                     forgiveness(guard, motions[c], instant, known[c].of_motion().of(guard.kind).zeros));
+        result.relative_violation = std::max(
+            result.relative_violation,
+            relative_violation(guard, motions[c], instant, known[c].of_motion().of(guard.kind).zeros));
   return result;
 }
 
-double Enumeration::condition(const std::vector<std::size_t>& contacts, contact::ContactStates mode) {
+double StateEnumeration::condition(const std::vector<std::size_t>& contacts,
+                                   contact::ContactStates contact_states) {
   std::vector<Eigen::Index> rows;  // rows of existing forces
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model_.contacts[contacts[i]];
     if (contact.takes_impulses()) rows.push_back(normal_place(i));
     if (contact.has_friction() && (contact.takes_impulses() || contact.sticks_rigidly()))
       rows.push_back(tangent_place(i));
-    mode[contacts[i]] = {State::open, 0.0};
+    contact_states[contacts[i]] = {State::open, 0.0};
   }
   if (rows.empty()) return 1.0;
-  const motion::StateSystemPtr system = systems_.of(mode);
+  const motion::StateSystemPtr system = systems_.system_of(contact_states);
   if (!system) return std::numeric_limits<double>::quiet_NaN();
   CoulombProblem problem;
   problem.W = delassus(model_, *system, contacts).W(rows, rows);
   problem.b = Eigen::VectorXd::Zero(problem.W.rows());
-  return condition_of(problem);
+  return condition_number(problem);
 }
 
-std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& instant,
-                                                            const motion::Forcing& forcing,
-                                                            const Block& block,
-                                                            const std::vector<Choice>& choices,
-                                                            const std::vector<KnownGuards>& known,
-                                                            const contact::ContactStates& mode) {
-  if (choices.empty() || choices.size() > most_contacts) return std::nullopt;
+std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combination(
+    const Instant& instant, const motion::Forcing& forcing, const Block& block,
+    const std::vector<Choice>& choices, const std::vector<KnownGuards>& known,
+    const contact::ContactStates& contact_states) {
+  if (choices.empty() || choices.size() > max_contacts) return std::nullopt;
   std::size_t combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.states.size();
-  std::optional<Best> best;
+  std::optional<BestCombination> best;
   std::vector<std::pair<contact::ContactStates, Vector>> holding;  // modes without any violation
   double greatest = 0.0;
   for (std::size_t code = 0; code < combinations; ++code) {
-    contact::ContactStates tried = mode;
+    contact::ContactStates tried = contact_states;
     apply(choices, code, tried);
-    const auto weighed = weigh(instant, forcing, block, known, tried);
+    const auto weighed = evaluate(instant, forcing, block, known, tried);
     if (!weighed) continue;
     greatest = std::max(greatest, weighed->a.norm());
-    if (weighed->forgiveness == 0.0) holding.emplace_back(tried, weighed->a);
-    if (best && weighed->forgiveness >= best->forgiveness) continue;
-    best = Best{std::move(tried), weighed->forgiveness, 1.0, {}};
+    if (weighed->relative_violation == 0.0) holding.emplace_back(tried, weighed->a);
+    if (best && weighed->relative_violation >= best->relative_violation) continue;
+    best = BestCombination{std::move(tried), weighed->relative_violation, 1.0, {}};
   }
   // Consistent modes must have the same accelerations; the first one is the best.
-  for (std::size_t i = 1; i < holding.size() && best->rival.empty(); ++i)
+  for (std::size_t i = 1; i < holding.size() && best->alternative.empty(); ++i)
     if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
         !differ_by_law(model_, holding[0].first, holding[i].first))
-      best->rival = holding[i].first;
+      best->alternative = holding[i].first;
   if (!best) return best;
   std::vector<std::size_t> contacts;
   for (const Choice& choice : choices) contacts.push_back(choice.contact);
-  best->condition = condition(contacts, mode);
+  best->condition = condition(contacts, contact_states);
   return best;
 }
 

@@ -14,13 +14,13 @@
 
 namespace signorini::decide {
 
-class Enumeration {
+class StateEnumeration {
  public:
-  Enumeration(motion::StateSystems& systems, motion::JetMaker& jets)
+  StateEnumeration(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
   /// Largest number of contacts for which all combinations are tried: 4^5 jets.
-  static constexpr std::size_t most_contacts = 5;
+  static constexpr std::size_t max_contacts = 5;
 
   /// A contact in question, and the states that it may take.
   struct Choice {
@@ -33,32 +33,35 @@ class Enumeration {
   [[nodiscard]] Choice choice(std::size_t contact, const ContactState& state,
                               const ContactMotion& before) const;
 
-  struct Best {
-    contact::ContactStates mode;
-    double forgiveness = 0.0;
+  struct BestCombination {
+    contact::ContactStates contact_states;
+    double relative_violation = 0.0;
     double condition = 1.0;  ///< condition number of the chosen contacts' accelerations by their own forces
-    contact::ContactStates rival;  ///< another consistent mode with other accelerations; empty: none
+    contact::ContactStates alternative;  ///< another consistent mode with other accelerations; empty: none
     [[nodiscard]] bool acceptable() const;
   };
   /// Best combination; other contacts keep their states in `mode`. known: one entry per contact. nullopt: there are no
   /// choices or too many, or no combination has unique forces.
-  [[nodiscard]] std::optional<Best> least_failing(const Instant& instant, const motion::Forcing& forcing,
-                                                  const Block& block, const std::vector<Choice>& choices,
-                                                  const std::vector<KnownGuards>& known,
-                                                  const contact::ContactStates& mode);
+  [[nodiscard]] std::optional<BestCombination> best_combination(const Instant& instant,
+                                                                const motion::Forcing& forcing,
+                                                                const Block& block,
+                                                                const std::vector<Choice>& choices,
+                                                                const std::vector<KnownGuards>& known,
+                                                                const contact::ContactStates& contact_states);
 
   /// Condition number of W for the forces that these contacts can bear, all of them open; forces of contact elements
   /// follow from displacements and are not included. NaN: unknown.
-  [[nodiscard]] double condition(const std::vector<std::size_t>& contacts, contact::ContactStates mode);
+  [[nodiscard]] double condition(const std::vector<std::size_t>& contacts,
+                                 contact::ContactStates contact_states);
 
  private:
-  struct Weighed {
-    double forgiveness = 0.0;
+  struct Evaluation {
+    double relative_violation = 0.0;
     Vector a;
   };
-  [[nodiscard]] std::optional<Weighed> weigh(const Instant& instant, const motion::Forcing& forcing,
-                                             const Block& block, const std::vector<KnownGuards>& known,
-                                             const contact::ContactStates& mode);
+  [[nodiscard]] std::optional<Evaluation> evaluate(const Instant& instant, const motion::Forcing& forcing,
+                                                   const Block& block, const std::vector<KnownGuards>& known,
+                                                   const contact::ContactStates& contact_states);
   const Model& model_;
   motion::StateSystems& systems_;
   motion::JetMaker& jets_;
@@ -66,7 +69,8 @@ class Enumeration {
 
 /// Sentence about a best mode that has a rival: "several motions continue this one, as 'first' stick, 'second' slip+
 /// and as ...".
-[[nodiscard]] std::string several_motions(const Model& model, const std::vector<Enumeration::Choice>& choices,
-                                          const Enumeration::Best& best);
+[[nodiscard]] std::string several_motions(const Model& model,
+                                          const std::vector<StateEnumeration::Choice>& choices,
+                                          const StateEnumeration::BestCombination& best);
 
 }  // namespace signorini::decide

@@ -62,7 +62,7 @@ struct StepFacts {
   std::span<const double> turning_points = {};
   /// Contact and quantity of each turning point, unordered. Null: evaluate_watched() of all contacts costs no more than
   /// of one contact.
-  const std::vector<events::TurningPoints::Turn>* contact_turns = nullptr;
+  const std::vector<events::TurningPointDetector::TurningPoint>* contact_turning_points = nullptr;
   Expansion expansion = {};
   /// Factor by which the rounding of sums over modes exceeds that of orthogonal modes: greatest |x| |y| of the modes
   /// that the step was followed in, y . x = 1; larger if their terms exceed the motion and cancel. 1: the step was not
@@ -70,7 +70,7 @@ struct StepFacts {
   double eigenvector_condition = 1.0;
   /// Greatest angle by which u, v, a and forces turn on the step, forcing aside; n pi for polynomials of degree n.
   /// Infinite: the frequencies of the model are the bound. Unit: rad.
-  double radians = std::numeric_limits<double>::infinity();
+  double phase_angle = std::numeric_limits<double>::infinity();
   const FastModes* fast_modes = nullptr;  ///< null: the engine has no modes of the model
 };
 
@@ -80,7 +80,7 @@ class DenseOutput {
   /// Evaluates u, v and forces at begin <= t <= end.
   virtual void evaluate(double t, motion::Point& point) = 0;
   /// Evaluates only the watched entries of u and v (those of contacts and EngineParts::watched); other entries may be
-  /// NaN. contact: evaluates at most this contact's entries, provided that StepFacts::contact_turns is not null.
+  /// NaN. contact: evaluates at most this contact's entries, provided that StepFacts::contact_turning_points is not null.
   virtual void evaluate_watched(double t, std::optional<std::size_t> /*contact*/, motion::Point& point) {
     evaluate(t, point);
   }

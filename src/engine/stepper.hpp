@@ -31,7 +31,7 @@ struct Step {
   double resolution = 0.0;                        ///< times closer than this are the same instant
   std::vector<decide::TriggeredGuard> triggered;  ///< Kind::event
   std::optional<contact::ContactStates>
-      adopted;         ///< Kind::event: states found by the engine, instead of `fired`
+      engine_states;   ///< Kind::event: states found by the engine, instead of `fired`
   std::string reason;  ///< Kind::failed
 };
 
@@ -64,7 +64,7 @@ class Stepper {
   std::vector<std::string> warnings;  ///< warnings of the run so far
   /// True if the engine resolves a flight that begins with g = 0 and stays lower than the rounding of its gap, as a
   /// series does. Otherwise that rounding delays the landing, and the contact lands faster than it left.
-  bool knows_low_flights = false;
+  bool resolves_low_flights = false;
 };
 
 }  // namespace signorini::engine

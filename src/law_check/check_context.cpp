@@ -19,16 +19,16 @@ struct CheckContext::Factor {
 CheckContext::CheckContext(const Model& model_, const LawLimits& limits_)
     : model(model_),
       limits(limits_),
-      turns_(Vector::Zero(model_.size())),
+      rotation_mask_(Vector::Zero(model_.size())),
       springs_(springs_of(model_)),
       factor_(std::make_unique<Factor>()),
       responses_(model_.contacts.size()) {
   for (int i = 0; i < model.size(); ++i) {
     massive_.push_back(!model.dofs[static_cast<std::size_t>(i)].massless);
     if (massive_.back()) factor_->dofs.push_back(i);
-    if (model.dofs[static_cast<std::size_t>(i)].rotation) turns_[i] = 1.0;
+    if (model.dofs[static_cast<std::size_t>(i)].rotation) rotation_mask_[i] = 1.0;
   }
-  note_massless();
+  find_massless();
 }
 
 /// Upper triangle of K with the springs of contacts, off-diagonal entries doubled: u^T K u is a sum over it.
@@ -63,7 +63,7 @@ double CheckContext::twice_energy(const Vector& u) const {
   return std::max(0.0, twice);
 }
 
-void CheckContext::note_massless() {
+void CheckContext::find_massless() {
   for (int i = 0; i < model.size(); ++i)
     if (!has_mass(i)) massless_.push_back(i);
   if (massless_.empty()) return;
@@ -80,7 +80,7 @@ void CheckContext::note_massless() {
 
 CheckContext::~CheckContext() = default;
 
-Vector CheckContext::per_mass(const Vector& x) const {
+Vector CheckContext::solve_mass(const Vector& x) const {
   Factor& f = *factor_;
   if (!std::exchange(f.made, true)) {
     std::vector<int> place(static_cast<std::size_t>(model.size()), -1);
@@ -106,18 +106,18 @@ Vector CheckContext::per_mass(const Vector& x) const {
   return result;
 }
 
-std::array<double, 2> CheckContext::greatest(const Vector& x) const {
+std::array<double, 2> CheckContext::max_entries(const Vector& x) const {
   if (x.size() == 0) return {0.0, 0.0};
-  return {(x.array().abs() * (1.0 - turns_.array())).maxCoeff(),
-          (x.array().abs() * turns_.array()).maxCoeff()};
+  return {(x.array().abs() * (1.0 - rotation_mask_.array())).maxCoeff(),
+          (x.array().abs() * rotation_mask_.array()).maxCoeff()};
 }
 
-const std::array<double, 2>& CheckContext::lightness() const {
+const std::array<double, 2>& CheckContext::inverse_mass_root() const {
   if (lightness_) return *lightness_;
   lightness_.emplace(std::array<double, 2>{0.0, 0.0});
   for (int i = 0; i < model.size(); ++i) {
     if (!has_mass(i)) continue;
-    const Vector column = per_mass(Vector::Unit(model.size(), i));
+    const Vector column = solve_mass(Vector::Unit(model.size(), i));
     if (column.size() == 0) break;
     double& greatest = (*lightness_)[model.dofs[static_cast<std::size_t>(i)].rotation];
     greatest = std::max(greatest, std::sqrt(std::max(0.0, column[i])));
@@ -125,7 +125,7 @@ const std::array<double, 2>& CheckContext::lightness() const {
   return *lightness_;
 }
 
-const OwnResponse* CheckContext::own_response(std::size_t k) const {
+const ContactResponse* CheckContext::contact_response(std::size_t k) const {
   const Contact& c = model.contacts[k];
   for (const Combination* form : {&c.normal, &c.tangent})
     for (const auto& [dof, factor] : form->terms)
@@ -134,16 +134,16 @@ const OwnResponse* CheckContext::own_response(std::size_t k) const {
     Vector n = Vector::Zero(model.size()), t = n;
     c.normal.add_to(n, 1.0);
     c.tangent.add_to(t, 1.0);
-    n = per_mass(n);
-    t = per_mass(t);
+    n = solve_mass(n);
+    t = solve_mass(t);
     if (n.size() == 0 || t.size() == 0) return nullptr;
     const double nn = c.normal.dot(n), nt = c.normal.dot(t), tt = c.tangent.dot(t);
-    responses_[k] = OwnResponse{std::move(n), std::move(t), nn, nt, tt};
+    responses_[k] = ContactResponse{std::move(n), std::move(t), nn, nt, tt};
   }
   return &*responses_[k];
 }
 
-double CheckContext::balance(const CheckedSide& side) const {
+double CheckContext::balance_terms(const CheckedSide& side) const {
   Vector sum = Vector::Zero(model.size());
   const auto add = [&](const SparseMatrix& matrix, const Vector* x) {
     if (x == nullptr) return;
@@ -165,8 +165,8 @@ double CheckContext::balance(const CheckedSide& side) const {
   return sum.size() > 0 ? sum.maxCoeff() : 0.0;
 }
 
-double CheckContext::moved_by(const Vector& captures, std::size_t k) const {
-  const OwnResponse* own = captures.size() > 0 ? own_response(k) : nullptr;
+double CheckContext::capture_speed(const Vector& captures, std::size_t k) const {
+  const ContactResponse* own = captures.size() > 0 ? contact_response(k) : nullptr;
   double speed = 0.0;
   for (std::size_t l = 0; own != nullptr && l < model.contacts.size(); ++l) {
     const Contact& c = model.contacts[l];
@@ -178,16 +178,16 @@ double CheckContext::moved_by(const Vector& captures, std::size_t k) const {
   return speed;
 }
 
-double CheckContext::pull(const InstantRecord& record, std::size_t k) const {
+double CheckContext::max_gap_acceleration(const InstantRecord& record, std::size_t k) const {
   const ContactKinematics m = kinematics(model.contacts[k], k, record.after);
-  const OwnResponse* own = own_response(k);
+  const ContactResponse* own = contact_response(k);
   return std::abs(m.ddg) + (own != nullptr ? own->nn * std::abs(m.N) : 0.0);
 }
 
-double CheckContext::swing(const InstantRecord& record, std::size_t k) const {
+double CheckContext::max_contact_acceleration(const InstantRecord& record, std::size_t k) const {
   const Contact& c = model.contacts[k];
   const ContactKinematics after = kinematics(c, k, record.after), before = kinematics(c, k, record.before);
-  const OwnResponse* own = own_response(k);
+  const ContactResponse* own = contact_response(k);
   if (own == nullptr) return std::max(std::abs(after.ddg), std::abs(after.ddut));
   double n = 0.0, t = 0.0;  // differences of the accelerations on both sides
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
@@ -205,7 +205,7 @@ double CheckContext::swing(const InstantRecord& record, std::size_t k) const {
                           std::abs(after.ddut + t)});
 }
 
-Vector CheckContext::captured(const InstantRecord& record) const {
+Vector CheckContext::capture_velocities(const InstantRecord& record) const {
   if (!(limits.step > 0.0) || record.captures.size() == 0 || record.captures.isZero(0.0)) return {};
   Vector impulse = Vector::Zero(model.size());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -214,27 +214,27 @@ Vector CheckContext::captured(const InstantRecord& record) const {
     model.contacts[k].normal.add_to(impulse, record.captures[n]);
     model.contacts[k].tangent.add_to(impulse, record.captures[t]);
   }
-  return per_mass(impulse);
+  return solve_mass(impulse);
 }
 
-Vector CheckContext::swung(const InstantRecord& record) const {
-  const Vector dv = captured(record);
-  return dv.size() > 0 ? per_mass(model.damping * dv) : Vector();
+Vector CheckContext::capture_accelerations(const InstantRecord& record) const {
+  const Vector dv = capture_velocities(record);
+  return dv.size() > 0 ? solve_mass(model.damping * dv) : Vector();
 }
 
-double CheckContext::slowest(const InstantRecord& record, std::size_t k) const {
+double CheckContext::rest_speed(const InstantRecord& record, std::size_t k) const {
   const Contact& c = model.contacts[k];
   const ContactKinematics m = kinematics(c, k, record.after), b = kinematics(c, k, record.before);
-  const double pull = this->pull(record, k);
-  const double size = m.place + b.place, speed = m.speed + b.speed;
+  const double pull = this->max_gap_acceleration(record, k);
+  const double size = m.displacement_size + b.displacement_size, speed = m.velocity_size + b.velocity_size;
   double clock = record.resolution;
   for (const RecordedEvent& event : record.events)
-    if (event.contact == k) clock = std::max(clock, of_uncertainty * event.t_uncertainty);
-  double low = c.capture_velocity.value_or(limits.capture_velocity) + rounding::of_elimination * speed +
-               of_tolerance * (limits.rtol * speed + limits.velocity) + clock * pull;
+    if (event.contact == k) clock = std::max(clock, uncertainty_factor * event.t_uncertainty);
+  double low = c.capture_velocity.value_or(limits.capture_velocity) + rounding::elimination * speed +
+               tolerance_factor * (limits.rtol * speed + limits.velocity) + clock * pull;
   const double gap =
-      rounding::of_elimination * size + of_tolerance * (limits.rtol * size + limits.displacement);
-  if (!limits.knows_low_flights) low += std::sqrt(2.0 * pull * gap);
+      rounding::elimination * size + tolerance_factor * (limits.rtol * size + limits.displacement);
+  if (!limits.resolves_low_flights) low += std::sqrt(2.0 * pull * gap);
   return low;
 }
 
@@ -259,7 +259,8 @@ double terms_of(const Vector& w, const SparseMatrix& matrix, const Vector& x) {
 ///
 /// Another contact with nearly the same rows amplifies noise of f by A^-1; the rows of contact k alone would not show
 /// this.
-HeldForce CheckContext::held_force(const InstantRecord& record, std::size_t k) const {
+ConstraintForceWeights CheckContext::constraint_force_weights(const InstantRecord& record,
+                                                              std::size_t k) const {
   std::vector<const Combination*> forms;
   std::vector<const Vector*> rows;
   std::vector<Vector> columns;
@@ -267,14 +268,14 @@ HeldForce CheckContext::held_force(const InstantRecord& record, std::size_t k) c
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
     const Contact& c = model.contacts[j];
     const ContactState& state = (*record.before.mode)[j];
-    const OwnResponse* own = is_open(state.state) || !c.obeys_coulomb() ? nullptr : own_response(j);
+    const ContactResponse* own = is_open(state.state) || !c.obeys_coulomb() ? nullptr : contact_response(j);
     if (own == nullptr) continue;
     const ContactKinematics m = kinematics(c, j, record.before);
     const bool sticks = c.holds_tangent(state.state);
     if (c.takes_impulses()) {
       const double friction = sticks || c.tangential_stiffness
                                   ? 0.0
-                                  : -sign_of_slip(state.state) * friction_in(c, state.state, m.dut, m.N);
+                                  : -slip_direction(state.state) * friction_in(c, state.state, m.dut, m.N);
       if (j == k) normal = static_cast<Eigen::Index>(rows.size());
       forms.push_back(&c.normal);
       rows.push_back(&own->by_n);
@@ -311,7 +312,7 @@ double CheckContext::damped(const InstantRecord& record, const Vector& w, const 
     const State state = (*record.before.mode)[j].state;
     if (is_open(state) || !(c.normal_damping > 0.0)) continue;
     const ContactKinematics m = kinematics(c, j, record.before);
-    const double friction = -sign_of_slip(state) * friction_in(c, state, m.dut, m.N);
+    const double friction = -slip_direction(state) * friction_in(c, state, m.dut, m.N);
     sum += c.normal_damping * (c.normal.dot(w) + friction * c.tangent.dot(w)) * c.normal.dot(v);
   }
   return sum;
@@ -324,7 +325,7 @@ double CheckContext::damped(const InstantRecord& record, const Vector& w, const 
 ///   - in modes, du and dv with  du^T K du <= lost^2,  dv^T M dv <= lost^2  (Schwarz):
 ///         |w . K du| <= lost sqrt( w^T K w ),   |w . C dv| <= lost sqrt( (C w)^T M^-1 (C w) );
 ///   - if steps have a given length, w . C dv for the velocities dv that captures remove, dashpots of contacts in C.
-double CheckContext::held_noise(const InstantRecord& record, const Vector& w) const {
+double CheckContext::constraint_force_noise(const InstantRecord& record, const Vector& w) const {
   if (w.size() == 0) return 0.0;
   const CheckedSide& side = record.before;
   double terms = terms_of(w, model.stiffness, *side.u) + terms_of(w, model.damping, *side.v);
@@ -336,17 +337,17 @@ double CheckContext::held_noise(const InstantRecord& record, const Vector& w) co
     const double along_n = std::abs(c.normal.dot(w)), along_t = std::abs(c.tangent.dot(w));
     terms += along_n * std::abs(m.N) + along_t * std::abs(m.T);
     if (is_open(state.state)) continue;
-    terms += along_n * size_of_normal(c, m) +
-             along_t * c.tangential_stiffness.value_or(0.0) * (m.place + std::abs(state.anchor));
+    terms += along_n * normal_force_size(c, m) +
+             along_t * c.tangential_stiffness.value_or(0.0) * (m.displacement_size + std::abs(state.anchor));
   }
-  double noise = (rounding::of_elimination + of_tolerance * limits.rtol) * terms;
-  if (side.lost > 0.0) {
+  double noise = (rounding::elimination + tolerance_factor * limits.rtol) * terms;
+  if (side.modal_mismatch > 0.0) {
     const Vector by_damping = model.damping * w;
-    noise += side.lost *
-             (std::sqrt(twice_energy(w)) + std::sqrt(std::max(0.0, by_damping.dot(per_mass(by_damping)))));
+    noise += side.modal_mismatch *
+             (std::sqrt(twice_energy(w)) + std::sqrt(std::max(0.0, by_damping.dot(solve_mass(by_damping)))));
   }
-  if (const Vector dv = captured(record); dv.size() > 0)
-    noise += of_uncertainty * std::abs(damped(record, w, dv));
+  if (const Vector dv = capture_velocities(record); dv.size() > 0)
+    noise += uncertainty_factor * std::abs(damped(record, w, dv));
   return noise;
 }
 

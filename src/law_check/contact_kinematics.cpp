@@ -30,14 +30,14 @@ double shear_stiffness(const Contact& c) { return c.tangential_stiffness.value_o
 
 }  // namespace
 
-const Unit& SeenGuard::unit() const {
+const Unit& GuardValue::unit() const {
   const std::string_view name = law;
   return name == "penetration" || name == "lasting gap" ? seen::length
          : name == "slip direction" || name == "rest"   ? seen::velocity
                                                         : seen::force;
 }
 
-int sign_of_slip(State state) {
+int slip_direction(State state) {
   return kind_of(state) == State::slip_plus ? 1 : kind_of(state) == State::slip_minus ? -1 : 0;
 }
 
@@ -47,20 +47,20 @@ double friction_at(const Contact& c, double slip_rate, double N) {
     const double light = std::exp(-std::max(0.0, -N) / *f.force);
     return f.static_ * light + f.kinetic * (1.0 - light);
   }
-  if (!f.varies()) return f.kinetic;
-  const double part = std::exp(-std::abs(slip_rate) / f.rate_of_change());
+  if (!f.is_rate_dependent()) return f.kinetic;
+  const double part = std::exp(-std::abs(slip_rate) / f.decay_velocity());
   return f.static_ * part + f.kinetic * (1.0 - part);
 }
 
 double friction_in(const Contact& c, State state, double slip_rate, double N) {
-  return is_held(state) ? c.friction.static_ : friction_at(c, slip_rate, N);
+  return is_at_static_limit(state) ? c.friction.static_ : friction_at(c, slip_rate, N);
 }
 
-double size_of_normal(const Contact& c, const ContactKinematics& m) {
-  return c.normal_stiffness * m.place + c.normal_damping * m.speed;
+double normal_force_size(const Contact& c, const ContactKinematics& m) {
+  return c.normal_stiffness * m.displacement_size + c.normal_damping * m.velocity_size;
 }
 
-bool held_beside(const Model& model, std::size_t k) {
+bool may_be_held_by_neighbour(const Model& model, std::size_t k) {
   const Contact& foot = model.contacts[k];
   const auto shares = [&](const Contact& other) {
     return std::any_of(other.tangent.terms.begin(), other.tangent.terms.end(), [&](const auto& a) {
@@ -92,35 +92,36 @@ ContactKinematics kinematics(const Contact& c, std::size_t k, const CheckedSide&
   m.q = d.q;
   m.dq = d.dq;
   m.ddq = d.ddq;
-  m.place = size_on(c.normal, *side.u, side.u_reach[0]) + size_on(c.tangent, *side.u, side.u_reach[0]) +
-            std::abs(c.gap) + std::abs(d.s);
-  m.speed = size_on(c.normal, *side.v, side.v_reach[0]) + size_on(c.tangent, *side.v, side.v_reach[0]) +
-            std::abs(d.ds);
-  if (side.speeds != nullptr) m.speed = std::max(m.speed, side.speeds[k]);
+  m.displacement_size = size_on(c.normal, *side.u, side.max_u[0]) +
+                        size_on(c.tangent, *side.u, side.max_u[0]) + std::abs(c.gap) + std::abs(d.s);
+  m.velocity_size =
+      size_on(c.normal, *side.v, side.max_v[0]) + size_on(c.tangent, *side.v, side.max_v[0]) + std::abs(d.ds);
+  if (side.energy_speeds != nullptr) m.velocity_size = std::max(m.velocity_size, side.energy_speeds[k]);
   if (side.a != nullptr)
-    m.push = size_on(c.normal, *side.a, side.a_reach[0]) + size_on(c.tangent, *side.a, side.a_reach[0]) +
-             std::abs(d.dds);
+    m.acceleration_size = size_on(c.normal, *side.a, side.acceleration_terms[0]) +
+                          size_on(c.tangent, *side.a, side.acceleration_terms[0]) + std::abs(d.dds);
   return m;
 }
 
-SeenGuards guards_of(const Contact& c, const ContactState& state, const ContactKinematics& m,
-                     const LawLimits& tol) {
-  SeenGuards guards;
+GuardValues guards_of(const Contact& c, const ContactState& state, const ContactKinematics& m,
+                      const LawLimits& tol) {
+  GuardValues guards;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = shear_stiffness(c);
-  const double of_u = tol.rtol * m.place + tol.displacement, of_v = tol.rtol * m.speed + tol.velocity;
+  const double of_u = tol.rtol * m.displacement_size + tol.displacement,
+               of_v = tol.rtol * m.velocity_size + tol.velocity;
   const bool elastic = c.normal_spring().has_value(), given = c.normal_force_given();
   const double of_N = elastic ? kn * of_u + cn * of_v : tol.rtol * std::abs(m.N) + tol.force;
-  const double size_N = elastic ? size_of_normal(c, m) : std::abs(m.N);
+  const double size_N = elastic ? normal_force_size(c, m) : std::abs(m.N);
   const double dN = elastic ? kn * m.dg + cn * m.ddg : given ? -m.dq : 0.0;
   if (is_open(state.state)) {
     if (given) return guards;
     if (state.state == State::inside) {
-      guards.add(
-          {"penetration", m.g + cn / kn * m.dg, m.place + cn / kn * m.speed, m.dg, of_u + cn / kn * of_v});
-      guards.add({"lasting gap", -m.g, m.place, -m.dg, of_u});
+      guards.add({"penetration", m.g + cn / kn * m.dg, m.displacement_size + cn / kn * m.velocity_size, m.dg,
+                  of_u + cn / kn * of_v});
+      guards.add({"lasting gap", -m.g, m.displacement_size, -m.dg, of_u});
       return guards;
     }
-    guards.add({"penetration", m.g, m.place, m.dg, of_u});
+    guards.add({"penetration", m.g, m.displacement_size, m.dg, of_u});
     return guards;
   }
   if (!given) guards.add({"tension", -m.N, size_N, -dN, of_N});
@@ -129,20 +130,21 @@ SeenGuards guards_of(const Contact& c, const ContactState& state, const ContactK
   const double fs = by_force ? friction_at(c, 0.0, m.N) : c.friction.static_;
   const double growth = by_force ? growth_of_limit(c, m.N) : fs;
   const double fk = by_force ? growth : c.friction.kinetic;
-  if (const int s = sign_of_slip(state.state); s == 0) {
-    const double size = fs * size_N + (kt > 0.0 ? kt * (m.place + std::abs(state.anchor)) : std::abs(m.T));
+  if (const int s = slip_direction(state.state); s == 0) {
+    const double size =
+        fs * size_N + (kt > 0.0 ? kt * (m.displacement_size + std::abs(state.anchor)) : std::abs(m.T));
     const double off = fs * of_N + (kt > 0.0 ? kt * of_u : tol.rtol * std::abs(m.T) + tol.force);
     const double side = m.T >= 0.0 ? 1.0 : -1.0;
     guards.add({"friction", -fs * m.N - std::abs(m.T), size, -growth * dN - side * kt * m.dut, off});
-  } else if (is_held(state.state)) {
-    guards.add({"rest", -std::abs(m.dut), m.speed, 0.0, of_v});
+  } else if (is_at_static_limit(state.state)) {
+    guards.add({"rest", -std::abs(m.dut), m.velocity_size, 0.0, of_v});
   } else {
-    double rate = s * m.dut, size = m.speed, off = of_v;
+    double rate = s * m.dut, size = m.velocity_size, off = of_v;
     if (kt > 0.0) {
       const double f = fk / kt;
       rate += given ? -f * m.dq : f * (kn * m.dg + cn * m.ddg);
-      size += f * (kn * m.speed + cn * m.push + std::abs(m.dq));
-      off += f * (kn * of_v + cn * (tol.rtol * m.push + tol.force));
+      size += f * (kn * m.velocity_size + cn * m.acceleration_size + std::abs(m.dq));
+      off += f * (kn * of_v + cn * (tol.rtol * m.acceleration_size + tol.force));
     }
     guards.add({"slip direction", rate, size, s * m.ddut, off});
   }
@@ -177,31 +179,31 @@ bool slides_on(const Contact& c, std::size_t k, int s, const CheckedSide& side) 
 bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
                         double rest) {
   const double N = N_of(side, k), T = T_of(side, k);
-  if (const int s = sign_of_slip(state.state); s != 0)
-    return !is_held(state.state) &&
-           std::abs(T + s * c.friction.kinetic * N) <= rounding::of_elimination * std::abs(T);
+  if (const int s = slip_direction(state.state); s != 0)
+    return !is_at_static_limit(state.state) &&
+           std::abs(T + s * c.friction.kinetic * N) <= rounding::elimination * std::abs(T);
   if (kind_of(state.state) != State::stick) return T == 0.0;
   if (!c.tangential_stiffness) return std::abs(c.tangent.dot(*side.v) - side.driven[k].ds) <= rest;
   const double kt = *c.tangential_stiffness, ut = c.tangent.dot(*side.u) - side.driven[k].s;
   return std::abs(T - kt * (ut - state.anchor)) <=
-         rounding::of_elimination * (std::abs(T) + kt * std::abs(state.anchor));
+         rounding::elimination * (std::abs(T) + kt * std::abs(state.anchor));
 }
 
 }  // namespace
 
-bool guards_stand(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side) {
+bool guards_hold(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side) {
   if (is_open(state.state))
     return c.normal_force_given() || (state.state != State::inside && c.gap_at(*side.u) >= 0.0);
   const double N = N_of(side, k);
   if (!c.normal_force_given() && N > 0.0) return false;
   if (!c.has_friction() || kind_of(state.state) == State::closed) return true;
-  if (c.friction.force || c.friction.varies() || is_held(state.state)) return false;
-  if (const int s = sign_of_slip(state.state); s != 0) return slides_on(c, k, s, side);
+  if (c.friction.force || c.friction.is_rate_dependent() || is_at_static_limit(state.state)) return false;
+  if (const int s = slip_direction(state.state); s != 0) return slides_on(c, k, s, side);
   return std::abs(T_of(side, k)) <= -c.friction.static_ * N;
 }
 
-bool rows_stand(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
-                double rest) {
+bool rows_hold(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
+               double rest) {
   if (c.friction.force || !c.forces_follow_motion()) return false;
   const double N = N_of(side, k);
   double off = 0.0;
@@ -212,8 +214,7 @@ bool rows_stand(const Contact& c, std::size_t k, const ContactState& state, cons
   else if (c.normal_spring())
     off = N - c.normal_stiffness * c.gap_at(*side.u) -
           (c.normal_damping > 0.0 ? c.normal_damping * c.normal.dot(*side.v) : 0.0);
-  return std::abs(off) <= rounding::of_elimination * std::abs(N) &&
-         tangent_row_stands(c, k, state, side, rest);
+  return std::abs(off) <= rounding::elimination * std::abs(N) && tangent_row_stands(c, k, state, side, rest);
 }
 
 }  // namespace signorini::law_check

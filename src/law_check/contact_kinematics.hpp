@@ -24,11 +24,11 @@ struct ContactKinematics {
   double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0,
          ddq = 0.0;
   // Sizes of the terms of g and ut, of g' and ut', of g'' and ut''.
-  double place = 0.0, speed = 0.0, push = 0.0;
+  double displacement_size = 0.0, velocity_size = 0.0, acceleration_size = 0.0;
 };
 
 /// A guard, positive while its state holds, and the size of its terms.
-struct SeenGuard {
+struct GuardValue {
   const char* law = "";
   double value = 0.0, size = 0.0;
   double rate = 0.0;       ///< rate of the value if the motion determines it; otherwise 0
@@ -37,29 +37,29 @@ struct SeenGuard {
   [[nodiscard]] const Unit& unit() const;  ///< unit of the value
 };
 
-struct SeenGuards {
-  std::array<SeenGuard, 3> list;
+struct GuardValues {
+  std::array<GuardValue, 3> list;
   std::size_t count = 0;
-  void add(const SeenGuard& guard) { list[count++] = guard; }
-  [[nodiscard]] const SeenGuard* begin() const { return list.data(); }
-  [[nodiscard]] const SeenGuard* end() const { return list.data() + count; }
+  void add(const GuardValue& guard) { list[count++] = guard; }
+  [[nodiscard]] const GuardValue* begin() const { return list.data(); }
+  [[nodiscard]] const GuardValue* end() const { return list.data() + count; }
 };
 
 [[nodiscard]] ContactKinematics kinematics(const Contact& contact, std::size_t k, const CheckedSide& side);
 /// Direction of slip: +1 or -1 while slipping, otherwise 0.
-[[nodiscard]] int sign_of_slip(State state);
+[[nodiscard]] int slip_direction(State state);
 /// |T|/|N| for slip at this rate under this N.
 [[nodiscard]] double friction_at(const Contact& c, double slip_rate, double N);
 /// The same coefficient in a given state: the static one if the contact is held at its static limit.
 [[nodiscard]] double friction_in(const Contact& c, State state, double slip_rate, double N);
 /// Guards of a state for a motion whose forces satisfy the state's own rows.
-[[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state,
-                                   const ContactKinematics& m, const LawLimits& limits);
+[[nodiscard]] GuardValues guards_of(const Contact& contact, const ContactState& state,
+                                    const ContactKinematics& m, const LawLimits& limits);
 /// True if another foot or slider may hold this contact at the limit of its friction: its slip rate is then the
 /// rounding of the constraint that holds it.
-[[nodiscard]] bool held_beside(const Model& model, std::size_t k);
+[[nodiscard]] bool may_be_held_by_neighbour(const Model& model, std::size_t k);
 /// Size of the terms of kn g + cn g'.
-[[nodiscard]] double size_of_normal(const Contact& contact, const ContactKinematics& m);
+[[nodiscard]] double normal_force_size(const Contact& contact, const ContactKinematics& m);
 
 // Quick check of guards and rows, without an allowance for the rounding of their terms.
 //
@@ -70,10 +70,10 @@ struct SeenGuards {
 // This check omits these sums, so its limits never exceed those of the laws: a contact that passes here passes there.
 
 /// True if no guard of the state is negative. False also if these few data do not decide it.
-[[nodiscard]] bool guards_stand(const Contact& contact, std::size_t k, const ContactState& state,
-                                const CheckedSide& side);
+[[nodiscard]] bool guards_hold(const Contact& contact, std::size_t k, const ContactState& state,
+                               const CheckedSide& side);
 /// True if N and T satisfy the state's rows. rest: speed up to which a contact counts as at rest.
-[[nodiscard]] bool rows_stand(const Contact& contact, std::size_t k, const ContactState& state,
-                              const CheckedSide& side, double rest);
+[[nodiscard]] bool rows_hold(const Contact& contact, std::size_t k, const ContactState& state,
+                             const CheckedSide& side, double rest);
 
 }  // namespace signorini::law_check

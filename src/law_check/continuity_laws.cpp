@@ -38,21 +38,21 @@ struct ClosedRows {
 }  // namespace
 
 /// Checks the continuity of u, and of T unless its row changes with the state. Both sides of u are rounded.
-void Finder::continuity() {
+void InstantLawChecker::continuity() {
   const LawLimits& tol = context_.limits;
   // Largest u, and largest v (multiplied below by the uncertainty of the time), for translations and rotations.
-  const std::array<double, 2> of_u = context_.greatest(*record_.before.u),
-                              of_v = context_.greatest(*record_.before.v);
-  const std::array<double, 2> off_by = context_.greatest(*record_.after.u - *record_.before.u);
+  const std::array<double, 2> of_u = context_.max_entries(*record_.before.u),
+                              of_v = context_.max_entries(*record_.before.v);
+  const std::array<double, 2> off_by = context_.max_entries(*record_.after.u - *record_.before.u);
   double clock = record_.resolution;
   for (const RecordedEvent& event : record_.events) clock = std::max(clock, event.t_uncertainty);
   std::array<double, 2> limits{};
   for (const bool turn : {false, true}) {
     const double size =
         std::max(of_u[turn],
-                 record_.before.u_reach[turn] + (turn ? model_.scales.rotation : model_.scales.displacement));
-    limits[turn] = 2.0 * rounding::of_elimination * size + of_uncertainty * clock * of_v[turn] +
-                   of_tolerance * (tol.rtol * size + (turn ? tol.rotation : tol.displacement));
+                 record_.before.max_u[turn] + (turn ? model_.scales.rotation : model_.scales.displacement));
+    limits[turn] = 2.0 * rounding::elimination * size + uncertainty_factor * clock * of_v[turn] +
+                   tolerance_factor * (tol.rtol * size + (turn ? tol.rotation : tol.displacement));
   }
   std::optional<Vector> closed;
   const bool massless_jump = lets_massless_jump();
@@ -65,7 +65,7 @@ void Finder::continuity() {
     if (off <= limit) continue;
     if (!closed) closed = closing();
     limit += (*closed)[i];
-    if (off > limit) limit += unsure_without_mass(i);
+    if (off > limit) limit += massless_uncertainty(i);
     if (off <= limit) continue;
     add(-1, "continuity", off, limit, turn ? Unit{} : seen::length, false);
     break;
@@ -78,7 +78,7 @@ void Finder::continuity() {
 /// Uncertainty of u at a massless degree of freedom. There u follows from forces, and springs of contacts turn its
 /// rounding into forces: stiff springs bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on
 /// massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is singular.
-double Finder::unsure_without_mass(int dof) const {
+double InstantLawChecker::massless_uncertainty(int dof) const {
   if (context_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
   const std::vector<int>& all = context_.massless();
   const SparseMatrix only = assembly::selection(all, model_.size());
@@ -94,22 +94,22 @@ double Finder::unsure_without_mass(int dof) const {
 /// Largest change of u by closing gaps of rigid contacts that have the size of their rounding. All gaps close together
 /// by the smallest change in the norm of M that leaves sticking contacts alone:
 /// du = M^-1 G^T W^-1 (g, 0),  W = G M^-1 G^T,  G: rows (n, t).
-Vector Finder::closing() const {
+Vector InstantLawChecker::closing() const {
   Vector most = Vector::Zero(model_.size());
   const auto close = [&](const std::vector<ContactState>& mode, bool by_impulses) {
     ClosedRows rows;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
-      const OwnResponse* own = context_.own_response(k);
+      const ContactResponse* own = context_.contact_response(k);
       const bool touches =
           !is_open(mode[k].state) || std::any_of(record_.impulses.begin(), record_.impulses.end(),
                                                  [&](const RecordedImpulse& p) { return p.contact == k; });
       if (own == nullptr || !touches) continue;
       const ContactKinematics before = kinematics(c, k, record_.before);
-      const double gap = rounding::of_elimination * before.place;
+      const double gap = rounding::elimination * before.displacement_size;
       const double friction =
           by_impulses ? 0.0
-                      : -sign_of_slip(mode[k].state) * friction_in(c, mode[k].state, before.dut, before.N);
+                      : -slip_direction(mode[k].state) * friction_in(c, mode[k].state, before.dut, before.N);
       if (c.takes_impulses()) rows.add(c.normal, own->by_n + friction * own->by_t, gap);
       if (!by_impulses && c.sticks_rigidly() && kind_of(mode[k].state) == State::stick)
         rows.add(c.tangent, own->by_t, 0.0);
@@ -124,16 +124,16 @@ Vector Finder::closing() const {
 
 /// Massless parts jump if the forces on them jump: at a jump of a load, when they leave a contact, and when friction
 /// drops to its kinetic value.
-bool Finder::lets_massless_jump() const {
+bool InstantLawChecker::lets_massless_jump() const {
   if (massless_jump_) return *massless_jump_;
   bool any = record_.breakpoint || record_.start || !record_.released.empty();
-  for (const std::size_t k : context_.on_massless()) any = any || lets_go(k);
+  for (const std::size_t k : context_.contacts_on_massless()) any = any || lets_go(k);
   massless_jump_ = any;
   return any;
 }
 
 /// True if the body of a contact is massless; beside a dashpot it is the body that jumps.
-bool Finder::body_follows(std::size_t k) const {
+bool InstantLawChecker::body_follows(std::size_t k) const {
   const std::vector<std::pair<int, double>>& terms = model_.contacts[k].body_tangent().terms;
   return std::any_of(terms.begin(), terms.end(),
                      [&](const auto& term) { return !context_.has_mass(term.first); });
@@ -141,20 +141,20 @@ bool Finder::body_follows(std::size_t k) const {
 
 /// True if contact k stuck at its static limit, which is above the kinetic one, and now slides, is open, or has slid
 /// and stopped within the instant (an event "slip" from stick to stick).
-bool Finder::lets_go(std::size_t k) const {
+bool InstantLawChecker::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (!c.obeys_coulomb() || (c.sliding_point() && !body_follows(k)) || c.friction.varies() ||
-      !c.friction.drops())
+  if (!c.obeys_coulomb() || (c.sliding_point() && !body_follows(k)) || c.friction.is_rate_dependent() ||
+      !c.friction.has_static_drop())
     return false;
   const RecordedEvent* event = event_of(k);
   if (event == nullptr || event->t_uncertainty < 0.0) return false;
   const bool stopped = kind_of(now.state) == State::stick && event->type == "slip";
   if (kind_of(old.state) != State::stick || (kind_of(now.state) == State::stick && !stopped)) return false;
   const ContactKinematics before = kinematics(c, k, record_.before);
-  for (const SeenGuard& guard : guards_of(c, old, before, context_.limits)) {
+  for (const GuardValue& guard : guards_of(c, old, before, context_.limits)) {
     if (guard.law != std::string_view("friction")) continue;
-    const double zero = zero_of(guard, c) + of_uncertainty * event->t_uncertainty *
+    const double zero = zero_of(guard, c) + uncertainty_factor * event->t_uncertainty *
                                                 std::max(std::abs(event->guard_rate), std::abs(guard.rate));
     return std::abs(guard.value) <= zero;
   }
@@ -163,16 +163,17 @@ bool Finder::lets_go(std::size_t k) const {
 
 /// Checks p if massless parts jump: a sticking contact keeps its sliding point, and a contact that lets go slides in
 /// the direction of its friction force:  p = ut - T/kt,  s (p+ - p-) >= 0.
-void Finder::slide_at_once(std::size_t k) {
+void InstantLawChecker::instantaneous_slide(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (record_.breakpoint || record_.start || is_released(k)) return;
   const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
   const double kt = *c.tangential_stiffness;
   const double limit =
-      rounding::of_elimination * (kt * (a.place + b.place) + std::abs(a.T) + std::abs(b.T)) +
-      of_tolerance * (kt * (context_.limits.rtol * a.place + context_.limits.displacement) +
-                      context_.limits.rtol * (std::abs(a.T) + std::abs(b.T)) + context_.limits.force);
+      rounding::elimination *
+          (kt * (a.displacement_size + b.displacement_size) + std::abs(a.T) + std::abs(b.T)) +
+      tolerance_factor * (kt * (context_.limits.rtol * a.displacement_size + context_.limits.displacement) +
+                          context_.limits.rtol * (std::abs(a.T) + std::abs(b.T)) + context_.limits.force);
   const double moved = kt * (a.ut - b.ut) - (a.T - b.T);
   const bool sticks = kind_of(old.state) == State::stick && kind_of(now.state) == State::stick;
   if (sticks && event_of(k) == nullptr && std::abs(moved) > limit)
@@ -183,50 +184,53 @@ void Finder::slide_at_once(std::size_t k) {
 }
 
 /// True if T is the same on both sides, up to rounding of T itself, and points in the direction of slip.
-bool Finder::shear_stays(std::size_t k) const {
+bool InstantLawChecker::shear_stays(std::size_t k) const {
   const auto at = static_cast<Eigen::Index>(model_.layout.tangent(k));
   const double before = (*record_.before.forces)[at], after = (*record_.after.forces)[at];
-  return std::abs(after - before) <= rounding::of_elimination * std::abs(before) &&
-         sign_of_slip((*record_.after.mode)[k].state) * before >= 0.0;
+  return std::abs(after - before) <= rounding::elimination * std::abs(before) &&
+         slip_direction((*record_.after.mode)[k].state) * before >= 0.0;
 }
 
 /// True if |N| of a sliding contact jumps down and T decreases with it, whatever the new state: a hit that makes N jump
 /// may reverse the slip at the same instant, and a contact that stops sticks at its new kinetic limit.
-bool Finder::falls_with_it(std::size_t k, const ContactKinematics& before, const ContactKinematics& after,
-                           double off_N, double off_T) const {
+bool InstantLawChecker::falls_with_it(std::size_t k, const ContactKinematics& before,
+                                      const ContactKinematics& after, double off_N, double off_T) const {
   const Contact& c = model_.contacts[k];
   const State old = (*record_.before.mode)[k].state;
-  const int s = sign_of_slip(old);
+  const int s = slip_direction(old);
   if (s == 0 || std::abs(after.N) >= std::abs(before.N) - off_N) return false;
   return std::abs(after.T + s * friction_in(c, old, before.dut, after.N) * after.N) <= off_T;
 }
 
 /// Checks that T of a spring is continuous; it drops from the static limit to the kinetic one if the contact lets go.
-void Finder::friction_continuity(std::size_t k) {
+void InstantLawChecker::friction_continuity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
-  if (lets_massless_jump() && moves_at_once(k)) return slide_at_once(k);
+  if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.is_rate_dependent())
+    return;
+  if (lets_massless_jump() && moves_instantaneously(k)) return instantaneous_slide(k);
   if (shear_stays(k)) return;
   const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
-  const bool by_force = c.friction.by_force();
+  const bool by_force = c.friction.is_load_dependent();
   const double fs = by_force ? friction_at(c, 0.0, a.N) : c.friction.static_;
   const double fk = by_force ? fs : c.friction.kinetic, kt = *c.tangential_stiffness;
   const double off_N =
-      rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
-      of_tolerance * (c.normal_stiffness * (context_.limits.rtol * a.place + context_.limits.displacement));
-  if (std::abs(a.N - b.N) > off_N && sign_of_slip(now.state) != 0) return;  // T = -s fk N follows
-  double limit = rounding::of_elimination * (kt * (a.place + std::abs(now.anchor)) + std::abs(b.T)) +
-                 of_tolerance * (kt * (context_.limits.rtol * a.place + context_.limits.displacement)) +
-                 fs * off_N;
+      rounding::elimination * (normal_force_size(c, a) + std::abs(a.N) + std::abs(b.N)) +
+      tolerance_factor *
+          (c.normal_stiffness * (context_.limits.rtol * a.displacement_size + context_.limits.displacement));
+  if (std::abs(a.N - b.N) > off_N && slip_direction(now.state) != 0) return;  // T = -s fk N follows
+  double limit =
+      rounding::elimination * (kt * (a.displacement_size + std::abs(now.anchor)) + std::abs(b.T)) +
+      tolerance_factor * (kt * (context_.limits.rtol * a.displacement_size + context_.limits.displacement)) +
+      fs * off_N;
   if (const RecordedEvent* event = event_of(k); event != nullptr && event->t_uncertainty > 0.0)
-    limit += of_uncertainty * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
+    limit += uncertainty_factor * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
   if (falls_with_it(k, b, a, off_N, limit)) return;
   const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
   const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
   const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // N has dropped
   if (lets_go || above) {                                         // to the limit, with the same sign
-    if (sign_of_slip(now.state) * b.T < 0.0 && std::abs(b.T) > limit && !moves_at_once(k))
+    if (slip_direction(now.state) * b.T < 0.0 && std::abs(b.T) > limit && !moves_instantaneously(k))
       add(static_cast<int>(k), "continuity of friction", std::abs(a.T - b.T), limit, seen::force, false);
     return;
   }
@@ -245,7 +249,7 @@ namespace {
 /// The two ends of a stretch, for one contact.
 struct StretchEnds {
   ContactKinematics from, to;
-  [[nodiscard]] double place() const { return from.place + to.place; }
+  [[nodiscard]] double place() const { return from.displacement_size + to.displacement_size; }
 };
 
 /// Displacement of the sliding point.
@@ -258,8 +262,8 @@ double slid(const Contact& c, const StretchEnds& ends) {
 double slid_noise(const Contact& c, const StretchEnds& ends, const LawLimits& tol, double scale) {
   const double by_force =
       c.tangential_stiffness ? (std::abs(ends.to.T) + std::abs(ends.from.T)) / *c.tangential_stiffness : 0.0;
-  return rounding::of_elimination * (ends.place() + scale + by_force) +
-         of_tolerance * (tol.rtol * (ends.place() + by_force) + 2.0 * tol.displacement);
+  return rounding::elimination * (ends.place() + scale + by_force) +
+         tolerance_factor * (tol.rtol * (ends.place() + by_force) + 2.0 * tol.displacement);
 }
 
 class RowSums {
@@ -287,11 +291,11 @@ class RowSums {
 
 }  // namespace
 
-std::vector<Violation> stretch_laws(const CheckContext& bench, double t, const CheckedSide& from,
+std::vector<Violation> stretch_laws(const CheckContext& context, double t, const CheckedSide& from,
                                     const CheckedSide& to) {
   std::vector<Violation> found;
-  const Model& model = bench.model;
-  const bool drifts = bench.limits.rtol > 0.0 || bench.limits.step > 0.0;
+  const Model& model = context.model;
+  const bool drifts = context.limits.rtol > 0.0 || context.limits.step > 0.0;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     const auto add = [&](const char* law, double value, double limit, const Unit& unit) {
@@ -304,8 +308,9 @@ std::vector<Violation> stretch_laws(const CheckContext& bench, double t, const C
     }
     if (!c.obeys_coulomb() || c.sliding_point()) continue;
     const StretchEnds ends{kinematics(c, k, from), kinematics(c, k, to)};
-    const double noise = slid_noise(c, ends, bench.limits, model.scales.displacement);
-    const int s = is_held(now.state) || held_beside(model, k) ? 0 : sign_of_slip(now.state);
+    const double noise = slid_noise(c, ends, context.limits, model.scales.displacement);
+    const int s =
+        is_at_static_limit(now.state) || may_be_held_by_neighbour(model, k) ? 0 : slip_direction(now.state);
     if (s != 0) add("way of slip", -s * slid(c, ends), noise, seen::length);
     if (drifts) continue;
     if (kind_of(now.state) == State::stick && !c.tangential_stiffness)
@@ -316,37 +321,38 @@ std::vector<Violation> stretch_laws(const CheckContext& bench, double t, const C
   return found;
 }
 
-std::vector<Violation> equilibrium_law(const CheckContext& bench, double t, const CheckedSide& side,
+std::vector<Violation> equilibrium_law(const CheckContext& context, double t, const CheckedSide& side,
                                        const Vector& load) {
-  const Model& model = bench.model;
+  const Model& model = context.model;
   RowSums rows(model.size());
-  rows.add(model.mass, *side.a, side.a_reach, model);
-  rows.add(model.damping, *side.v, side.v_reach, model);
-  rows.add(model.stiffness, *side.u, side.u_reach, model);
+  rows.add(model.mass, *side.a, side.acceleration_terms, model);
+  rows.add(model.damping, *side.v, side.max_v, model);
+  rows.add(model.stiffness, *side.u, side.max_u, model);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     const ContactKinematics m = kinematics(c, k, side);
-    const double size =
-        std::abs(m.N) + std::abs(m.T) + size_of_normal(c, m) + c.tangential_stiffness.value_or(0.0) * m.place;
+    const double size = std::abs(m.N) + std::abs(m.T) + normal_force_size(c, m) +
+                        c.tangential_stiffness.value_or(0.0) * m.displacement_size;
     rows.add(c.normal, m.N, size);
     rows.add(c.tangent, m.T, size);
     const CurvedSurface* bowl = c.curved_surface();
     if (bowl == nullptr) continue;
     // The curved surface of a pendulum acts by N minus the weight that K contains.
     const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
-    rows.add(c.body_tangent(), (-m.N - bowl->carried) * slope,
-             (size + bowl->carried) * m.place / bowl->radius);
+    rows.add(c.body_tangent(), (-m.N - bowl->nominal_force) * slope,
+             (size + bowl->nominal_force) * m.displacement_size / bowl->radius);
   }
   rows.sum -= load;
   rows.terms += load.cwiseAbs();
   // Residuals of solves are relative to the largest row, separately for forces and for moments.
-  const std::array<double, 2> greatest = bench.greatest(rows.terms);
+  const std::array<double, 2> greatest = context.max_entries(rows.terms);
   std::optional<Violation> worst;
   for (int i = 0; i < model.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
-    const double limit = rounding::of_elimination * std::max(rows.terms[i], greatest[turns]);
+    const double limit = rounding::elimination * std::max(rows.terms[i], greatest[turns]);
     const double off = std::abs(rows.sum[i]);
-    if (!bench.has_mass(i) || off <= limit || (worst && off / limit <= worst->value / worst->limit)) continue;
+    if (!context.has_mass(i) || off <= limit || (worst && off / limit <= worst->value / worst->limit))
+      continue;
     worst = Violation{t, "", -1, "equilibrium", off, limit, turns ? Unit{1, 1, 0} : seen::force, false};
   }
   if (!worst) return {};

@@ -8,7 +8,8 @@
 namespace signorini::law_check {
 
 /// Adds a violation. The limit is at least the smallest normal number: smaller numbers have no digits.
-void Finder::add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave) {
+void InstantLawChecker::add(int contact, const char* law, double value, double limit, const Unit& unit,
+                            bool grave) {
   limit = std::max(limit, std::numeric_limits<double>::min());
   if (value <= limit) return;
   Violation v;
@@ -25,14 +26,14 @@ void Finder::add(int contact, const char* law, double value, double limit, const
   found_.push_back(std::move(v));
 }
 
-const RecordedEvent* Finder::event_of(std::size_t k) const {
+const RecordedEvent* InstantLawChecker::event_of(std::size_t k) const {
   const auto found = std::find_if(record_.events.begin(), record_.events.end(),
                                   [&](const RecordedEvent& e) { return e.contact == k; });
   return found == record_.events.end() ? nullptr : &*found;
 }
 
 /// True if there are impulses, or a velocity of a degree of freedom with mass jumps.
-bool Finder::is_struck() const {
+bool InstantLawChecker::is_struck() const {
   if (!record_.impulses.empty()) return true;
   if (record_.captures.size() > 0 && !record_.captures.isZero(0.0)) return true;
   const Vector &before = *record_.before.v, &after = *record_.after.v;
@@ -42,7 +43,7 @@ bool Finder::is_struck() const {
 }
 
 /// Checks that M (v+ - v-) is a sum of impulses along n and t, within the backward error of the solves for v+.
-void Finder::momentum() {
+void InstantLawChecker::momentum() {
   if (!is_struck()) return;
   const Vector &before = *record_.before.v, &after = *record_.after.v;
   Vector impulse = Vector::Zero(model_.size()), size = impulse;
@@ -61,9 +62,9 @@ void Finder::momentum() {
   }
   Vector jump = Vector::Zero(model_.size()), speed = jump;
   // Velocities are known to the smallest normal number at best: smaller numbers have no digits.
-  constexpr double unknown = std::numeric_limits<double>::min() / rounding::of_elimination;
-  double translation = std::max(unknown, record_.before.v_reach[0]),
-         rotation = std::max(unknown, record_.before.v_reach[1]);
+  constexpr double unknown = std::numeric_limits<double>::min() / rounding::elimination;
+  double translation = std::max(unknown, record_.before.max_v[0]),
+         rotation = std::max(unknown, record_.before.max_v[1]);
   for (int i = 0; i < model_.size(); ++i) {
     if (!context_.has_mass(i)) continue;
     jump[i] = after[i] - before[i];
@@ -80,7 +81,7 @@ void Finder::momentum() {
       size[it.row()] += std::abs(it.value() * speed[j]);
     }
   double clock = 0.0;
-  const auto limit_of = [&](int i) { return rounding::of_elimination * size[i] + clock; };
+  const auto limit_of = [&](int i) { return rounding::elimination * size[i] + clock; };
   const auto worst_of = [&] {
     int worst = -1;
     double by = 1.0;
@@ -94,7 +95,7 @@ void Finder::momentum() {
   };
   if (worst_of() < 0) return;
   // A body at rest has velocities as large as its forces produce within the resolution of the clock.
-  clock = of_uncertainty * record_.resolution * context_.balance(record_.after);
+  clock = uncertainty_factor * record_.resolution * context_.balance_terms(record_.after);
   const int worst = worst_of();
   if (worst < 0) return;
   const bool turns = model_.dofs[static_cast<std::size_t>(worst)].rotation;
@@ -105,7 +106,7 @@ void Finder::momentum() {
 /// Checks that impulses which no law of impact gives are no larger than the speed of a resting contact explains. Such a
 /// contact is held while others are stopped, and moves with them if it slides: the smaller of the effect of its own
 /// capture and the effect of all captures counts.
-void Finder::captures() {
+void InstantLawChecker::captures() {
   if (record_.captures.size() == 0 || record_.captures.isZero(0.0)) return;
   Vector impulse = Vector::Zero(model_.size());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
@@ -114,56 +115,58 @@ void Finder::captures() {
     model_.contacts[k].normal.add_to(impulse, record_.captures[n]);
     model_.contacts[k].tangent.add_to(impulse, record_.captures[t]);
   }
-  const Vector change = context_.per_mass(impulse);
+  const Vector change = context_.solve_mass(impulse);
   if (change.size() == 0) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const auto n = static_cast<Eigen::Index>(model_.layout.normal(k)),
                t = static_cast<Eigen::Index>(model_.layout.tangent(k));
     if (record_.captures[n] == 0.0 && record_.captures[t] == 0.0) continue;
-    const OwnResponse* own = context_.own_response(k);
+    const ContactResponse* own = context_.contact_response(k);
     const double most = std::numeric_limits<double>::infinity();  // replaces its own effect if unknown
     const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[n]) : most;
     const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[t]) : most;
     const double speed = std::max(std::min(by_n, std::abs(c.normal.dot(change))),
                                   std::min(by_t, std::abs(c.tangent.dot(change))));
-    double limit = with_slow_slips * context_.slowest(record_, k);
+    double limit = slow_slip_factor * context_.rest_speed(record_, k);
     // Between steps, g' of a closed gap oscillates by the step times the held acceleration. A contact that stops
     // within a step is found at the end of the step and may have moved again by then. A contact that sticks rigidly to
     // a moving surface follows its acceleration, and its velocity with the error of the step rule.
     if (context_.limits.step > 0.0 && !is_open((*record_.before.mode)[k].state))
-      limit += context_.limits.step * context_.swing(record_, k) + record_.before.driven[k].drift;
+      limit += context_.limits.step * context_.max_contact_acceleration(record_, k) +
+               record_.before.driven[k].drift;
     // With an engine that does not locate events, a contact that stops within a step overshoots by up to its former
     // speed. The limit for an engine with steps uses the accelerations of both ends and the first terms of the errors
     // in h; the remaining terms of the series are allowed twice as much.
-    const bool grave = record_.located && speed > (context_.limits.step > 0.0 ? of_uncertainty : 1.0) * limit;
+    const bool grave =
+        record_.located && speed > (context_.limits.step > 0.0 ? uncertainty_factor : 1.0) * limit;
     if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, grave);
   }
 }
 
-void Finder::restitution() {
+void InstantLawChecker::restitution() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     if (!c.takes_impulses()) continue;
     const ContactKinematics m = kinematics(c, k, record_.after);
     const bool closed = !record_.after.mode->at(k).is_open();
-    const double rounding_of_speed = context_.slowest(record_, k);
+    const double rounding_of_speed = context_.rest_speed(record_, k);
     if ((closed || m.g <= 0.0) && m.dg < -rounding_of_speed)
       add(static_cast<int>(k), "penetration rate", -m.dg, rounding_of_speed, seen::velocity, true);
   }
   double greatest = 0.0;  // largest impulse, including the rounding of velocities that cancel
   for (const RecordedImpulse& p : record_.impulses) {
     greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
-    const OwnResponse* own = context_.own_response(p.contact);
+    const ContactResponse* own = context_.contact_response(p.contact);
     if (own == nullptr) continue;
-    const double speed = kinematics(model_.contacts[p.contact], p.contact, record_.before).speed;
+    const double speed = kinematics(model_.contacts[p.contact], p.contact, record_.before).velocity_size;
     if (own->nn > 0.0) greatest = std::max(greatest, speed / own->nn);
     if (own->tt > 0.0) greatest = std::max(greatest, speed / own->tt);
   }
   for (const RecordedImpulse& p : record_.impulses) {
     const Contact& c = model_.contacts[p.contact];
-    const Strike strike =
-        strike_of(p, kinematics(c, p.contact, record_.before), kinematics(c, p.contact, record_.after));
+    const ImpactVelocities strike = impact_velocities(p, kinematics(c, p.contact, record_.before),
+                                                      kinematics(c, p.contact, record_.after));
     restitution_of(p, strike, greatest);
     friction_impulse(p, strike, greatest);
   }
@@ -171,39 +174,40 @@ void Finder::restitution() {
 
 /// Velocities before and after one impact of an instant: v- plus the effect of the impulses of earlier turns, and v+
 /// minus the effect of later turns.
-Finder::Strike Finder::strike_of(const RecordedImpulse& p, const ContactKinematics& before,
-                                 const ContactKinematics& after) const {
-  Strike strike{before.dg, after.dg, after.dut};
-  const OwnResponse* own = context_.own_response(p.contact);
+InstantLawChecker::ImpactVelocities InstantLawChecker::impact_velocities(
+    const RecordedImpulse& p, const ContactKinematics& before, const ContactKinematics& after) const {
+  ImpactVelocities strike{before.dg, after.dg, after.dut};
+  const ContactResponse* own = context_.contact_response(p.contact);
   if (own == nullptr) {  // rigid contacts act on mass (docs/theory.md, "Rigid contacts")
-    strike.unsure = std::numeric_limits<double>::infinity();
+    strike.uncertainty = std::numeric_limits<double>::infinity();
     return strike;
   }
   for (const RecordedImpulse& other : record_.impulses) {
-    if (other.turn == p.turn) continue;
+    if (other.impact_number == p.impact_number) continue;
     const Contact& c = model_.contacts[other.contact];
     const double dg = c.normal.dot(own->by_n) * other.normal + c.tangent.dot(own->by_n) * other.tangent;
     const double dut = c.normal.dot(own->by_t) * other.normal + c.tangent.dot(own->by_t) * other.tangent;
-    if (other.turn < p.turn) {
+    if (other.impact_number < p.impact_number) {
       strike.dg_before += dg;
     } else {
       strike.dg_after -= dg;
       strike.dut_after -= dut;
     }
   }
-  strike.unsure = context_.moved_by(record_.captures, p.contact);
+  strike.uncertainty = context_.capture_speed(record_.captures, p.contact);
   return strike;
 }
 
 /// Checks 0 <= Pn _|_ g'+ + e min(g'-, 0) >= 0.
-void Finder::restitution_of(const RecordedImpulse& p, const Strike& strike, double greatest) {
+void InstantLawChecker::restitution_of(const RecordedImpulse& p, const ImpactVelocities& strike,
+                                       double greatest) {
   const int contact = static_cast<int>(p.contact);
-  const double zero = rounding::of_elimination * greatest;
+  const double zero = rounding::elimination * greatest;
   if (p.normal < -zero) add(contact, "restitution", -p.normal, zero, seen::impulse, true);
   const Contact& c = model_.contacts[p.contact];
-  const OwnResponse* own = context_.own_response(p.contact);
-  const double limit = context_.slowest(record_, p.contact) + strike.unsure +
-                       (own != nullptr ? rounding::of_elimination * own->nn * greatest : 0.0);
+  const ContactResponse* own = context_.contact_response(p.contact);
+  const double limit = context_.rest_speed(record_, p.contact) + strike.uncertainty +
+                       (own != nullptr ? rounding::elimination * own->nn * greatest : 0.0);
   const double asked = -c.restitution * std::min(strike.dg_before, 0.0);
   double off = asked - strike.dg_after;                                // slower than restitution requires
   if (p.normal > zero) off = std::abs(off);                            // or faster than it allows
@@ -211,15 +215,16 @@ void Finder::restitution_of(const RecordedImpulse& p, const Strike& strike, doub
   if (off > limit) add(contact, "restitution", off, limit, seen::velocity, true);
 }
 
-void Finder::friction_impulse(const RecordedImpulse& p, const Strike& strike, double greatest) {
+void InstantLawChecker::friction_impulse(const RecordedImpulse& p, const ImpactVelocities& strike,
+                                         double greatest) {
   const Contact& c = model_.contacts[p.contact];
   const int contact = static_cast<int>(p.contact);
   const double most = std::max(c.friction.static_, c.friction.kinetic);
-  const double zero = rounding::of_elimination * greatest * (1.0 + most);
+  const double zero = rounding::elimination * greatest * (1.0 + most);
   const double over = std::abs(p.tangent) - most * p.normal;
   if (over > zero) add(contact, "friction impulse", over, zero, seen::impulse, true);
-  if (!c.has_friction() || c.friction.varies() || !(p.normal > zero)) return;
-  const double slow = with_slow_slips * context_.slowest(record_, p.contact) + strike.unsure;
+  if (!c.has_friction() || c.friction.is_rate_dependent() || !(p.normal > zero)) return;
+  const double slow = slow_slip_factor * context_.rest_speed(record_, p.contact) + strike.uncertainty;
   if (std::abs(strike.dut_after) <= slow) return;
   const double off =
       std::abs(p.tangent + (strike.dut_after > 0.0 ? 1.0 : -1.0) * c.friction.kinetic * p.normal);

@@ -38,20 +38,20 @@ struct CheckedSide {
   std::vector<Vector> loads = {};  ///< P, P', P''; empty: all degrees of freedom have mass
   /// Largest displacement and velocity of the run so far (translations; rotations): the accuracy of sums over modes,
   /// and of solves, is relative to these. 0: use the values of this side.
-  std::array<double, 2> u_reach = {0.0, 0.0}, v_reach = {0.0, 0.0};
+  std::array<double, 2> max_u = {0.0, 0.0}, max_v = {0.0, 0.0};
   /// Largest terms of the sums over modes that give this side's accelerations.
-  std::array<double, 2> a_reach = {0.0, 0.0};
+  std::array<double, 2> acceleration_terms = {0.0, 0.0};
   /// Difference between two sums over modes of the same motion, as the root of twice its energy. 0: no sum over modes.
-  double lost = 0.0;
+  double modal_mismatch = 0.0;
   /// One entry per contact: largest velocity that the energies of the run's displacements could produce. Null: unknown.
-  const double* speeds = nullptr;
+  const double* energy_speeds = nullptr;
 };
 
 /// Impulse on the body at one contact in one impact, along n and t. Unit: force * time. Impacts of one instant are
 /// successive; all touching contacts have an entry in each, which may be zero.
 struct RecordedImpulse {
   std::size_t contact = 0;
-  int turn = 1;
+  int impact_number = 1;
   double normal = 0.0, tangent = 0.0;
 };
 

@@ -28,7 +28,7 @@ struct LawLimits {
   double rtol = 0.0, displacement = 0.0, rotation = 0.0, velocity = 0.0, angular_velocity = 0.0, force = 0.0;
   double capture_velocity = 0.0;  ///< for contacts without a value of their own
   double step = 0.0;  ///< step of engines that enforce contacts at the ends of steps only; 0: other engines
-  bool knows_low_flights =
+  bool resolves_low_flights =
       true;  ///< flights lower than the rounding of their gaps are computed, not treated as rest
 };
 
@@ -42,21 +42,21 @@ class LawChecker {
   LawChecker& operator=(const LawChecker&) = delete;
 
   /// Checks all laws at an instant. Empty: they hold.
-  [[nodiscard]] std::vector<Violation> instant(const InstantRecord& record) const;
+  [[nodiscard]] std::vector<Violation> check_instant(const InstantRecord& record) const;
   /// Checks guards and rows at a point of the motion within a stretch.
-  [[nodiscard]] std::vector<Violation> between(double t, const CheckedSide& now) const;
+  [[nodiscard]] std::vector<Violation> check_point(double t, const CheckedSide& now) const;
   /// Checks both ends of the stretch up to t: just after one instant, and just before the next.
-  [[nodiscard]] std::vector<Violation> stretch(double t, const CheckedSide& from,
-                                               const CheckedSide& to) const;
+  [[nodiscard]] std::vector<Violation> check_stretch(double t, const CheckedSide& from,
+                                                     const CheckedSide& to) const;
   /// Checks M a + C v + K u + contact forces = P, with mass, just after an instant. load: P.
-  [[nodiscard]] std::vector<Violation> equilibrium(double t, const CheckedSide& side,
-                                                   const Vector& load) const;
+  [[nodiscard]] std::vector<Violation> check_equilibrium(double t, const CheckedSide& side,
+                                                         const Vector& load) const;
   /// Checks the guards of one contact's state, from the known part of its motion; accelerates: g'' and ut'' are known.
   /// of_held: size of the terms whose differences are the constraint forces.
-  void contact(double t, std::size_t k, const ContactState& state, const ContactKinematics& m,
-               bool accelerates, double of_held, std::vector<Violation>& found) const;
+  void check_contact(double t, std::size_t k, const ContactState& state, const ContactKinematics& m,
+                     bool accelerates, double of_held, std::vector<Violation>& found) const;
   /// Size of the terms whose differences are the constraint forces.
-  [[nodiscard]] double held_forces(const CheckedSide& side) const;
+  [[nodiscard]] double constraint_force_terms(const CheckedSide& side) const;
   /// Largest terms of a sum over modes that yields x, for translations and rotations:
   /// x = sum phi q,  sum_k |phi_ik q_k| <= sqrt((M^-1)_ii x^T M x),  since sum phi phi^T = M^-1 and sum q^2 = x^T M x.
   [[nodiscard]] std::array<double, 2> modal_size(const Vector& x) const;
@@ -67,7 +67,7 @@ class LawChecker {
   /// Largest velocity along n and t of contact k for a given energy, divided by the root of twice the energy:
   /// |n v| <= sqrt(n M^-1 n) sqrt(v^T M v). Rounding of u becomes velocity a quarter of a period later. 0: contact k
   /// acts on no mass.
-  [[nodiscard]] double lightness(std::size_t k) const;
+  [[nodiscard]] double speed_per_energy_root(std::size_t k) const;
 
  private:
   struct Parts;

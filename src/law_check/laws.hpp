@@ -13,28 +13,28 @@
 namespace signorini::law_check {
 
 /// Factor of a tolerance: engines re-arm a guard ten tolerances from its zero, and it has two terms.
-inline constexpr double of_tolerance = 20.0;
+inline constexpr double tolerance_factor = 20.0;
 /// Factor for slip rates: if no motion continues, slip rates up to sixteen times the speeds of rest also count as rest
 /// (docs/theory.md, "Rigid contacts").
-inline constexpr double with_slow_slips = 16.0;
+inline constexpr double slow_slip_factor = 16.0;
 /// Factor of an uncertainty of a time: t_uncertainty is of first order; the same amount is allowed for the rest of the
 /// motion's series, and for a second guard at the same instant. Chosen value.
-inline constexpr double of_uncertainty = 3.0;
+inline constexpr double uncertainty_factor = 3.0;
 
 /// Fraction of a guard's terms beyond which failing states, and changes without a reason, are grave: no underestimated
 /// rounding explains them. Chosen value; four rigid contacts on a body that three support (coupled seed 19) fail by the
 /// full size.
-inline constexpr double gross = 1e-3;
+inline constexpr double grave_fraction = 1e-3;
 
 /// Accelerations by unit forces of a contact whose degrees of freedom all have mass: of the structure, and its own.
-struct OwnResponse {
+struct ContactResponse {
   Vector by_n, by_t;
   double nn = 0.0, nt = 0.0, tt = 0.0;
 };
 
 /// Weights for the forces of a contact that enforce constraints: the structure's forces f give the contact force
 /// w . f. Empty: there is no such force.
-struct HeldForce {
+struct ConstraintForceWeights {
   Vector N, T;
 };
 
@@ -47,88 +47,89 @@ class CheckContext {
   CheckContext& operator=(const CheckContext&) = delete;
 
   /// M^-1 x on degrees of freedom with mass, 0 elsewhere. Empty: M is singular there.
-  [[nodiscard]] Vector per_mass(const Vector& x) const;
+  [[nodiscard]] Vector solve_mass(const Vector& x) const;
   /// Largest sqrt((M^-1)_ii), for translations and for rotations.
-  [[nodiscard]] const std::array<double, 2>& lightness() const;
+  [[nodiscard]] const std::array<double, 2>& inverse_mass_root() const;
   /// Response to its own forces; null: contact k acts on a massless degree of freedom.
-  [[nodiscard]] const OwnResponse* own_response(std::size_t k) const;
+  [[nodiscard]] const ContactResponse* contact_response(std::size_t k) const;
   /// Largest sum of the absolute terms of M a + C v + K u and of contact forces: constraint forces are differences of
   /// these terms.
-  [[nodiscard]] double balance(const CheckedSide& side) const;
+  [[nodiscard]] double balance_terms(const CheckedSide& side) const;
   [[nodiscard]] bool has_mass(int dof) const { return massive_[static_cast<std::size_t>(dof)]; }
   /// Largest |x_i| of translations and of rotations.
-  [[nodiscard]] std::array<double, 2> greatest(const Vector& x) const;
+  [[nodiscard]] std::array<double, 2> max_entries(const Vector& x) const;
   /// Twice the elastic energy, u^T K u, with springs of contacts in K.
   [[nodiscard]] double twice_energy(const Vector& u) const;
   /// Massless degrees of freedom, contacts that act on one, and rows of K and C as columns; empty: all have mass.
   [[nodiscard]] const std::vector<int>& massless() const { return massless_; }
-  [[nodiscard]] const std::vector<std::size_t>& on_massless() const { return on_massless_; }
+  [[nodiscard]] const std::vector<std::size_t>& contacts_on_massless() const { return on_massless_; }
   [[nodiscard]] const SparseMatrix& stiffness_by_rows() const { return stiffness_by_rows_; }
   [[nodiscard]] const SparseMatrix& damping_by_rows() const { return damping_by_rows_; }
   /// Upper bound of the speed that captures give contact k.
-  [[nodiscard]] double moved_by(const Vector& captures, std::size_t k) const;
+  [[nodiscard]] double capture_speed(const Vector& captures, std::size_t k) const;
   /// Bound of the acceleration of its gap that its force may have balanced.
-  [[nodiscard]] double pull(const InstantRecord& record, std::size_t k) const;
+  [[nodiscard]] double max_gap_acceleration(const InstantRecord& record, std::size_t k) const;
   /// The same bound for both directions, from the motions before and after.
-  [[nodiscard]] double swing(const InstantRecord& record, std::size_t k) const;
+  [[nodiscard]] double max_contact_acceleration(const InstantRecord& record, std::size_t k) const;
   /// Change of accelerations by dampers, for the velocities that captures remove from steps; guards are located with
   /// these accelerations. Empty: none.
-  [[nodiscard]] Vector swung(const InstantRecord& record) const;
+  [[nodiscard]] Vector capture_accelerations(const InstantRecord& record) const;
   /// Velocities that captures remove from steps. Empty: none.
-  [[nodiscard]] Vector captured(const InstantRecord& record) const;
+  [[nodiscard]] Vector capture_velocities(const InstantRecord& record) const;
   /// Weights for the forces of contact k just before, among all constraint forces.
-  [[nodiscard]] HeldForce held_force(const InstantRecord& record, std::size_t k) const;
+  [[nodiscard]] ConstraintForceWeights constraint_force_weights(const InstantRecord& record,
+                                                                std::size_t k) const;
   /// Uncertainty of w . f just before, from two different sums.
-  [[nodiscard]] double held_noise(const InstantRecord& record, const Vector& w) const;
+  [[nodiscard]] double constraint_force_noise(const InstantRecord& record, const Vector& w) const;
   /// Speed below which a contact that leaves may count as at rest.
-  [[nodiscard]] double slowest(const InstantRecord& record, std::size_t k) const;
+  [[nodiscard]] double rest_speed(const InstantRecord& record, std::size_t k) const;
 
   const Model& model;
   const LawLimits limits;
 
  private:
   struct Factor;
-  void note_massless();
+  void find_massless();
   [[nodiscard]] static SparseMatrix springs_of(const Model& model);
   [[nodiscard]] double damped(const InstantRecord& record, const Vector& w, const Vector& v) const;
 
   std::vector<bool> massive_;
-  Vector turns_;  // 1 for rotations, otherwise 0
+  Vector rotation_mask_;  // 1 for rotations, otherwise 0
   SparseMatrix springs_;
   std::vector<int> massless_;
   std::vector<std::size_t> on_massless_;
   SparseMatrix stiffness_by_rows_, damping_by_rows_;
   std::unique_ptr<Factor> factor_;
-  mutable std::vector<std::optional<OwnResponse>> responses_;
+  mutable std::vector<std::optional<ContactResponse>> responses_;
   mutable std::optional<std::array<double, 2>> lightness_;
 };
 
 /// Checks a stretch of motion at its two ends: just after one instant, and just before the next one, at t.
-[[nodiscard]] std::vector<Violation> stretch_laws(const CheckContext& bench, double t,
+[[nodiscard]] std::vector<Violation> stretch_laws(const CheckContext& context, double t,
                                                   const CheckedSide& from, const CheckedSide& to);
 /// Checks rows with mass just after an instant; reports the worst one. load: P.
-[[nodiscard]] std::vector<Violation> equilibrium_law(const CheckContext& bench, double t,
+[[nodiscard]] std::vector<Violation> equilibrium_law(const CheckContext& context, double t,
                                                      const CheckedSide& side, const Vector& load);
 
 /// A massless row whose forces, or their rates, are not balanced.
-struct Unbalanced {
+struct MasslessImbalance {
   int dof = 0;
   const char* law = "";
   double value = 0.0, limit = 0.0;
   int order = 0;  ///< order of the derivative
 };
 /// orders: 1 forces, 2 also their rates, 3 also the rates of these. At most one row is returned per order.
-[[nodiscard]] std::vector<Unbalanced> massless_balance(const CheckContext& bench, const CheckedSide& side,
-                                                       int orders);
+[[nodiscard]] std::vector<MasslessImbalance> massless_balance(const CheckContext& context,
+                                                              const CheckedSide& side, int orders);
 /// Rounding of the forces of each massless row, or of their first derivatives (order 1); length n. Errors by the
 /// tolerances of the engine are not included.
-[[nodiscard]] Vector massless_noise(const CheckContext& bench, const CheckedSide& side, int order);
+[[nodiscard]] Vector massless_noise(const CheckContext& context, const CheckedSide& side, int order);
 
 /// Checks the laws at one instant.
-class Finder {
+class InstantLawChecker {
  public:
-  Finder(const CheckContext& bench, const InstantRecord& record, std::vector<Violation>& found)
-      : context_(bench), model_(bench.model), record_(record), found_(found) {}
+  InstantLawChecker(const CheckContext& context, const InstantRecord& record, std::vector<Violation>& found)
+      : context_(context), model_(context.model), record_(record), found_(found) {}
   void momentum();
   void captures();
   void restitution();
@@ -144,27 +145,27 @@ class Finder {
   [[nodiscard]] bool is_struck() const;
   void add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave);
   /// Velocities of a contact along n and t before and after an impact.
-  struct Strike {
+  struct ImpactVelocities {
     double dg_before = 0.0, dg_after = 0.0, dut_after = 0.0;
-    double unsure = 0.0;  // speed due to captures, before or after
+    double uncertainty = 0.0;  // speed due to captures, before or after
   };
-  [[nodiscard]] Strike strike_of(const RecordedImpulse& p, const ContactKinematics& before,
-                                 const ContactKinematics& after) const;
-  void restitution_of(const RecordedImpulse& p, const Strike& strike, double greatest);
-  void friction_impulse(const RecordedImpulse& p, const Strike& strike, double greatest);
+  [[nodiscard]] ImpactVelocities impact_velocities(const RecordedImpulse& p, const ContactKinematics& before,
+                                                   const ContactKinematics& after) const;
+  void restitution_of(const RecordedImpulse& p, const ImpactVelocities& strike, double greatest);
+  void friction_impulse(const RecordedImpulse& p, const ImpactVelocities& strike, double greatest);
   void state_of(std::size_t k);
   void friction_of(std::size_t k, const ContactKinematics& m);
   void old_rows(std::size_t k);
   void necessity(std::size_t k);
-  [[nodiscard]] bool its_own_falls(std::size_t k, const ContactState& old,
-                                   const ContactKinematics& before) const;
+  [[nodiscard]] bool own_guard_crosses(std::size_t k, const ContactState& old,
+                                       const ContactKinematics& before) const;
   void guard_of(const RecordedEvent& event);
   [[nodiscard]] bool shear_stays(std::size_t k) const;
   void friction_continuity(std::size_t k);
   [[nodiscard]] bool falls_with_it(std::size_t k, const ContactKinematics& before,
                                    const ContactKinematics& after, double off_N, double off_T) const;
   [[nodiscard]] Vector closing() const;
-  [[nodiscard]] double unsure_without_mass(int dof) const;
+  [[nodiscard]] double massless_uncertainty(int dof) const;
   [[nodiscard]] ContactKinematics touching(std::size_t k, const CheckedSide& side) const;
   void row_of(const RecordedEvent& event);
   void row_before(const RecordedEvent& event, const ContactKinematics& before,
@@ -178,22 +179,22 @@ class Finder {
   [[nodiscard]] bool is_released(std::size_t k) const;
   [[nodiscard]] double left_terms(const Contact& c) const;
   /// A contact in its old state, and the uncertainty of its forces due to rounding of accelerations.
-  struct Old {
+  struct OldStateMotion {
     ContactKinematics m;
-    double unsure_N = 0.0, unsure_T = 0.0;
+    double uncertainty_N = 0.0, uncertainty_T = 0.0;
   };
-  [[nodiscard]] std::optional<Old> as_before(std::size_t k) const;
+  [[nodiscard]] std::optional<OldStateMotion> motion_in_old_state(std::size_t k) const;
   [[nodiscard]] bool is_pushed_off(std::size_t k, const ContactState& old,
                                    const ContactKinematics& after) const;
   [[nodiscard]] bool jumps(std::size_t k) const;
-  [[nodiscard]] bool moves_at_once(std::size_t k) const;
-  [[nodiscard]] double zero_of(const SeenGuard& guard, const Contact& contact) const;
+  [[nodiscard]] bool moves_instantaneously(std::size_t k) const;
+  [[nodiscard]] double zero_of(const GuardValue& guard, const Contact& contact) const;
   [[nodiscard]] const RecordedEvent* event_of(std::size_t k) const;
   /// True if massless displacements may jump.
   [[nodiscard]] bool lets_massless_jump() const;
   [[nodiscard]] bool body_follows(std::size_t k) const;
   [[nodiscard]] bool lets_go(std::size_t k) const;
-  void slide_at_once(std::size_t k);
+  void instantaneous_slide(std::size_t k);
   /// Rounding of constraint forces.
   [[nodiscard]] double force_noise() const;
 

@@ -34,14 +34,14 @@ struct RateRow {
 /// Massless rows that determine velocities, restricted to massless degrees of freedom.
 class RateRows {
  public:
-  RateRows(const CheckContext& bench, const CheckedSide& side)
-      : bench_(bench), place_(static_cast<std::size_t>(bench.model.size()), -1) {
-    for (const int i : bench.massless()) place_[static_cast<std::size_t>(i)] = size_++;
-    for (const int i : bench.massless()) {
-      add_row(i, bench.damping_by_rows(), dampers_);
-      add_row(i, bench.stiffness_by_rows(), springs_);
+  RateRows(const CheckContext& context, const CheckedSide& side)
+      : bench_(context), place_(static_cast<std::size_t>(context.model.size()), -1) {
+    for (const int i : context.massless()) place_[static_cast<std::size_t>(i)] = size_++;
+    for (const int i : context.massless()) {
+      add_row(i, context.damping_by_rows(), dampers_);
+      add_row(i, context.stiffness_by_rows(), springs_);
     }
-    for (const std::size_t k : bench.on_massless()) {
+    for (const std::size_t k : context.contacts_on_massless()) {
       check_known(k, side);
       add_contact(k, side);
     }
@@ -80,7 +80,7 @@ class RateRows {
   // Half of the digits: a system with a larger residual determines no velocity.
   static constexpr double of_solve = 1e-8;
   // Limit for the number of rows that dampers couple, which are decomposed together. Chosen: more would take seconds.
-  static constexpr std::size_t most_together = 300;
+  static constexpr std::size_t max_together = 300;
 
   [[nodiscard]] int at(int dof) const { return place_[static_cast<std::size_t>(dof)]; }
   [[nodiscard]] bool exists(int dof) const { return at(dof) >= 0; }
@@ -108,7 +108,7 @@ class RateRows {
   void add_contact(std::size_t k, const CheckedSide& side) {
     const Contact& c = bench_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
-    const double sliding = -sign_of_slip(state.state) * c.friction.kinetic;
+    const double sliding = -slip_direction(state.state) * c.friction.kinetic;
     const auto add_force = [&](const Combination& along, const Combination& by, double spring,
                                double dashpot) {
       for (const auto& [row, factor] : along.terms) {
@@ -148,7 +148,7 @@ class RateRows {
   /// Left null vectors of C take their row from K; the rows of their complement come from C.
   void combine() {
     for (const std::vector<int>& rows : coupled()) {
-      if (rows.size() > most_together) {
+      if (rows.size() > max_together) {
         reported_ = false;
         return;
       }
@@ -195,16 +195,16 @@ class RateRows {
 
 }  // namespace
 
-double noise_of_slip_rate(const CheckContext& bench, const CheckedSide& side, std::size_t k) {
-  if (bench.massless().empty() || bench.own_response(k) != nullptr || side.loads.empty()) return 0.0;
-  const Contact& c = bench.model.contacts[k];
-  const RateRows rows(bench, side);
+double slip_rate_noise(const CheckContext& context, const CheckedSide& side, std::size_t k) {
+  if (context.massless().empty() || context.contact_response(k) != nullptr || side.loads.empty()) return 0.0;
+  const Contact& c = context.model.contacts[k];
+  const RateRows rows(context, side);
   // p' = s (ut' + s fk/kt N') > 0: with a spring between body and sliding point, N' contributes.
   const double kt = c.tangential_stiffness.value_or(0.0);
   const double of_gap = kt > 0.0 ? c.friction.kinetic / kt * c.normal_stiffness : 0.0;
-  const Vector x = rows.weights(c.tangent, sign_of_slip((*side.mode)[k].state), c.normal, of_gap);
+  const Vector x = rows.weights(c.tangent, slip_direction((*side.mode)[k].state), c.normal, of_gap);
   if (x.size() == 0) return 0.0;
-  const Vector forces = massless_noise(bench, side, 0), rates = massless_noise(bench, side, 1);
+  const Vector forces = massless_noise(context, side, 0), rates = massless_noise(context, side, 1);
   double noise = 0.0;
   for (Eigen::Index j = 0; j < x.size(); ++j)
     noise += std::abs(x[j]) * rows.noise(static_cast<std::size_t>(j), forces, rates);
@@ -230,7 +230,8 @@ Push push_of(const Contact& c, const ContactState& state, const ContactKinematic
   Push push;
   if (is_open(state.state) && !c.normal_force_given()) return push;
   const bool first = order == 1;
-  const double g = first ? m.dg : m.ddg, ut = first ? m.dut : m.ddut, size = first ? m.speed : m.push;
+  const double g = first ? m.dg : m.ddg, ut = first ? m.dut : m.ddut,
+               size = first ? m.velocity_size : m.acceleration_size;
   push.known = c.forces_follow_motion() && !c.takes_impulses() && (first || c.normal_damping == 0.0);
   if (!push.known) return push;
   if (c.normal_force_given()) {
@@ -238,9 +239,9 @@ Push push_of(const Contact& c, const ContactState& state, const ContactKinematic
     push.size = std::abs(push.N);
   } else {
     push.N = c.normal_stiffness * g + (first ? c.normal_damping * m.ddg : 0.0);
-    push.size = c.normal_stiffness * size + (first ? c.normal_damping * m.push : 0.0);
+    push.size = c.normal_stiffness * size + (first ? c.normal_damping * m.acceleration_size : 0.0);
   }
-  if (const int s = sign_of_slip(state.state); s != 0) {
+  if (const int s = slip_direction(state.state); s != 0) {
     push.T = -s * c.friction.kinetic * push.N;
   } else if (kind_of(state.state) == State::stick) {
     push.known = c.tangential_stiffness.has_value();
@@ -261,23 +262,23 @@ Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>
 /// Balance of one order, row by row.
 class Balance {
  public:
-  Balance(const CheckContext& bench, const CheckedSide& side, int order)
-      : context_(bench),
+  Balance(const CheckContext& context, const CheckedSide& side, int order)
+      : context_(context),
         side_(side),
         order_(order),
-        sum_(Vector::Zero(bench.model.size())),
+        sum_(Vector::Zero(context.model.size())),
         size_(sum_),
         off_(sum_),
-        known_(static_cast<std::size_t>(bench.model.size()), true) {}
+        known_(static_cast<std::size_t>(context.model.size()), true) {}
 
-  [[nodiscard]] std::optional<Unbalanced> worst() {
+  [[nodiscard]] std::optional<MasslessImbalance> worst() {
     const Vector rounded = noise();
     for (const int i : context_.massless()) {
-      const double limit = rounded[i] + of_tolerance * off_[i];
+      const double limit = rounded[i] + tolerance_factor * off_[i];
       // A decayed motion has terms below the smallest normal number, which have no digits.
       if (limit < std::numeric_limits<double>::min()) continue;
       if (known_[static_cast<std::size_t>(i)] && std::abs(sum_[i]) > limit)
-        return Unbalanced{i, names[order_], std::abs(sum_[i]), limit, order_};
+        return MasslessImbalance{i, names[order_], std::abs(sum_[i]), limit, order_};
     }
     return std::nullopt;
   }
@@ -285,8 +286,8 @@ class Balance {
   /// Sums all rows; returns the rounding of each.
   [[nodiscard]] Vector noise() {
     structure();
-    for (const std::size_t k : context_.on_massless()) contact(k);
-    return (order_ == 0 ? rounding::of_elimination : of_rates) * size_;
+    for (const std::size_t k : context_.contacts_on_massless()) contact(k);
+    return (order_ == 0 ? rounding::elimination : of_rates) * size_;
   }
 
  private:
@@ -311,11 +312,11 @@ class Balance {
   /// Sizes reached by displacements (order 0), velocities and accelerations. Rounding of displacements produces
   /// velocities w times, and accelerations w^2 times as large, w: the highest frequency. At rest there is nothing else.
   [[nodiscard]] std::array<double, 2> reached(int order) const {
-    if (order == 0) return side_.u_reach;
-    std::array<double, 2> reach = side_.u_reach;
+    if (order == 0) return side_.max_u;
+    std::array<double, 2> reach = side_.max_u;
     for (std::size_t i = 0; i < reach.size(); ++i) {
       reach[i] *= rounding::eps * std::pow(context_.model.omega_max, order);
-      if (order == 1) reach[i] = std::max(reach[i], side_.v_reach[i]);
+      if (order == 1) reach[i] = std::max(reach[i], side_.max_v[i]);
     }
     return reach;
   }
@@ -337,7 +338,8 @@ class Balance {
     Push push{m.N, m.T, std::abs(m.N) + std::abs(m.T)};
     if (order_ > 0) push = push_of(c, (*side_.mode)[k], m, order_);
     if (order_ == 1 && c.normal_damping > 0.0 && side_.a == nullptr) push.known = false;
-    if (order_ == 0) push.size += size_of_normal(c, m) + c.tangential_stiffness.value_or(0.0) * m.place;
+    if (order_ == 0)
+      push.size += normal_force_size(c, m) + c.tangential_stiffness.value_or(0.0) * m.displacement_size;
     add(c.normal, push.N, push);
     add(c.tangent, push.T, push);
   }
@@ -358,15 +360,16 @@ class Balance {
 
 }  // namespace
 
-Vector massless_noise(const CheckContext& bench, const CheckedSide& side, int order) {
-  return Balance(bench, side, order).noise();
+Vector massless_noise(const CheckContext& context, const CheckedSide& side, int order) {
+  return Balance(context, side, order).noise();
 }
 
-std::vector<Unbalanced> massless_balance(const CheckContext& bench, const CheckedSide& side, int orders) {
-  std::vector<Unbalanced> found;
+std::vector<MasslessImbalance> massless_balance(const CheckContext& context, const CheckedSide& side,
+                                                int orders) {
+  std::vector<MasslessImbalance> found;
   if (side.loads.empty()) return found;
   for (int order = 0; order < orders; ++order)
-    if (const auto worst = Balance(bench, side, order).worst()) found.push_back(*worst);
+    if (const auto worst = Balance(context, side, order).worst()) found.push_back(*worst);
   return found;
 }
 

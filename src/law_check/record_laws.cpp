@@ -6,13 +6,13 @@
 
 namespace signorini::law_check {
 
-bool Finder::is_released(std::size_t k) const {
+bool InstantLawChecker::is_released(std::size_t k) const {
   return std::find(record_.released.begin(), record_.released.end(), k) != record_.released.end();
 }
 
 /// Checks contacts that massless parts leave instantaneously: such a contact can continue neither in stick nor in slip.
 /// It was closed, at its friction limit or at zero compression, and if it stays open it has a gap.
-void Finder::releases() {
+void InstantLawChecker::releases() {
   for (const std::size_t k : record_.released) {
     const Contact& c = model_.contacts[k];
     if (!c.forces_follow_motion()) continue;
@@ -20,17 +20,18 @@ void Finder::releases() {
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
     const ContactKinematics after = kinematics(c, k, record_.after),
                             before = kinematics(c, k, record_.before);
-    const double rest = rounding::of_elimination * after.place +
-                        of_tolerance * (context_.limits.rtol * after.place + context_.limits.displacement);
+    const double rest =
+        rounding::elimination * after.displacement_size +
+        tolerance_factor * (context_.limits.rtol * after.displacement_size + context_.limits.displacement);
     if (now.state == State::open && after.g < -rest)
       add(contact, "release", -after.g, rest, seen::length, true);
     if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // driven there by the jump
     const RecordedEvent* event = event_of(k);
     double least = std::numeric_limits<double>::infinity(), limit = 0.0;
-    for (const SeenGuard& guard : guards_of(c, old, before, context_.limits)) {
+    for (const GuardValue& guard : guards_of(c, old, before, context_.limits)) {
       double zero = zero_of(guard, c);
       if (event != nullptr && event->t_uncertainty >= 0.0)
-        zero += of_uncertainty * event->t_uncertainty *
+        zero += uncertainty_factor * event->t_uncertainty *
                 std::max(std::abs(event->guard_rate), std::abs(guard.rate));
       if (guard.value - zero >= least - limit) continue;
       least = guard.value;
@@ -44,25 +45,25 @@ void Finder::releases() {
 /// position: its displacements are then differences with the rounding of the whole motion before. Gaps that this
 /// rounding hides are closed, which rotates and shifts the body. So each term counts with the scene's own scale at
 /// least.
-double Finder::left_terms(const Contact& c) const {
+double InstantLawChecker::left_terms(const Contact& c) const {
   double sum = 0.0;
   for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
     for (const auto& [dof, factor] : form->terms) {
       const bool turns = model_.dofs[static_cast<std::size_t>(dof)].rotation;
       const double own = turns ? model_.scales.rotation : model_.scales.displacement;
-      sum += std::abs(factor) * std::max(own, record_.before.u_reach[turns]);
+      sum += std::abs(factor) * std::max(own, record_.before.max_u[turns]);
     }
   return sum;
 }
 
 /// Checks that a run which continues another one has its contacts at the positions where the former run ended.
-void Finder::continuation() {
+void InstantLawChecker::continuation() {
   if (!record_.start || !record_.continues) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
-    const SavedState::Left& left = model_.continues[k];
+    const SavedState::FinalContact& left = model_.saved_contacts[k];
     const ContactKinematics m = kinematics(c, k, record_.before);
-    const double limit = rounding::of_elimination * (m.place + left_terms(c));
+    const double limit = rounding::elimination * (m.displacement_size + left_terms(c));
     const auto check = [&](double was, double is) {
       if (const double off = std::abs(was - is); off > limit)
         add(static_cast<int>(k), "continuation", off, limit, seen::length, true);
@@ -73,25 +74,25 @@ void Finder::continuation() {
 }
 
 /// Checks that forces on massless parts are balanced just after, and so are their rates.
-void Finder::balance() {
-  for (const Unbalanced& found : massless_balance(context_, record_.after, 3)) {
+void InstantLawChecker::balance() {
+  for (const MasslessImbalance& found : massless_balance(context_, record_.after, 3)) {
     const bool turns = model_.dofs[static_cast<std::size_t>(found.dof)].rotation;
     add(-1, found.law, found.value, found.limit, Unit{1, turns ? 1 : 0, -found.order}, false);
   }
 }
 
-void Finder::rows() {
+void InstantLawChecker::rows() {
   for (const RecordedEvent& event : record_.events) row_of(event);
 }
 
 /// Rates of the surfaces in contact: for a compliance split, event rows exclude the deformation of its springs.
-ContactKinematics Finder::touching(std::size_t k, const CheckedSide& side) const {
+ContactKinematics InstantLawChecker::touching(std::size_t k, const CheckedSide& side) const {
   const Contact& c = model_.contacts[k];
   const State state = (*side.mode)[k].state;
   ContactKinematics m = kinematics(c, k, side);
   if (!c.compliance_split() || is_open(state)) return m;
   if (c.tangential_stiffness) {
-    const int s = sign_of_slip(state);
+    const int s = slip_direction(state);
     const double ratio = c.normal_stiffness / *c.tangential_stiffness;
     m.dut = s == 0 ? 0.0 : m.dut + s * c.friction.kinetic * ratio * m.dg;
   }
@@ -99,40 +100,41 @@ ContactKinematics Finder::touching(std::size_t k, const CheckedSide& side) const
   return m;
 }
 
-void Finder::row_check(const RecordedEvent& event, double off, double limit, const Unit& unit) {
+void InstantLawChecker::row_check(const RecordedEvent& event, double off, double limit, const Unit& unit) {
   if (off > limit) add(static_cast<int>(event.contact), "row", off, limit, unit, false);
 }
 
 /// Allowed distance of a row's guard from zero, if the row gives its value as zero.
-double Finder::settled(const RecordedEvent& event) const {
-  return of_uncertainty * std::max(event.t_uncertainty, record_.resolution) * std::abs(event.guard_rate);
+double InstantLawChecker::settled(const RecordedEvent& event) const {
+  return uncertainty_factor * std::max(event.t_uncertainty, record_.resolution) * std::abs(event.guard_rate);
 }
 
 /// Uncertainty of N and T of springs just before, from two sums of the same u and v: the engine's, and the decision's,
 /// which removes velocities left by tolerances. In modes, the energy that the sums lose is added: a spring has no more
 /// of it, kn dg^2 <= lost^2.
-double Finder::spring_noise_before(std::size_t k, const ContactKinematics& before) const {
+double InstantLawChecker::spring_noise_before(std::size_t k, const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];
   const LawLimits& tol = context_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const ContactState& state = (*record_.before.mode)[k];
-  const double of_captures = cn * context_.moved_by(record_.captures, k);
-  return rounding::of_elimination *
-             (2.0 * (size_of_normal(c, before) + kt * (before.place + std::abs(state.anchor))) +
-              std::abs(before.N) + std::abs(before.T)) +
-         of_tolerance * ((kn + kt) * (tol.rtol * before.place + tol.displacement) +
-                         cn * (tol.rtol * before.speed + tol.velocity) +
-                         tol.rtol * (std::abs(before.N) + std::abs(before.T)) + tol.force) +
-         (std::sqrt(kn) + std::sqrt(kt)) * record_.before.lost + of_captures;
+  const double of_captures = cn * context_.capture_speed(record_.captures, k);
+  return rounding::elimination * (2.0 * (normal_force_size(c, before) +
+                                         kt * (before.displacement_size + std::abs(state.anchor))) +
+                                  std::abs(before.N) + std::abs(before.T)) +
+         tolerance_factor * ((kn + kt) * (tol.rtol * before.displacement_size + tol.displacement) +
+                             cn * (tol.rtol * before.velocity_size + tol.velocity) +
+                             tol.rtol * (std::abs(before.N) + std::abs(before.T)) + tol.force) +
+         (std::sqrt(kn) + std::sqrt(kt)) * record_.before.modal_mismatch + of_captures;
 }
 
 /// Uncertainty of constraint forces just before, in two sums of the same u and v (check_context.cpp). A sliding contact
 /// has T = f N.
-double Finder::held_noise_before(std::size_t k) const {
-  const HeldForce held = context_.held_force(record_, k);
+double InstantLawChecker::held_noise_before(std::size_t k) const {
+  const ConstraintForceWeights held = context_.constraint_force_weights(record_, k);
   const Friction& friction = model_.contacts[k].friction;
-  return std::max(context_.held_noise(record_, held.N) * std::max({1.0, friction.static_, friction.kinetic}),
-                  context_.held_noise(record_, held.T));
+  return std::max(
+      context_.constraint_force_noise(record_, held.N) * std::max({1.0, friction.static_, friction.kinetic}),
+      context_.constraint_force_noise(record_, held.T));
 }
 
 /// Error of the step in which a guard was located, for steps of given length: h^2/12 |da| in a displacement, h/12
@@ -140,16 +142,17 @@ double Finder::held_noise_before(std::size_t k) const {
 /// higher derivative and cannot be combined with the rate. No acceleration in the step is assumed to exceed those of
 /// both sides, with or without the contact's force, so |da| <= 2 swing, |d(da)| <= 4 swing; higher terms in h are
 /// allowed as for times.
-double Finder::step_error(std::size_t k, double of_u, double of_v) const {
+double InstantLawChecker::step_error(std::size_t k, double of_u, double of_v) const {
   const double h = context_.limits.step;
   if (!(h > 0.0)) return 0.0;
-  return of_uncertainty * h / 12.0 * (2.0 * h * of_u + 4.0 * of_v) * context_.swing(record_, k);
+  return uncertainty_factor * h / 12.0 * (2.0 * h * of_u + 4.0 * of_v) *
+         context_.max_contact_acceleration(record_, k);
 }
 
 /// Checks N and T before. If states were found at the end of a step, both sides are the side after.
-void Finder::row_before(const RecordedEvent& event, const ContactKinematics& before,
-                        const ContactKinematics& after) {
-  if (record_.start || moves_at_once(event.contact)) return;  // guessed; decided anew
+void InstantLawChecker::row_before(const RecordedEvent& event, const ContactKinematics& before,
+                                   const ContactKinematics& after) {
+  if (record_.start || moves_instantaneously(event.contact)) return;  // guessed; decided anew
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const auto apart = [&](double row, double ContactKinematics::*force) {
@@ -168,24 +171,25 @@ void Finder::row_before(const RecordedEvent& event, const ContactKinematics& bef
 }
 
 /// Checks the gap, which is that of the side after; for a compliance split it is that of the surfaces.
-void Finder::row_gap(const RecordedEvent& event, const ContactKinematics& after) {
+void InstantLawChecker::row_gap(const RecordedEvent& event, const ContactKinematics& after) {
   const Contact& c = model_.contacts[event.contact];
   if (!event.gap) return;
   const bool touches = c.compliance_split() && !is_open((*record_.after.mode)[event.contact].state);
   const double g = touches ? 0.0 : after.g;
-  double limit = rounding::of_elimination * after.place;
+  double limit = rounding::elimination * after.displacement_size;
   if (*event.gap == 0.0) {
     const bool by_force = event.type == "separation" && c.normal_spring();
     const double dashpot = by_force ? c.normal_damping / c.normal_stiffness : 0.0;
-    limit += of_tolerance * (context_.limits.rtol * after.place + context_.limits.displacement) +
-             settled(event) / (by_force ? c.normal_stiffness : 1.0) + step_error(event.contact, 1.0, dashpot);
+    limit +=
+        tolerance_factor * (context_.limits.rtol * after.displacement_size + context_.limits.displacement) +
+        settled(event) / (by_force ? c.normal_stiffness : 1.0) + step_error(event.contact, 1.0, dashpot);
   }
   row_check(event, std::abs(*event.gap - g), limit, seen::length);
 }
 
 /// Checks that an event row agrees with both sides. Values before are those of the decision, which removes velocities
 /// left by tolerances: these are part of its captures.
-void Finder::row_of(const RecordedEvent& event) {
+void InstantLawChecker::row_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const ContactKinematics b = touching(k, record_.before), a = touching(k, record_.after);
@@ -195,17 +199,18 @@ void Finder::row_of(const RecordedEvent& event) {
     const double off = std::abs(row - side);
     if (off <= limit) return;
     if (holds) limit += force_noise();
-    if (off > limit) add(contact, "row", off, limit, unit, off > gross * (std::abs(row) + std::abs(side)));
+    if (off > limit)
+      add(contact, "row", off, limit, unit, off > grave_fraction * (std::abs(row) + std::abs(side)));
   };
-  const double size = size_of_normal(c, a) + c.tangential_stiffness.value_or(0.0) * a.place;
-  const double force = rounding::of_elimination * (size + std::abs(a.N) + std::abs(a.T));
+  const double size = normal_force_size(c, a) + c.tangential_stiffness.value_or(0.0) * a.displacement_size;
+  const double force = rounding::elimination * (size + std::abs(a.N) + std::abs(a.T));
   check(event.N_after, a.N, force, seen::force, true);
   check(event.T_after, a.T, force, seen::force, true);
-  const double speed = rounding::of_elimination * (a.speed + b.speed);
+  const double speed = rounding::elimination * (a.velocity_size + b.velocity_size);
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
-  const double loose = speed + context_.moved_by(record_.captures, k);
-  if (!moves_at_once(k)) {  // velocities of massless parts are decided anew
+  const double loose = speed + context_.capture_speed(record_.captures, k);
+  if (!moves_instantaneously(k)) {  // velocities of massless parts are decided anew
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
   }
@@ -219,8 +224,8 @@ void Finder::row_of(const RecordedEvent& event) {
     of_impulses += std::abs(p.normal) + std::abs(p.tangent);
   }
   if (event.type != "impact") return;
-  check(event.impulse_n, n, rounding::of_elimination * of_impulses, seen::impulse);
-  check(event.impulse_t, t, rounding::of_elimination * of_impulses, seen::impulse);
+  check(event.impulse_n, n, rounding::elimination * of_impulses, seen::impulse);
+  check(event.impulse_t, t, rounding::elimination * of_impulses, seen::impulse);
 }
 
 }  // namespace signorini::law_check

@@ -18,14 +18,14 @@ struct ConstraintRows {
   std::vector<double> asked, noise;  // noise: of the accelerations along the rows
 
   /// swung: accelerations that were present when a guard was located and have been removed since; empty: none.
-  void add(const Contact& c, const ContactState& state, const OwnResponse& response,
+  void add(const Contact& c, const ContactState& state, const ContactResponse& response,
            const ContactKinematics& m, const Vector& swung, bool hold) {
     const bool tangent = c.holds_tangent(state.state);
-    double of_row = rounding::of_elimination * m.push;
+    double of_row = rounding::elimination * m.acceleration_size;
     if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
     if (c.takes_impulses() && !is_open(state.state)) {
       const double friction =
-          tangent ? 0.0 : -sign_of_slip(state.state) * friction_in(c, state.state, m.dut, m.N);
+          tangent ? 0.0 : -slip_direction(state.state) * friction_in(c, state.state, m.dut, m.N);
       columns.push_back(-response.by_n - friction * response.by_t);
       rows.push_back(&c.normal);
       asked.push_back(hold ? -m.ddg : 0.0);
@@ -72,33 +72,33 @@ struct ConstraintRows {
 
 }  // namespace
 
-double Finder::force_noise() const {
-  if (!force_noise_) force_noise_ = rounding::of_elimination * context_.balance(record_.after);
+double InstantLawChecker::force_noise() const {
+  if (!force_noise_) force_noise_ = rounding::elimination * context_.balance_terms(record_.after);
   return *force_noise_;
 }
 
 /// Allowed distance of a guard from zero at this instant.
-double Finder::zero_of(const SeenGuard& guard, const Contact& c) const {
-  const double noise = rounding::of_elimination * guard.size + of_tolerance * guard.tolerance +
-                       of_uncertainty * record_.resolution * std::abs(guard.rate);
+double InstantLawChecker::zero_of(const GuardValue& guard, const Contact& c) const {
+  const double noise = rounding::elimination * guard.size + tolerance_factor * guard.tolerance +
+                       uncertainty_factor * record_.resolution * std::abs(guard.rate);
   const std::string_view law = guard.law;
   const bool solved = law == "tension" ? c.takes_impulses() : law == "friction" && !c.tangential_stiffness;
   return (1.0 + record_.forgiven) * (noise + (solved ? force_noise() : 0.0));
 }
 
-void Finder::states() {
+void InstantLawChecker::states() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     if (!c.obeys_coulomb()) continue;
     const double rest = c.capture_velocity.value_or(context_.limits.capture_velocity);
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-    if (!guards_stand(c, k, now, record_.after) || !rows_stand(c, k, now, record_.after, rest)) state_of(k);
-    if (!record_.start && record_.located && !rows_stand(c, k, old, record_.before, rest)) old_rows(k);
+    if (!guards_hold(c, k, now, record_.after) || !rows_hold(c, k, now, record_.after, rest)) state_of(k);
+    if (!record_.start && record_.located && !rows_hold(c, k, old, record_.before, rest)) old_rows(k);
   }
 }
 
 /// Checks that forces just before satisfy the rows of the old state, as far as u and v determine them.
-void Finder::old_rows(std::size_t k) {
+void InstantLawChecker::old_rows(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.before.mode)[k];
   const ContactKinematics m = kinematics(c, k, record_.before);
@@ -107,16 +107,17 @@ void Finder::old_rows(std::size_t k) {
   const double held = c.takes_impulses() ? force_noise() : 0.0;
   // In modes, forces and displacements are two different sums, each with its own round-trip error.
   const double limit =
-      rounding::of_elimination * (2.0 * (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor))) +
-                                  std::abs(m.N) + std::abs(m.T)) +
-      of_tolerance *
-          ((kn + kt) * (tol.rtol * m.place + tol.displacement) + cn * (tol.rtol * m.speed + tol.velocity) +
-           tol.rtol * (std::abs(m.N) + std::abs(m.T)) + tol.force) +
+      rounding::elimination *
+          (2.0 * (normal_force_size(c, m) + kt * (m.displacement_size + std::abs(state.anchor))) +
+           std::abs(m.N) + std::abs(m.T)) +
+      tolerance_factor * ((kn + kt) * (tol.rtol * m.displacement_size + tol.displacement) +
+                          cn * (tol.rtol * m.velocity_size + tol.velocity) +
+                          tol.rtol * (std::abs(m.N) + std::abs(m.T)) + tol.force) +
       held;
   const auto check = [&](const char* law, double off) {
     if (std::abs(off) > limit) add(static_cast<int>(k), law, std::abs(off), limit, seen::force, false);
   };
-  const int s = sign_of_slip(state.state);
+  const int s = slip_direction(state.state);
   if (c.normal_force_given())
     check("normal force", m.N + m.q);
   else if (is_open(state.state))
@@ -132,12 +133,12 @@ void Finder::old_rows(std::size_t k) {
 }
 
 /// Checks the guards and rows of the new state.
-void Finder::state_of(std::size_t k) {
+void InstantLawChecker::state_of(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
   const ContactKinematics m = kinematics(c, k, record_.after);
   const int contact = static_cast<int>(k);
-  for (const SeenGuard& guard : guards_of(c, state, m, context_.limits)) {
+  for (const GuardValue& guard : guards_of(c, state, m, context_.limits)) {
     // An engine that finds states at ends of steps checks the slip of a whole step.
     if (std::string_view(guard.law) == "slip direction" && (c.sliding_point() || !record_.located)) continue;
     // Such an engine also stops a contact for one step if its slip reverses.
@@ -145,12 +146,12 @@ void Finder::state_of(std::size_t k) {
     double zero = zero_of(guard, c);
     // A contact held by others slips at the rounding of the constraints that hold it.
     const bool of_slip = std::string_view(guard.law) == "slip direction";
-    if (std::string_view(guard.law) == "rest" || (of_slip && held_beside(model_, k)))
-      zero += context_.slowest(record_, k);
+    if (std::string_view(guard.law) == "rest" || (of_slip && may_be_held_by_neighbour(model_, k)))
+      zero += context_.rest_speed(record_, k);
     if (guard.value < -zero && of_slip)
-      zero += (1.0 + record_.forgiven) * noise_of_slip_rate(context_, record_.after, k);
+      zero += (1.0 + record_.forgiven) * slip_rate_noise(context_, record_.after, k);
     if (guard.value < -zero)
-      add(contact, guard.law, -guard.value, zero, guard.unit(), -guard.value > gross * guard.size);
+      add(contact, guard.law, -guard.value, zero, guard.unit(), -guard.value > grave_fraction * guard.size);
   }
   double asked = 0.0, size = std::abs(m.N);
   if (c.normal_force_given()) {
@@ -162,55 +163,60 @@ void Finder::state_of(std::size_t k) {
       return;
     }
     asked = c.normal_stiffness * m.g + c.normal_damping * m.dg;
-    size += size_of_normal(c, m);
+    size += normal_force_size(c, m);
   }
-  const double limit = rounding::of_elimination * size;
+  const double limit = rounding::elimination * size;
   if (const double off = std::abs(m.N - asked); off > limit)
     add(contact, "normal force", off, limit, seen::force, false);
   friction_of(k, m);
 }
 
 /// Checks that T satisfies the state's row.
-void Finder::friction_of(std::size_t k, const ContactKinematics& m) {
+void InstantLawChecker::friction_of(std::size_t k, const ContactKinematics& m) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
-  const int s = sign_of_slip(state.state);
+  const int s = slip_direction(state.state);
   double asked = 0.0, size = std::abs(m.T);
   if (s != 0) {
-    if (c.friction.varies() && c.sliding_point()) return;  // its rate follows from T and is not given
+    if (c.friction.is_rate_dependent() && c.sliding_point())
+      return;  // its rate follows from T and is not given
     const double f = friction_in(c, state.state, m.dut, m.N);
     asked = -s * f * m.N;
-    size += std::abs(asked) + f * size_of_normal(c, m);
+    size += std::abs(asked) + f * normal_force_size(c, m);
   } else if (kind_of(state.state) == State::stick) {
     if (c.holds_tangent(state.state) || c.sliding_point()) {
-      const double zero = context_.slowest(record_, k);
+      const double zero = context_.rest_speed(record_, k);
       if (std::abs(m.dut) > zero)
         add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
       return;
     }
     asked = *c.tangential_stiffness * (m.ut - state.anchor);
-    size += *c.tangential_stiffness * (m.place + std::abs(state.anchor));
+    size += *c.tangential_stiffness * (m.displacement_size + std::abs(state.anchor));
   }
-  const double limit = rounding::of_elimination * size + (c.takes_impulses() ? force_noise() : 0.0);
+  const double limit = rounding::elimination * size + (c.takes_impulses() ? force_noise() : 0.0);
   if (const double off = std::abs(m.T - asked); off > limit)
     add(static_cast<int>(k), "friction force", off, limit, seen::force, false);
 }
 
 /// True if the contact acts on massless degrees of freedom: its velocities are those of its new state.
-bool Finder::moves_at_once(std::size_t k) const { return context_.own_response(k) == nullptr; }
+bool InstantLawChecker::moves_instantaneously(std::size_t k) const {
+  return context_.contact_response(k) == nullptr;
+}
 
 /// Contact k in its old state, with u, v+ and the new states of all others. nullopt: its old rows do not determine its
 /// forces.
-std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
+std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_old_state(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState& old = (*record_.before.mode)[k];
-  const OwnResponse* own = context_.own_response(k);
+  const ContactResponse* own = context_.contact_response(k);
   if (own == nullptr) return std::nullopt;
-  Old result{kinematics(c, k, record_.after)};
+  OldStateMotion result{kinematics(c, k, record_.after)};
   ContactKinematics& m = result.m;
   const bool solved_N = c.takes_impulses() && !is_open(old.state), solved_T = c.holds_tangent(old.state);
   const double N = m.N, T = m.T;
-  const auto sliding = [&] { return -sign_of_slip(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N; };
+  const auto sliding = [&] {
+    return -slip_direction(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N;
+  };
   // Forces given directly by the old rows, and their effect on accelerations.
   if (!solved_N)
     m.N = c.normal_force_given() ? -m.q
@@ -223,14 +229,14 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   Vector push = -(m.N - N) * own->by_n;
   if (!solved_T) push -= (m.T - T) * own->by_t;
   ConstraintRows held;
-  const Vector swung = context_.swung(record_);
+  const Vector swung = context_.capture_accelerations(record_);
   held.add(c, old, *own, m, swung, true);
   for (std::size_t j = 0; j < model_.contacts.size(); ++j) {
     const Contact& other = model_.contacts[j];
     const ContactState& state = (*record_.after.mode)[j];
     const bool rigid = other.takes_impulses() || other.holds_tangent(state.state);
     if (j == k || !other.obeys_coulomb() || is_open(state.state) || !rigid) continue;
-    const OwnResponse* response = context_.own_response(j);
+    const ContactResponse* response = context_.contact_response(j);
     if (response == nullptr) return std::nullopt;
     held.add(other, state, *response, kinematics(other, j, record_.after), swung, false);
   }
@@ -238,11 +244,11 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   const ConstraintRows::Change change = held.solve(push);
   if (solved_N) {
     m.N = N + change.forces[0];
-    result.unsure_N = change.unsure[0];
+    result.uncertainty_N = change.unsure[0];
   }
   if (solved_T) {
     m.T = T + change.forces[solved_N ? 1 : 0];
-    result.unsure_T = change.unsure[solved_N ? 1 : 0];
+    result.uncertainty_T = change.unsure[solved_N ? 1 : 0];
   }
   if (solved_N && !solved_T) m.T = sliding();
   m.ddg += c.normal.dot(push);
@@ -251,24 +257,26 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
 }
 
 /// True if its own g', ut', N or T jumps: the motion before does not determine its guard after the jump.
-bool Finder::jumps(std::size_t k) const {
+bool InstantLawChecker::jumps(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
-  const double speed = rounding::of_elimination * a.speed + of_tolerance * context_.limits.velocity;
+  const double speed = rounding::elimination * a.velocity_size + tolerance_factor * context_.limits.velocity;
   const double force =
-      rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
-      of_tolerance * (context_.limits.force + c.normal_stiffness * context_.limits.displacement);
+      rounding::elimination * (normal_force_size(c, a) + std::abs(a.N) + std::abs(b.N)) +
+      tolerance_factor * (context_.limits.force + c.normal_stiffness * context_.limits.displacement);
   const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;  // N = kn g is continuous, as u is
   return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
          (may_jump && std::abs(a.N - b.N) > force);
 }
 
-void Finder::transitions() {
+void InstantLawChecker::transitions() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
     const RecordedEvent* event = event_of(k);
     if (old.state == now.state && event == nullptr) continue;
-    const auto plain = [](State s) { return s == State::inside ? State::open : is_held(s) ? kind_of(s) : s; };
+    const auto plain = [](State s) {
+      return s == State::inside ? State::open : is_at_static_limit(s) ? kind_of(s) : s;
+    };
     if (plain(old.state) != plain(now.state) && !record_.start &&
         (event == nullptr || event->from != plain(old.state) || event->to != plain(now.state)))
       add(static_cast<int>(k), "record", 1.0, 0.0, {}, true);
@@ -282,17 +290,18 @@ void Finder::transitions() {
 
 /// True if a rigidly sticking contact slides, however slowly, after a hit that its friction could not withstand:
 /// |Pt| = fk Pn.
-bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const ContactKinematics& after) const {
+bool InstantLawChecker::is_pushed_off(std::size_t k, const ContactState& old,
+                                      const ContactKinematics& after) const {
   const Contact& c = model_.contacts[k];
   if (kind_of(old.state) != State::stick || c.tangential_stiffness) return false;
-  if (std::abs(after.dut) > rounding::of_elimination * after.speed) return true;
+  if (std::abs(after.dut) > rounding::elimination * after.velocity_size) return true;
   if (record_.impulses.empty() || after.dut == 0.0) return false;
   for (const RecordedImpulse& p : record_.impulses) {
     if (p.contact != k) continue;
     double greatest = 0.0;
     for (const RecordedImpulse& other : record_.impulses)
       greatest = std::max({greatest, std::abs(other.normal), std::abs(other.tangent)});
-    return std::abs(p.tangent) >= c.friction.kinetic * p.normal - rounding::of_elimination * greatest;
+    return std::abs(p.tangent) >= c.friction.kinetic * p.normal - rounding::elimination * greatest;
   }
   return true;  // a slider, which takes no impulse
 }
@@ -302,8 +311,9 @@ namespace {
 /// True if N jumps. With a dashpot its part of the jump is tested alone, since u is continuous: N is known to the
 /// rounding of kn u, cn (g'+ - g'-) to that of velocities.
 bool force_jumps(const Contact& c, const ContactKinematics& before, const ContactKinematics& after) {
-  const double of_N = rounding::of_many * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
-  const double of_rate = rounding::of_many * (before.speed + after.speed);
+  const double of_N =
+      rounding::many_operations * (std::abs(before.N) + std::abs(after.N) + normal_force_size(c, after));
+  const double of_rate = rounding::many_operations * (before.velocity_size + after.velocity_size);
   return std::abs(after.N - before.N) > of_N ||
          (c.normal_damping > 0.0 && std::abs(after.dg - before.dg) > of_rate);
 }
@@ -311,14 +321,14 @@ bool force_jumps(const Contact& c, const ContactKinematics& before, const Contac
 }  // namespace
 
 /// Reports a violation if every guard of the old state, with v+, is above its rounding: the change had no reason.
-void Finder::necessity(std::size_t k) {
+void InstantLawChecker::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (!c.forces_follow_motion() || (moves_at_once(k) && record_.breakpoint)) return;
+  if (!c.forces_follow_motion() || (moves_instantaneously(k) && record_.breakpoint)) return;
   const ContactKinematics before = kinematics(c, k, record_.before), after = kinematics(c, k, record_.after);
   if (c.normal_force_given() && (is_open(old.state) || is_open(now.state)))
     return;  // the compression decides
-  const double rest = rounding::of_elimination * after.speed;
+  const double rest = rounding::elimination * after.velocity_size;
   if (is_pushed_off(k, old, after)) return;
   // A contact thrown off in a hit, however slowly.
   if (c.takes_impulses() && !is_open(old.state) &&
@@ -326,21 +336,21 @@ void Finder::necessity(std::size_t k) {
     return;
   // T stays if N jumps: a contact that slid sticks with this T until its limit is reached again. A distant jump makes N
   // jump as well, however little reaches the contact.
-  if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && force_jumps(c, before, after)) return;
-  if (its_own_falls(k, old, before)) return;
-  const std::optional<Old> before_it = as_before(k);
+  if (c.tangential_stiffness && slip_direction(old.state) != 0 && force_jumps(c, before, after)) return;
+  if (own_guard_crosses(k, old, before)) return;
+  const std::optional<OldStateMotion> before_it = motion_in_old_state(k);
   if (!before_it) return;
-  const SeenGuards guards = guards_of(c, old, before_it->m, context_.limits);
+  const GuardValues guards = guards_of(c, old, before_it->m, context_.limits);
   const RecordedEvent* event = event_of(k);
-  const SeenGuard* nearest = nullptr;
+  const GuardValue* nearest = nullptr;
   double limit = 0.0;
-  for (const SeenGuard& guard : guards) {
+  for (const GuardValue& guard : guards) {
     double zero = zero_of(guard, c);
     if (guard.law != std::string_view("slip direction") && guard.law != std::string_view("penetration"))
-      zero += (1.0 + c.friction.static_) * before_it->unsure_N + before_it->unsure_T;
+      zero += (1.0 + c.friction.static_) * before_it->uncertainty_N + before_it->uncertainty_T;
     if (event != nullptr && event->t_uncertainty >= 0.0)
-      zero +=
-          of_uncertainty * event->t_uncertainty * std::max(std::abs(event->guard_rate), std::abs(guard.rate));
+      zero += uncertainty_factor * event->t_uncertainty *
+              std::max(std::abs(event->guard_rate), std::abs(guard.rate));
     if (guard.value <= zero) return;
     const bool leaves = is_open(old.state) || is_open(now.state);  // first guard; otherwise the last
     if (nearest != nullptr && leaves) continue;
@@ -349,34 +359,35 @@ void Finder::necessity(std::size_t k) {
   }
   if (nearest == nullptr) return;
   add(static_cast<int>(k), "necessity", nearest->value, limit, nearest->unit(),
-      nearest->value > gross * nearest->size);
+      nearest->value > grave_fraction * nearest->size);
 }
 
 /// True if a guard of its own was zero before, although changes of other contacts at this instant would have lifted it.
-bool Finder::its_own_falls(std::size_t k, const ContactState& old, const ContactKinematics& before) const {
+bool InstantLawChecker::own_guard_crosses(std::size_t k, const ContactState& old,
+                                          const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];
   const RecordedEvent* event = event_of(k);
   const double off = event != nullptr && event->t_uncertainty >= 0.0 ? event->t_uncertainty : 0.0;
-  for (const SeenGuard& guard : guards_of(c, old, before, context_.limits))
-    if (guard.value <= zero_of(guard, c) + of_uncertainty * off * std::abs(guard.rate)) return true;
+  for (const GuardValue& guard : guards_of(c, old, before, context_.limits))
+    if (guard.value <= zero_of(guard, c) + uncertainty_factor * off * std::abs(guard.rate)) return true;
   return false;
 }
 
 /// Checks that the guard of an event is zero at its time, in the motion just before.
-void Finder::guard_of(const RecordedEvent& event) {
+void InstantLawChecker::guard_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   if (!c.forces_follow_motion()) return;
   const ContactState& old = (*record_.before.mode)[k];
-  if (sign_of_slip(old.state) != 0 && c.normal_damping > 0.0 && record_.before.a == nullptr) return;
+  if (slip_direction(old.state) != 0 && c.normal_damping > 0.0 && record_.before.a == nullptr) return;
   const ContactKinematics m = kinematics(c, k, record_.before);
   double least = std::numeric_limits<double>::infinity(), limit = 0.0;
-  const SeenGuard* which = nullptr;
-  const SeenGuards guards = guards_of(c, old, m, context_.limits);
-  for (const SeenGuard& guard : guards) {
+  const GuardValue* which = nullptr;
+  const GuardValues guards = guards_of(c, old, m, context_.limits);
+  for (const GuardValue& guard : guards) {
     // The zero was located with u and v themselves: no tolerance of the engine remains.
-    const double zero = zero_of(guard, c) - of_tolerance * guard.tolerance +
-                        of_uncertainty * event.t_uncertainty * std::abs(event.guard_rate);
+    const double zero = zero_of(guard, c) - tolerance_factor * guard.tolerance +
+                        uncertainty_factor * event.t_uncertainty * std::abs(event.guard_rate);
     if (which != nullptr && std::abs(guard.value) / zero >= std::abs(least) / limit) continue;
     least = guard.value;
     limit = zero;

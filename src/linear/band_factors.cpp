@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/rounding.hpp"
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::linear {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t lanes = 4;
 [[gnu::always_inline]] inline void eliminate(double factor, const double* pivots, std::size_t count,
                                              double* row) {
   for (std::size_t c = 0; c < count; c += lanes)
-    base::lanes_at<base::Four>(row + c).v -= factor * base::lanes_at<base::Four>(pivots + c).v;
+    base::lanes_at<base::Double4>(row + c).v -= factor * base::lanes_at<base::Double4>(pivots + c).v;
 }
 
 struct Band {

@@ -83,12 +83,13 @@ namespace {
 /// Number of changes that are remembered: new factors cost less than more of them.
 constexpr std::size_t most_remembered = 64;
 
-CondensedRows::Held held_by(const Rows& rows) {
+CondensedRows::ContactCoefficients held_by(const Rows& rows) {
   const Form &normal = rows.normal, &tangent = rows.tangent;
   const auto moves = [](const Form& f) { return f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0; };
   const bool accelerates = normal.an != 0.0 || normal.at != 0.0 || tangent.an != 0.0 || tangent.at != 0.0;
-  CondensedRows::Held held{normal.N,    tangent.N,  tangent.T,  normal.gap, normal.ut, normal.vn, normal.vt,
-                           tangent.gap, tangent.ut, tangent.vn, tangent.vt, false,     false};
+  CondensedRows::ContactCoefficients held{normal.N,   tangent.N, tangent.T,   normal.gap, normal.ut,
+                                          normal.vn,  normal.vt, tangent.gap, tangent.ut, tangent.vn,
+                                          tangent.vt, false,     false};
   held.on_motion = moves(normal) || moves(tangent);
   // N from its own row, then T: no elimination that could lose digits.
   held.known = !accelerates && normal.T == 0.0 && normal.N != 0.0 && tangent.T != 0.0;
@@ -97,8 +98,8 @@ CondensedRows::Held held_by(const Rows& rows) {
 
 }  // namespace
 
-std::optional<CondensedRows> CondensedRows::of(const Model& model, const SystemMatrices& structure,
-                                               std::size_t most_width) {
+std::optional<CondensedRows> CondensedRows::create(const Model& model, const SystemMatrices& structure,
+                                                   std::size_t most_width) {
   const BandOrder order = band_order(model, structure);
   if (order.width > most_width) return std::nullopt;
   CondensedRows result;
@@ -126,12 +127,12 @@ std::optional<CondensedRows> CondensedRows::of(const Model& model, const SystemM
     for (const Combination* form : {&contact.normal, &contact.tangent})
       for (const auto& term : form->terms) dofs.insert(term.first);
     for (const int dof : dofs) {
-      touching[place_of(dof)].push_back(static_cast<std::uint32_t>(result.touches_.size()));
-      result.touches_.push_back({static_cast<std::uint32_t>(dof), static_cast<std::uint32_t>(place_of(dof)),
-                                 static_cast<std::uint32_t>(c), component(contact.normal, dof),
-                                 component(contact.tangent, dof)});
+      touching[place_of(dof)].push_back(static_cast<std::uint32_t>(result.contact_dofs_.size()));
+      result.contact_dofs_.push_back(
+          {static_cast<std::uint32_t>(dof), static_cast<std::uint32_t>(place_of(dof)),
+           static_cast<std::uint32_t>(c), component(contact.normal, dof), component(contact.tangent, dof)});
     }
-    result.touches_end_.push_back(result.touches_.size());
+    result.contact_dofs_end_.push_back(result.contact_dofs_.size());
   }
   for (std::size_t i = 0; i < n; ++i) {
     std::sort(rows[i].begin(), rows[i].end(), [](const Entry& a, const Entry& b) { return a.at < b.at; });
@@ -140,40 +141,40 @@ std::optional<CondensedRows> CondensedRows::of(const Model& model, const SystemM
     result.at_place_.insert(result.at_place_.end(), touching[i].begin(), touching[i].end());
     result.at_place_end_.push_back(result.at_place_.size());
   }
-  result.held_.resize(model.contacts.size());
-  result.unknown_ = result.held_.size();
+  result.coefficients_.resize(model.contacts.size());
+  result.unknown_ = result.coefficients_.size();
   return result;
 }
 
-void CondensedRows::put(std::size_t c, const Rows& rows) {
-  unknown_ -= held_[c].known ? 0 : 1;
-  held_[c] = held_by(rows);
-  unknown_ += held_[c].known ? 0 : 1;
+void CondensedRows::set_rows(std::size_t c, const Rows& rows) {
+  unknown_ -= coefficients_[c].known ? 0 : 1;
+  coefficients_[c] = held_by(rows);
+  unknown_ += coefficients_[c].known ? 0 : 1;
   if (changed_.size() == most_remembered) {  // discards the earlier half
     constexpr std::size_t half = most_remembered / 2;
     changed_.erase(changed_.begin(), changed_.begin() + half);
-    forgotten_ += half;
+    dropped_changes_ += half;
   }
   changed_.push_back(c);
 }
 
-void CondensedRows::put(const std::vector<Rows>& rows) {
-  for (std::size_t c = 0; c < rows.size(); ++c) put(c, rows[c]);
+void CondensedRows::set_rows(const std::vector<Rows>& rows) {
+  for (std::size_t c = 0; c < rows.size(); ++c) set_rows(c, rows[c]);
 }
 
 std::optional<std::span<const std::size_t>> CondensedRows::changed_since(long version) const {
-  if (version < forgotten_) return std::nullopt;
-  return std::span(changed_).subspan(static_cast<std::size_t>(version - forgotten_));
+  if (version < dropped_changes_) return std::nullopt;
+  return std::span(changed_).subspan(static_cast<std::size_t>(version - dropped_changes_));
 }
 
-void CondensedRows::share(std::size_t c, const Weights& w, double* by_N, double* by_T) const {
-  const Held& h = held_[c];
+void CondensedRows::force_coefficients(std::size_t c, const Weights& w, double* by_N, double* by_T) const {
+  const ContactCoefficients& h = coefficients_[c];
   const double of_gap = h.normal_gap * w.displacement + h.normal_vn * w.velocity,
                of_ut = h.normal_ut * w.displacement + h.normal_vt * w.velocity,
                to_gap = h.tangent_gap * w.displacement + h.tangent_vn * w.velocity,
                to_ut = h.tangent_ut * w.displacement + h.tangent_vt * w.velocity;
-  for (std::size_t i = touches_end_[c]; i < touches_end_[c + 1]; ++i) {
-    const Touch& at = touches_[i];
+  for (std::size_t i = contact_dofs_end_[c]; i < contact_dofs_end_[c + 1]; ++i) {
+    const ContactDof& at = contact_dofs_[i];
     by_N[i] = (at.n * of_gap + at.t * of_ut) / h.normal_N;
     by_T[i] = (at.n * to_gap + at.t * to_ut - h.tangent_N * by_N[i]) / h.tangent_T;
   }
@@ -183,11 +184,11 @@ void CondensedRows::fill(std::size_t place, const Weights& w, const double* by_N
                          double* out) const {
   for (const Entry& e : entries(place))
     out[e.at] = w.acceleration * e.m + w.velocity * e.c + w.displacement * e.k;
-  for (const std::uint32_t i : touches_at(place)) {
-    const Touch& at = touches_[i];
-    if (!held_[at.contact].on_motion) continue;
-    for (std::size_t j = touches_end_[at.contact]; j < touches_end_[at.contact + 1]; ++j)
-      out[width_ + touches_[j].place - place] -= at.n * by_N[j] + at.t * by_T[j];
+  for (const std::uint32_t i : contact_dofs_at(place)) {
+    const ContactDof& at = contact_dofs_[i];
+    if (!coefficients_[at.contact].on_motion) continue;
+    for (std::size_t j = contact_dofs_end_[at.contact]; j < contact_dofs_end_[at.contact + 1]; ++j)
+      out[width_ + contact_dofs_[j].place - place] -= at.n * by_N[j] + at.t * by_T[j];
   }
 }
 
@@ -198,15 +199,15 @@ constexpr std::size_t rows_at_once = 32;
 
 }  // namespace
 
-bool is_economical(const Model& model, const SystemMatrices& structure, const RedundantRows& shared) {
+bool saves_factorisations(const Model& model, const SystemMatrices& structure, const RedundantRows& shared) {
   return !has_massless(model) && shared.groups().empty() &&
-         structure.size + static_cast<int>(model.force_count()) >= economical_from;
+         structure.size + static_cast<int>(model.force_count()) >= min_condensed_size;
 }
 
 CondensedMatrix::CondensedMatrix(const CondensedRows& rows)
     : rows_(rows),
       band_(rows.size(), rows.width()),
-      by_N_(rows.contacts() > 0 ? rows.end_of_touches(rows.contacts() - 1) : 0),
+      by_N_(rows.contacts() > 0 ? rows.end_of_contact_dofs(rows.contacts() - 1) : 0),
       by_T_(by_N_.size()),
       x_(rows.size()) {}
 
@@ -218,14 +219,14 @@ void CondensedMatrix::fill(std::size_t begin, std::size_t end) {
 bool CondensedMatrix::factor() {
   ++factorisations;
   for (std::size_t c = 0; c < rows_.contacts(); ++c)
-    if (rows_.held(c).on_motion) rows_.share(c, weights_, by_N_.data(), by_T_.data());
+    if (rows_.coefficients(c).on_motion) rows_.force_coefficients(c, weights_, by_N_.data(), by_T_.data());
   fill(0, rows_.size());
   return band_.factor();
 }
 
 /// Renews rows from `begin` on until they equal the old ones. nullopt: the factors lose digits; else the first
 /// unchanged row.
-std::optional<std::size_t> CondensedMatrix::renew(std::size_t begin) {
+std::optional<std::size_t> CondensedMatrix::refactor(std::size_t begin) {
   const std::size_t stride = band_.stride(), count = std::max(rows_at_once, 2 * rows_.width());
   before_.resize(count * stride);
   for (std::size_t next = 0; begin < rows_.size(); begin = next) {
@@ -233,7 +234,7 @@ std::optional<std::size_t> CondensedMatrix::renew(std::size_t begin) {
     std::copy(band_.row(begin), band_.row(begin) + (next - begin) * stride, before_.begin());
     fill(begin, next);
     if (!band_.factor(begin, next)) return std::nullopt;
-    renewed_rows += static_cast<long>(next - begin);
+    refactored_rows += static_cast<long>(next - begin);
     const std::size_t last = next - std::min(next - begin, rows_.width());
     const bool same = std::memcmp(band_.row(last), before_.data() + (last - begin) * stride,
                                   (next - last) * stride * sizeof(double)) == 0;
@@ -242,18 +243,18 @@ std::optional<std::size_t> CondensedMatrix::renew(std::size_t begin) {
   return begin;
 }
 
-bool CondensedMatrix::renew(std::span<const std::size_t> contacts) {
+bool CondensedMatrix::refactor(std::span<const std::size_t> contacts) {
   touched_.clear();
   for (const std::size_t c : contacts) {
-    rows_.share(c, weights_, by_N_.data(), by_T_.data());
-    for (std::size_t i = rows_.first_touch(c); i < rows_.end_of_touches(c); ++i)
-      touched_.push_back(rows_.touch(i).place);
+    rows_.force_coefficients(c, weights_, by_N_.data(), by_T_.data());
+    for (std::size_t i = rows_.first_contact_dof(c); i < rows_.end_of_contact_dofs(c); ++i)
+      touched_.push_back(rows_.contact_dof(i).place);
   }
   std::sort(touched_.begin(), touched_.end());
   std::size_t done = 0;
   for (const std::size_t place : touched_) {
     if (place < done) continue;
-    const auto end = renew(place);
+    const auto end = refactor(place);
     if (!end) return false;
     done = *end;
   }
@@ -263,25 +264,25 @@ bool CondensedMatrix::renew(std::span<const std::size_t> contacts) {
 bool CondensedMatrix::set(const Weights& weights) {
   const auto changed = rows_.changed_since(version_);
   version_ = rows_.version();
-  const bool at_them = is_at(weights) && changed;
+  const bool at_them = is_factored_at(weights) && changed;
   weights_ = weights;
   set_ = true;
-  if (at_them && changed->empty()) return holds_;
-  holds_ = rows_.note_known() && (at_them && holds_ ? renew(*changed) : factor());
-  return holds_;
+  if (at_them && changed->empty()) return has_factors_;
+  has_factors_ = rows_.is_determined() && (at_them && has_factors_ ? refactor(*changed) : factor());
+  return has_factors_;
 }
 
 void CondensedMatrix::solve(double* x) {
   const std::size_t n = rows_.size();
   double* forces = x + n;
   for (std::size_t c = 0; c < rows_.contacts(); ++c) {
-    const CondensedRows::Held& held = rows_.held(c);
+    const CondensedRows::ContactCoefficients& held = rows_.coefficients(c);
     double &N = forces[rows_.layout().normal(c)], &T = forces[rows_.layout().tangent(c)];
     N /= held.normal_N;
     T = (T - held.tangent_N * N) / held.tangent_T;
     if (N == 0.0 && T == 0.0) continue;
-    for (std::size_t i = rows_.first_touch(c); i < rows_.end_of_touches(c); ++i) {
-      const CondensedRows::Touch& at = rows_.touch(i);
+    for (std::size_t i = rows_.first_contact_dof(c); i < rows_.end_of_contact_dofs(c); ++i) {
+      const CondensedRows::ContactDof& at = rows_.contact_dof(i);
       x[at.dof] -= at.n * N + at.t * T;
     }
   }
@@ -289,11 +290,11 @@ void CondensedMatrix::solve(double* x) {
   band_.solve(x_.data());
   for (std::size_t i = 0; i < n; ++i) x[rows_.dof_at(i)] = x_[i];
   for (std::size_t c = 0; c < rows_.contacts(); ++c) {
-    if (!rows_.held(c).on_motion) continue;
+    if (!rows_.coefficients(c).on_motion) continue;
     double N = 0.0, T = 0.0;
-    for (std::size_t i = rows_.first_touch(c); i < rows_.end_of_touches(c); ++i) {
-      N += by_N_[i] * x[rows_.touch(i).dof];
-      T += by_T_[i] * x[rows_.touch(i).dof];
+    for (std::size_t i = rows_.first_contact_dof(c); i < rows_.end_of_contact_dofs(c); ++i) {
+      N += by_N_[i] * x[rows_.contact_dof(i).dof];
+      T += by_T_[i] * x[rows_.contact_dof(i).dof];
     }
     forces[rows_.layout().normal(c)] -= N;
     forces[rows_.layout().tangent(c)] -= T;

@@ -52,12 +52,12 @@ class CondensedRows {
     double m = 0.0, c = 0.0, k = 0.0;
   };
   /// A degree of freedom of a contact.
-  struct Touch {
+  struct ContactDof {
     std::uint32_t dof = 0, place = 0, contact = 0;
     double n = 0.0, t = 0.0;
   };
   /// A contact in force.
-  struct Held {
+  struct ContactCoefficients {
     double normal_N = 1.0, tangent_N = 0.0, tangent_T = 1.0;
     double normal_gap = 0.0, normal_ut = 0.0, normal_vn = 0.0, normal_vt = 0.0;
     double tangent_gap = 0.0, tangent_ut = 0.0, tangent_vn = 0.0, tangent_vt = 0.0;
@@ -65,22 +65,23 @@ class CondensedRows {
     bool known = false;      ///< own rows determine its forces, without accelerations
   };
 
-  /// Rows of a model with is_economical(), without contacts in force. nullopt: the band is wider.
-  [[nodiscard]] static std::optional<CondensedRows> of(const Model& model, const SystemMatrices& structure,
-                                                       std::size_t most_width);
+  /// Rows of a model with saves_factorisations(), without contacts in force. nullopt: the band is wider.
+  [[nodiscard]] static std::optional<CondensedRows> create(const Model& model,
+                                                           const SystemMatrices& structure,
+                                                           std::size_t most_width);
 
   [[nodiscard]] std::size_t size() const { return dof_at_.size(); }
   [[nodiscard]] std::size_t width() const { return width_; }
-  [[nodiscard]] std::size_t contacts() const { return held_.size(); }
+  [[nodiscard]] std::size_t contacts() const { return coefficients_.size(); }
   [[nodiscard]] const ForceLayout& layout() const { return layout_; }
 
   /// Puts the rows of one contact in force, or those of all contacts.
-  void put(std::size_t contact, const Rows& rows);
-  void put(const std::vector<Rows>& rows);
+  void set_rows(std::size_t contact, const Rows& rows);
+  void set_rows(const std::vector<Rows>& rows);
   /// False: a row contains an acceleration or does not determine its force.
-  [[nodiscard]] bool note_known() const { return unknown_ == 0; }
+  [[nodiscard]] bool is_determined() const { return unknown_ == 0; }
   /// Version number; each change increases it.
-  [[nodiscard]] long version() const { return forgotten_ + static_cast<long>(changed_.size()); }
+  [[nodiscard]] long version() const { return dropped_changes_ + static_cast<long>(changed_.size()); }
   /// Contacts put in force since that version, some possibly twice. nullopt: the record does not reach back so far.
   [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
 
@@ -88,18 +89,24 @@ class CondensedRows {
   [[nodiscard]] std::span<const Entry> entries(std::size_t place) const {
     return {entries_.data() + entries_end_[place], entries_.data() + entries_end_[place + 1]};
   }
-  [[nodiscard]] const Held& held(std::size_t contact) const { return held_[contact]; }
+  [[nodiscard]] const ContactCoefficients& coefficients(std::size_t contact) const {
+    return coefficients_[contact];
+  }
   /// Touches of a contact: [first, end) of touch().
-  [[nodiscard]] std::size_t first_touch(std::size_t contact) const { return touches_end_[contact]; }
-  [[nodiscard]] std::size_t end_of_touches(std::size_t contact) const { return touches_end_[contact + 1]; }
-  [[nodiscard]] const Touch& touch(std::size_t i) const { return touches_[i]; }
+  [[nodiscard]] std::size_t first_contact_dof(std::size_t contact) const {
+    return contact_dofs_end_[contact];
+  }
+  [[nodiscard]] std::size_t end_of_contact_dofs(std::size_t contact) const {
+    return contact_dofs_end_[contact + 1];
+  }
+  [[nodiscard]] const ContactDof& contact_dof(std::size_t i) const { return contact_dofs_[i]; }
   /// Touches at a place, ascending by contact.
-  [[nodiscard]] std::span<const std::uint32_t> touches_at(std::size_t place) const {
+  [[nodiscard]] std::span<const std::uint32_t> contact_dofs_at(std::size_t place) const {
     return {at_place_.data() + at_place_end_[place], at_place_.data() + at_place_end_[place + 1]};
   }
 
   /// B^-1 R of a contact on its touches, at these weights; by_N, by_T: one entry for each touch.
-  void share(std::size_t contact, const Weights& weights, double* by_N, double* by_T) const;
+  void force_coefficients(std::size_t contact, const Weights& weights, double* by_N, double* by_T) const;
   /// The row at a place; out: 2 width() + 1 numbers that are zero before, with the diagonal in the middle.
   void fill(std::size_t place, const Weights& weights, const double* by_N, const double* by_T,
             double* out) const;
@@ -111,28 +118,28 @@ class CondensedRows {
   ForceLayout layout_;
   std::vector<std::size_t> dof_at_;  // degree of freedom at each place
   std::vector<Entry> entries_;
-  std::vector<std::size_t> entries_end_{0};  // place by place
-  std::vector<Touch> touches_;               // contact by contact
-  std::vector<std::size_t> touches_end_{0};  // end of each contact's touches
-  std::vector<std::uint32_t> at_place_;      // touches, place by place
+  std::vector<std::size_t> entries_end_{0};       // place by place
+  std::vector<ContactDof> contact_dofs_;          // contact by contact
+  std::vector<std::size_t> contact_dofs_end_{0};  // end of each contact's touches
+  std::vector<std::uint32_t> at_place_;           // touches, place by place
   std::vector<std::size_t> at_place_end_{0};
-  std::vector<Held> held_;
+  std::vector<ContactCoefficients> coefficients_;
   std::size_t unknown_ = 0;           // number of contacts
   std::vector<std::size_t> changed_;  // the last changed contacts
-  long forgotten_ = 0;                // number of earlier changes
+  long dropped_changes_ = 0;          // number of earlier changes
 };
 
 /// Number of unknowns from which avoiding a factorisation saves time: one with 200 takes about 30 us. Chosen: the tests
 /// unit/engine/newmark cover both sides.
-inline constexpr int economical_from = 200;
-/// True if all degrees of freedom have mass, contacts share no rows, and there are at least economical_from unknowns.
-[[nodiscard]] bool is_economical(const Model& model, const SystemMatrices& structure,
-                                 const RedundantRows& shared);
+inline constexpr int min_condensed_size = 200;
+/// True if all degrees of freedom have mass, contacts share no rows, and there are at least min_condensed_size unknowns.
+[[nodiscard]] bool saves_factorisations(const Model& model, const SystemMatrices& structure,
+                                        const RedundantRows& shared);
 
 class CondensedMatrix {
  public:
   /// The widest band for which this saves time: its n width^2 products compared with those of a sparse method.
-  static constexpr std::size_t widest = 16;
+  static constexpr std::size_t max_width = 16;
 
   /// The rows must outlive the object.
   explicit CondensedMatrix(const CondensedRows& rows);
@@ -140,30 +147,30 @@ class CondensedMatrix {
   /// Factors of the rows in force. False: the rows do not determine their forces, or elimination loses digits.
   [[nodiscard]] bool set(const Weights& weights);
   /// True if its factors belong to these weights, possibly except for contacts that have changed.
-  [[nodiscard]] bool is_at(const Weights& w) const {
+  [[nodiscard]] bool is_factored_at(const Weights& w) const {
     return set_ && w.acceleration == weights_.acceleration && w.velocity == weights_.velocity &&
            w.displacement == weights_.displacement;
   }
   /// x := A^-1 x: n degrees of freedom, then N and T of each contact.
   void solve(double* x);
 
-  long factorisations = 0;  ///< factorisations of all rows
-  long renewed_rows = 0;    ///< additional renewed rows
+  long factorisations = 0;   ///< factorisations of all rows
+  long refactored_rows = 0;  ///< additional renewed rows
 
  private:
   [[nodiscard]] bool factor();
-  [[nodiscard]] bool renew(std::span<const std::size_t> contacts);
-  [[nodiscard]] std::optional<std::size_t> renew(std::size_t begin);
+  [[nodiscard]] bool refactor(std::span<const std::size_t> contacts);
+  [[nodiscard]] std::optional<std::size_t> refactor(std::size_t begin);
   void fill(std::size_t begin, std::size_t end);
 
   const CondensedRows& rows_;
   BandFactors band_;
   Weights weights_;
-  long version_ = 0;                  // version of the rows of the factors
-  bool set_ = false, holds_ = false;  // set_: weights_ are valid; holds_: there are factors
-  std::vector<double> by_N_, by_T_;   // B^-1 R, one entry for each touch
-  std::vector<double> x_, before_;    // rows before the renewal
-  std::vector<std::size_t> touched_;  // affected places
+  long version_ = 0;                        // version of the rows of the factors
+  bool set_ = false, has_factors_ = false;  // set_: weights_ are valid; holds_: there are factors
+  std::vector<double> by_N_, by_T_;         // B^-1 R, one entry for each touch
+  std::vector<double> x_, before_;          // rows before the renewal
+  std::vector<std::size_t> touched_;        // affected places
 };
 
 }  // namespace signorini::linear

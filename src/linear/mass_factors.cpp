@@ -25,11 +25,11 @@ std::shared_ptr<const TriangularFactors> mass_factors(const SystemMatrices& stru
   return std::make_shared<const TriangularFactors>(klu.factors());
 }
 
-std::vector<OwnForces> own_forces(const std::vector<Rows>& rows) {
-  std::vector<OwnForces> result;
+std::vector<ContactForceBlock> contact_force_blocks(const std::vector<Rows>& rows) {
+  std::vector<ContactForceBlock> result;
   result.reserve(rows.size());
   for (const Rows& r : rows) {
-    const OwnForces b{r.normal.N, r.normal.T, r.tangent.N, r.tangent.T};
+    const ContactForceBlock b{r.normal.N, r.normal.T, r.tangent.N, r.tangent.T};
     const bool accelerates =
         r.normal.an != 0.0 || r.normal.at != 0.0 || r.tangent.an != 0.0 || r.tangent.at != 0.0;
     // N from its own row, then T: no elimination that could lose digits.
@@ -43,7 +43,7 @@ void MassSolver::solve(double* x, double* work) const {
   double* const forces = x + mass_->size();
   const ForceLayout& layout = model_->layout;
   for (std::size_t c = 0; c < forces_.size(); ++c) {
-    const OwnForces& b = forces_[c];
+    const ContactForceBlock& b = forces_[c];
     double &in_N = forces[layout.normal(c)], &in_T = forces[layout.tangent(c)];
     const double N = in_N / b.normal_N, T = (in_T - b.tangent_N * N) / b.tangent_T;
     in_N = N;
@@ -64,7 +64,7 @@ namespace {
 // of Y times their shares.
 constexpr double least_quality = 1e-3;
 // Columns of Y that are kept, since rows recur.
-constexpr std::size_t most_columns = 4 * UpdatedFactors::most_rows;
+constexpr std::size_t most_columns = 4 * WoodburyFactors::max_rows;
 
 double dot(const ChangedRow& row, const double* x) {
   double sum = 0.0;
@@ -76,13 +76,13 @@ double norm(const Eigen::MatrixXd& a) { return a.cwiseAbs().rowwise().sum().maxC
 
 }  // namespace
 
-void UpdatedFactors::start(std::shared_ptr<const TriangularFactors> base) {
+void WoodburyFactors::set_base(std::shared_ptr<const TriangularFactors> base) {
   base_ = std::move(base);
   columns_.clear();
   rows_.clear();
 }
 
-const Eigen::VectorXd& UpdatedFactors::column(std::size_t row) {
+const Eigen::VectorXd& WoodburyFactors::column(std::size_t row) {
   const auto [place, fresh] = columns_.try_emplace(row);
   if (fresh) {
     place->second.setZero(static_cast<Eigen::Index>(base_->size()));
@@ -94,8 +94,8 @@ const Eigen::VectorXd& UpdatedFactors::column(std::size_t row) {
   return place->second;
 }
 
-bool UpdatedFactors::set(std::vector<ChangedRow> rows) {
-  if (!base_ || rows.size() > most_rows) return false;
+bool WoodburyFactors::set(std::vector<ChangedRow> rows) {
+  if (!base_ || rows.size() > max_rows) return false;
   if (columns_.size() + rows.size() > most_columns) columns_.clear();
   rows_ = std::move(rows);
   in_force_.clear();
@@ -114,7 +114,7 @@ bool UpdatedFactors::set(std::vector<ChangedRow> rows) {
   return least_quality * size * std::max(1.0, norm(inverse_)) <= 1.0;  // false for NaN
 }
 
-void UpdatedFactors::solve(double* b, double* work) {
+void WoodburyFactors::solve(double* b, double* work) {
   base_->solve(b, work);
   if (rows_.empty()) return;
   const auto m = static_cast<Eigen::Index>(rows_.size());

@@ -24,28 +24,29 @@ namespace signorini::linear {
 [[nodiscard]] std::shared_ptr<const TriangularFactors> mass_factors(const SystemMatrices& structure);
 
 /// B of each contact: N and T in its normal row, then in its tangent row.
-struct OwnForces {
+struct ContactForceBlock {
   double normal_N = 1.0, normal_T = 0.0, tangent_N = 0.0, tangent_T = 1.0;
 };
 
 /// Forces of all contacts. Empty: a row contains an acceleration, or does not determine its force.
-[[nodiscard]] std::vector<OwnForces> own_forces(const std::vector<Rows>& rows);
+[[nodiscard]] std::vector<ContactForceBlock> contact_force_blocks(const std::vector<Rows>& rows);
 
 class MassSolver {
  public:
   /// The model must outlive the object.
-  MassSolver(const Model& model, std::shared_ptr<const TriangularFactors> mass, std::vector<OwnForces> forces)
+  MassSolver(const Model& model, std::shared_ptr<const TriangularFactors> mass,
+             std::vector<ContactForceBlock> forces)
       : model_(&model), mass_(std::move(mass)), forces_(std::move(forces)) {}
 
   /// x := A^-1 x: n degrees of freedom, then N and T of each contact; work: room for n numbers.
   void solve(double* x, double* work) const;
   /// Memory that is not shared.
-  [[nodiscard]] std::size_t bytes() const { return forces_.size() * sizeof(OwnForces); }
+  [[nodiscard]] std::size_t bytes() const { return forces_.size() * sizeof(ContactForceBlock); }
 
  private:
   const Model* model_;
   std::shared_ptr<const TriangularFactors> mass_;
-  std::vector<OwnForces> forces_;
+  std::vector<ContactForceBlock> forces_;
 };
 
 // A matrix that differs from a factorised one in few rows (Woodbury).
@@ -60,13 +61,13 @@ struct ChangedRow {
   std::vector<std::pair<std::size_t, double>> entries;  ///< d_r: column, value
 };
 
-class UpdatedFactors {
+class WoodburyFactors {
  public:
   /// Beyond this many rows a solve with Y costs more than the factors of a banded matrix.
-  static constexpr std::size_t most_rows = 16;
+  static constexpr std::size_t max_rows = 16;
 
   /// Sets A_0, which must be regular.
-  void start(std::shared_ptr<const TriangularFactors> base);
+  void set_base(std::shared_ptr<const TriangularFactors> base);
   [[nodiscard]] const TriangularFactors* base() const { return base_.get(); }
   /// Puts rows in force. False: there are too many, or the inverted sum loses more digits than a solve may; then there
   /// is no matrix.

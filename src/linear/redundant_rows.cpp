@@ -68,13 +68,13 @@ const Combination& form_of(const Model& model, std::size_t row) {
 
 bool RedundantRows::has_mass(const Combination& form) const {
   return !form.terms.empty() && std::all_of(form.terms.begin(), form.terms.end(), [&](const auto& term) {
-    return lightness_[static_cast<std::size_t>(term.first)] > 0.0;
+    return inverse_mass_[static_cast<std::size_t>(term.first)] > 0.0;
   });
 }
 
 /// Rigid contacts that act on common degrees of freedom; separately, sliders on ground at rest: their normal forces are
 /// prescribed, and contacts that stick to differently moving surfaces hold no common motion.
-std::vector<std::vector<std::size_t>> RedundantRows::together() const {
+std::vector<std::vector<std::size_t>> RedundantRows::coupled_groups() const {
   base::DisjointSets sets(model_.contacts.size());
   std::unordered_map<int, std::size_t> feet, sliders;  // the first that acts on a degree of freedom
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
@@ -92,14 +92,14 @@ std::vector<std::vector<std::size_t>> RedundantRows::together() const {
 
 RedundantRows::RedundantRows(const Model& model, const SystemMatrices& structure)
     : model_(model),
-      lightness_(static_cast<std::size_t>(structure.size), 0.0),
+      inverse_mass_(static_cast<std::size_t>(structure.size), 0.0),
       grouped_(model.contacts.size(), false) {
   for (int j = 0; j < structure.size; ++j)
     for (auto p = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j)]);
          p < static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j) + 1]); ++p)
       if (structure.row[p] == j && structure.m[p] > 0.0)
-        lightness_[static_cast<std::size_t>(j)] = 1.0 / structure.m[p];
-  for (std::vector<std::size_t>& group : together()) {
+        inverse_mass_[static_cast<std::size_t>(j)] = 1.0 / structure.m[p];
+  for (std::vector<std::size_t>& group : coupled_groups()) {
     std::vector<std::size_t> rows;
     for (const std::size_t k : group) {
       if (model.contacts[k].takes_impulses()) rows.push_back(model.layout.normal(k));
@@ -120,8 +120,8 @@ RedundantRows::RedundantRows(const Model& model, const SystemMatrices& structure
 Eigen::MatrixXd RedundantRows::columns(const std::vector<std::size_t>& rows) const {
   std::vector<const Combination*> forms;
   for (const std::size_t row : rows) forms.push_back(&form_of(model_, row));
-  return contact::form_columns(forms,
-                               [&](int dof) { return std::sqrt(lightness_[static_cast<std::size_t>(dof)]); });
+  return contact::form_columns(
+      forms, [&](int dof) { return std::sqrt(inverse_mass_[static_cast<std::size_t>(dof)]); });
 }
 
 std::vector<SharedForces> RedundantRows::in_force(const std::vector<Rows>& rows) const {

@@ -45,12 +45,12 @@ class RedundantRows {
 
  private:
   const Model& model_;
-  std::vector<double> lightness_;  // by degree of freedom: 1/mass; 0 without mass
+  std::vector<double> inverse_mass_;  // by degree of freedom: 1/mass; 0 without mass
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<bool> grouped_;  // one for each contact
 
   [[nodiscard]] bool has_mass(const Combination& form) const;
-  [[nodiscard]] std::vector<std::vector<std::size_t>> together() const;
+  [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_groups() const;
   /// H on the degrees of freedom on which the rows act, each divided by the square root of its mass.
   [[nodiscard]] Eigen::MatrixXd columns(const std::vector<std::size_t>& rows) const;
 };

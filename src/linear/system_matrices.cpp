@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "base/rounding.hpp"
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::linear {
 
@@ -128,11 +128,11 @@ SIGNORINI_WIDE_LANES void subtract_blocks(InnerBlocks blocks, std::size_t width,
   for (std::size_t block = blocks.first; block < blocks.last; ++block) {
     const std::size_t row = block * rows_of_lanes;
     const double* entry = forces + block * diagonals * 2 * rows_of_lanes;
-    base::Four sum = base::lanes_at<base::Four>(r + row).v;
+    base::Double4 sum = base::lanes_at<base::Double4>(r + row).v;
     for (std::size_t j = row - width; j <= row + width; ++j, entry += 2 * rows_of_lanes)
-      sum -= base::lanes_at<base::Four>(entry).v * base::lanes_at<base::Four>(v + j).v +
-             base::lanes_at<base::Four>(entry + rows_of_lanes).v * base::lanes_at<base::Four>(u + j).v;
-    base::lanes_at<base::Four>(r + row).v = sum;
+      sum -= base::lanes_at<base::Double4>(entry).v * base::lanes_at<base::Double4>(v + j).v +
+             base::lanes_at<base::Double4>(entry + rows_of_lanes).v * base::lanes_at<base::Double4>(u + j).v;
+    base::lanes_at<base::Double4>(r + row).v = sum;
   }
 }
 
@@ -204,7 +204,7 @@ StructuralForces::StructuralForces(const Model& model, const SystemMatrices& str
       values_[2 * at + 1] = structure.k[p];
       const double inertia = alpha_ * structure.m[p], elastic = beta_ * structure.k[p];
       const double rest = structure.c[p] - (inertia + elastic);
-      if (std::abs(rest) > rounding::of_few * (std::abs(inertia) + std::abs(elastic)))
+      if (std::abs(rest) > rounding::few_operations * (std::abs(inertia) + std::abs(elastic)))
         rest_.push_back({i, j, rest});
     }
   if (!rest_.empty()) v_.resize(n);

@@ -120,9 +120,10 @@ double component(const Combination& combination, int dof) {
   return sum;
 }
 
-std::vector<Rows> rows_of(const Model& model, const contact::ContactStates& mode) {
+std::vector<Rows> rows_of(const Model& model, const contact::ContactStates& states) {
   std::vector<Rows> result;
-  for (std::size_t k = 0; k < mode.size(); ++k) result.push_back(contact::rows(model.contacts[k], mode[k]));
+  for (std::size_t k = 0; k < states.size(); ++k)
+    result.push_back(contact::rows(model.contacts[k], states[k]));
   return result;
 }
 

@@ -39,7 +39,7 @@ struct Weights {
 }
 
 /// Rows of all contacts in a contact state.
-[[nodiscard]] std::vector<Rows> rows_of(const Model& model, const contact::ContactStates& mode);
+[[nodiscard]] std::vector<Rows> rows_of(const Model& model, const contact::ContactStates& states);
 
 class SystemMatrix {
  public:
@@ -51,9 +51,9 @@ class SystemMatrix {
            const std::vector<UndampedMotion>& undamped = {});
   /// b := A^-1 b, length size().
   void solve(double* b) { klu_.solve(b); }
-  [[nodiscard]] const RedundantRows& shared_rows() const { return shared_; }
+  [[nodiscard]] const RedundantRows& redundant_rows() const { return shared_; }
   /// Shared forces in the rows that were set last.
-  [[nodiscard]] const std::vector<SharedForces>& shared() const { return in_force_; }
+  [[nodiscard]] const std::vector<SharedForces>& shared_forces() const { return in_force_; }
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] const Klu& klu() const { return klu_; }
 

@@ -32,8 +32,8 @@ std::optional<std::array<Share, 2>> shares(const Combination& n, const Combinati
 
 }  // namespace
 
-std::vector<Pinned> pinned_by(const Model& model, const std::vector<Rows>& rows) {
-  std::vector<Pinned> result;
+std::vector<PrescribedDof> prescribed_dofs(const Model& model, const std::vector<Rows>& rows) {
+  std::vector<PrescribedDof> result;
   for (std::size_t c = 0; c < rows.size(); ++c) {
     const Contact& contact = model.contacts[c];
     const bool held = rows[c].normal.an != 0.0 && rows[c].normal.N == 0.0, sticks = rows[c].tangent.at != 0.0;
@@ -76,7 +76,7 @@ void add_row(SparseRow& a, double factor, const SparseRow& b) {
     double& entry = a[dof];
     const double change = factor * value, size = std::abs(entry) + std::abs(change);
     entry += change;
-    if (std::abs(entry) <= rounding::of_many * size) a.erase(dof);
+    if (std::abs(entry) <= rounding::many_operations * size) a.erase(dof);
   }
 }
 
@@ -142,8 +142,8 @@ std::vector<Combination> velocities_of(const Contact& contact) {
 
 }  // namespace
 
-MotionKinds kinds_in_mode(const std::vector<DofKind>& own, const Model& model,
-                          const std::vector<Rows>& rows) {
+MotionKinds kinds_in_states(const std::vector<DofKind>& own, const Model& model,
+                            const std::vector<Rows>& rows) {
   MotionKinds result{own, {}};
   Elimination elimination;
   for (std::size_t k = 0; k < rows.size(); ++k)

@@ -26,13 +26,13 @@ namespace signorini::linear {
 // still on an incline does not move at all, as on level ground.
 
 /// A degree of freedom whose acceleration a contact's rows prescribe: (normal r + tangent q)/divisor.
-struct Pinned {
+struct PrescribedDof {
   std::size_t dof = 0, contact = 0;
   double normal = 0.0, tangent = 0.0, divisor = 1.0;
 };
 
 /// rows: one entry for each contact.
-[[nodiscard]] std::vector<Pinned> pinned_by(const Model& model, const std::vector<Rows>& rows);
+[[nodiscard]] std::vector<PrescribedDof> prescribed_dofs(const Model& model, const std::vector<Rows>& rows);
 
 /// Sets x such that form . x = value exactly, if the form has a single term; else x is unchanged.
 void set_exactly(const Combination& form, double value, Vector& x);
@@ -51,8 +51,8 @@ struct MotionKinds {
 };
 
 /// `own`: kinds by the structure alone (dof_kinds).
-[[nodiscard]] MotionKinds kinds_in_mode(const std::vector<DofKind>& own, const Model& model,
-                                        const std::vector<Rows>& rows);
+[[nodiscard]] MotionKinds kinds_in_states(const std::vector<DofKind>& own, const Model& model,
+                                          const std::vector<Rows>& rows);
 
 /// Lists of degrees of freedom that may occur in one such motion together, in any contact state; single ones are not
 /// listed.

@@ -31,7 +31,7 @@ Model common_to_parts(const Model& whole) {
   model.layout = whole.layout;
   model.units = whole.units;
   model.unit = whole.unit;
-  model.machine = whole.machine;
+  model.internal_units = whole.internal_units;
   model.static_start = whole.static_start;
   model.scales = whole.scales;
   model.alpha = whole.alpha;
@@ -57,7 +57,7 @@ SparseMatrix block_of(const SparseMatrix& a, const std::vector<int>& dofs, const
 }  // namespace
 
 Load without_direction(const Load& load) {
-  return {load.name, {}, load.history, load.is_static, load.kind, load.of_direction, load.of_history};
+  return {load.name, {}, load.history, load.is_static, load.kind, load.direction_unit, load.history_unit};
 }
 
 Model restricted(const Model& whole, const std::vector<int>& dofs, const std::vector<std::size_t>& contacts) {
@@ -83,7 +83,7 @@ Model restricted(const Model& whole, const std::vector<int>& dofs, const std::ve
     Contact contact = whole.contacts[k];
     contact::visit_forms(contact, renumber);
     model.contacts.push_back(std::move(contact));
-    if (!whole.continues.empty()) model.continues.push_back(whole.continues[k]);
+    if (!whole.saved_contacts.empty()) model.saved_contacts.push_back(whole.saved_contacts[k]);
   }
   return model;
 }

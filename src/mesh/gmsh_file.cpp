@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 #include "mesh/mesh_quality.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace signorini::mesh {
 namespace {
@@ -26,7 +26,7 @@ std::string found(const std::string& word) {
 
 }  // namespace
 
-std::string GmshWords::word() {
+std::string GmshTokenizer::token() {
   int c = in_.get();
   for (; c != EOF && is_blank(c); c = in_.get())
     if (c == '\n') ++line_;
@@ -40,8 +40,8 @@ std::string GmshWords::word() {
   return text;
 }
 
-bool GmshWords::next_section(std::string& name) {
-  const std::string text = word();
+bool GmshTokenizer::next_section(std::string& name) {
+  const std::string text = token();
   if (text.empty()) return false;
   if (text[0] != '$')
     fail(fmt::format("found {}, expected a section of a mesh of Gmsh, \"$...\"", found(text)));
@@ -49,40 +49,40 @@ bool GmshWords::next_section(std::string& name) {
   return true;
 }
 
-void GmshWords::skip_section(const std::string& name) {
+void GmshTokenizer::skip_section(const std::string& name) {
   const std::string wanted = "$End" + name;
-  for (std::string text = word(); text != wanted; text = word())
+  for (std::string text = token(); text != wanted; text = token())
     if (text.empty()) fail(fmt::format("found the end of the file, expected {}", wanted));
 }
 
-void GmshWords::end_section(const std::string& name) {
-  if (const std::string text = word(); text != "$End" + name)
+void GmshTokenizer::end_section(const std::string& name) {
+  if (const std::string text = token(); text != "$End" + name)
     fail(fmt::format("found {}, expected $End{}", found(text), name));
 }
 
-long GmshWords::integer(const char* what) {
-  const std::string text = word();
+long GmshTokenizer::integer(const char* what) {
+  const std::string text = token();
   const auto value = base::parse_integer(text);
   if (!value) fail(fmt::format("found {}, expected {}, an integer", found(text), what));
   return static_cast<long>(*value);
 }
 
-long GmshWords::count(const char* what) {
+long GmshTokenizer::count(const char* what) {
   const long value = integer(what);
   if (value < 0 || value > most_entries)
     fail(fmt::format("found {}, expected {}, 0 to {}", value, what, most_entries));
   return value;
 }
 
-double GmshWords::number(const char* what) {
-  const std::string text = word();
+double GmshTokenizer::number(const char* what) {
+  const std::string text = token();
   const auto value = base::parse_number(text);
   if (!value || !std::isfinite(*value))
     fail(fmt::format("found {}, expected {}, a number", found(text), what));
   return *value;
 }
 
-std::string GmshWords::quoted(const char* what) {
+std::string GmshTokenizer::quoted(const char* what) {
   int c = in_.get();
   for (; c != EOF && is_blank(c); c = in_.get())
     if (c == '\n') ++line_;
@@ -296,7 +296,7 @@ class GmshReader {
     }
   }
 
-  GmshWords words_;
+  GmshTokenizer words_;
   GmshContent content_;
   int version_ = 0;
   double z_ = 0.0;
@@ -452,18 +452,18 @@ std::pair<double, double> determinants(const PlaneMesh& mesh, const PlaneMesh::E
   std::pair<double, double> range{std::numeric_limits<double>::infinity(),
                                   -std::numeric_limits<double>::infinity()};
   const auto look = [&](double a, double b) {
-    const ShapeValues shapes = shapes_at(element.shape, a, b);
+    const ShapeValues shapes = shape_functions(element.shape, a, b);
     Eigen::Matrix2d j = Eigen::Matrix2d::Zero();
     for (std::size_t k = 0; k < element.nodes.size(); ++k) {
       const PlaneMesh::Node& node = mesh.nodes[static_cast<std::size_t>(element.nodes[k])];
-      j += Eigen::Vector2d(node.x, node.y) * shapes.slopes.row(static_cast<Eigen::Index>(k));
+      j += Eigen::Vector2d(node.x, node.y) * shapes.gradients.row(static_cast<Eigen::Index>(k));
     }
     const double det = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
     range = {std::min(range.first, det), std::max(range.second, det)};
   };
-  for (const IntegrationPoint& p : points_of(element.shape)) look(p.a, p.b);
+  for (const IntegrationPoint& p : integration_points(element.shape)) look(p.a, p.b);
   for (std::size_t i = 0; i < element.nodes.size(); ++i) {
-    const auto [a, b] = node_point(element.shape, i);
+    const auto [a, b] = node_coordinates(element.shape, i);
     look(a, b);
   }
   return range;

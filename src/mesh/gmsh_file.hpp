@@ -22,11 +22,11 @@ namespace signorini::mesh {
 
 // Reads the words of a mesh file one by one, with their line numbers.
 //
-//   GmshWords words(in, file, key);   while (words.next_section(name)) ... words.integer() ... words.number()
+//   GmshTokenizer words(in, file, key);   while (words.next_section(name)) ... words.integer() ... words.number()
 
-class GmshWords {
+class GmshTokenizer {
  public:
-  GmshWords(std::istream& in, std::string file, std::string key)
+  GmshTokenizer(std::istream& in, std::string file, std::string key)
       : in_(in), file_(std::move(file)), key_(std::move(key)) {}
 
   /// The next "$Name"; false at the end of the file.
@@ -48,7 +48,7 @@ class GmshWords {
 
  private:
   /// The next word; empty at the end of the file.
-  std::string word();
+  std::string token();
 
   std::istream& in_;
   std::string file_, key_;

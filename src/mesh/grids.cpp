@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "base/rounding.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace signorini::mesh {
 namespace {
@@ -20,7 +20,7 @@ struct Lattice {
   Lattice(const GridSpec& spec, bool is_closed)
       : grid(spec),
         closed(is_closed),
-        step(has_middles(spec.shape) ? 2 : 1),
+        step(has_midside_nodes(spec.shape) ? 2 : 1),
         columns(spec.elements[0] * step + 1),
         rows(spec.elements[1] * step + 1) {}
 
@@ -138,7 +138,7 @@ PlaneMesh rectangle_mesh(const RectangleSpec& r, const GridSpec& grid) {
 
 PlaneMesh ring_mesh(const RingSpec& ring, const GridSpec& grid) {
   const double turn = ring.end - ring.start, whole = 2.0 * std::numbers::pi;
-  Lattice lattice(grid, std::abs(turn - whole) <= rounding::of_few * whole);
+  Lattice lattice(grid, std::abs(turn - whole) <= rounding::few_operations * whole);
   lattice.add_nodes([&](double u, double v) {
     const double r = ring.inner + u * (ring.outer - ring.inner), angle = ring.start + v * turn;
     return std::array{ring.centre[0] + r * std::cos(angle), ring.centre[1] + r * std::sin(angle)};

@@ -5,11 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace signorini::mesh {
 
-MeshQuality quality_of(const std::vector<PlaneMesh::Element>& elements, const PlaceOf& place) {
+MeshQuality measure_quality(const std::vector<PlaneMesh::Element>& elements, const NodePosition& place) {
   MeshQuality quality;
   for (const PlaneMesh::Element& e : elements) {
     const std::size_t corners = corner_count(e.shape);
@@ -19,8 +19,8 @@ MeshQuality quality_of(const std::vector<PlaneMesh::Element>& elements, const Pl
                        before = place(e.nodes[(i + corners - 1) % corners]);
       const double ax = next[0] - at[0], ay = next[1] - at[1], bx = before[0] - at[0], by = before[1] - at[1];
       const double angle = std::atan2(ax * by - ay * bx, ax * bx + ay * by) * 180.0 / std::numbers::pi;
-      if (angle < quality.least_angle.value) quality.least_angle = {angle, e.number};
-      if (angle > quality.greatest_angle.value) quality.greatest_angle = {angle, e.number};
+      if (angle < quality.min_angle.value) quality.min_angle = {angle, e.number};
+      if (angle > quality.max_angle.value) quality.max_angle = {angle, e.number};
       shortest = std::min(shortest, std::hypot(ax, ay));
       longest = std::max(longest, std::hypot(ax, ay));
     }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "mesh/mortar.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 #include "signorini/plane_mesh.hpp"
 
 namespace signorini::mesh {
@@ -23,11 +23,12 @@ struct MeshQuality {
     double value = 0.0;
     long element = 0;  ///< its number
   };
-  Worst least_angle{180.0}, greatest_angle, aspect;  ///< degrees, degrees, 1
+  Worst min_angle{180.0}, max_angle, aspect;  ///< degrees, degrees, 1
 };
 
 /// place: position of each index in `elements`.
-[[nodiscard]] MeshQuality quality_of(const std::vector<PlaneMesh::Element>& elements, const PlaceOf& place);
+[[nodiscard]] MeshQuality measure_quality(const std::vector<PlaneMesh::Element>& elements,
+                                          const NodePosition& place);
 
 // The edges of a mesh, each once, with the number of adjacent elements.
 //

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/rounding.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace signorini::mesh {
 namespace {
@@ -29,7 +29,7 @@ struct EdgeCurve {
   Point2 chord;  ///< unit vector from end to end
   double length = 0.0;
 
-  EdgeCurve(const PlaneMesh::Edge& edge, const PlaceOf& place) : nodes(edge.nodes) {
+  EdgeCurve(const PlaneMesh::Edge& edge, const NodePosition& place) : nodes(edge.nodes) {
     for (const int n : nodes) {
       const auto [x, y] = place(n);
       at.emplace_back(x, y);
@@ -45,17 +45,17 @@ struct EdgeCurve {
     for (std::size_t i = 0; i < at.size(); ++i) x += factors[i] * at[i];
     return x;
   }
-  [[nodiscard]] Point2 x(double s) const { return sum(edge_shapes_at(at.size(), s).values); }
+  [[nodiscard]] Point2 x(double s) const { return sum(edge_shape_functions(at.size(), s).values); }
   /// s at which x(s) . along has this value; Newton's method, one step for edges of two nodes.
   [[nodiscard]] double s_at(const Point2& along, double value) const {
     const double from = at[0].dot(along), to = at[1].dot(along);
     double s = -1.0 + 2.0 * (value - from) / (to - from);
     constexpr int most_steps = 20;
     for (int i = 0; at.size() == 3 && i < most_steps; ++i) {
-      const EdgeValues v = edge_shapes_at(3, s);
-      const double step = (value - sum(v.values).dot(along)) / sum(v.slopes).dot(along);
+      const EdgeValues v = edge_shape_functions(3, s);
+      const double step = (value - sum(v.values).dot(along)) / sum(v.derivatives).dot(along);
       s += step;
-      if (std::abs(step) <= rounding::of_few) break;
+      if (std::abs(step) <= rounding::few_operations) break;
     }
     return s;
   }
@@ -63,7 +63,7 @@ struct EdgeCurve {
 
 using Curves = std::vector<EdgeCurve>;
 
-Curves curves_of(const std::vector<PlaneMesh::Edge>& edges, const PlaceOf& place) {
+Curves curves_of(const std::vector<PlaneMesh::Edge>& edges, const NodePosition& place) {
   Curves curves;
   for (const PlaneMesh::Edge& edge : edges) curves.emplace_back(edge, place);
   return curves;
@@ -134,9 +134,9 @@ class MortarSums {
       for (const EdgePoint& point : edge_points()) {
         const double half = 0.5 * (part.to - part.from);
         const double s = 0.5 * (part.from + part.to) + half * point.s;
-        const EdgeValues v = edge_shapes_at(edge.nodes.size(), s);
+        const EdgeValues v = edge_shape_functions(edge.nodes.size(), s);
         const Eigen::Map<const Eigen::VectorXd> shapes(v.values.data(), n);
-        const Point2 slope = edge.sum(v.slopes);
+        const Point2 slope = edge.sum(v.derivatives);
         const double ds = point.weight * half * slope.norm();
         d += ds * shapes;
         mass += ds * shapes * shapes.transpose();
@@ -144,7 +144,7 @@ class MortarSums {
         if (!part.master) continue;
         const EdgeCurve& m = *part.master;
         const double r = m.s_at(edge.chord, edge.sum(v.values).dot(edge.chord));
-        const EdgeValues w = edge_shapes_at(m.nodes.size(), r);
+        const EdgeValues w = edge_shape_functions(m.nodes.size(), r);
         for (std::size_t l = 0; l < m.nodes.size(); ++l) {
           Eigen::VectorXd& sum = mixed.try_emplace(m.nodes[l], Eigen::VectorXd::Zero(n)).first->second;
           sum += ds * w.values[l] * shapes;
@@ -161,7 +161,7 @@ class MortarSums {
     }
   }
 
-  [[nodiscard]] MortarSeam seam(const PlaceOf& place) const {
+  [[nodiscard]] MortarSeam seam(const NodePosition& place) const {
     MortarSeam seam;
     std::vector<int> done;
     for (const EdgeCurve& edge : slave_) {
@@ -184,7 +184,7 @@ class MortarSums {
     return Eigen::Matrix3d(mass).inverse();
   }
 
-  void add_node(int k, const NodeSums& sums, const PlaceOf& place, MortarSeam& seam) const {
+  void add_node(int k, const NodeSums& sums, const NodePosition& place, MortarSeam& seam) const {
     if (sums.corner) seam.corners.push_back(k);
     if (!(sums.length > 0.0)) {
       seam.negative.push_back(k);
@@ -197,13 +197,13 @@ class MortarSums {
     double gap = n[0] * x + n[1] * y, size = reach_;
     for (const auto& [l, m] : sums.master) {
       const double w = m / sums.length;
-      if (std::abs(w) <= rounding::of_many) continue;
+      if (std::abs(w) <= rounding::many_operations) continue;
       node.master.emplace_back(l, w);
       const auto [xl, yl] = place(l);
       gap -= w * (n[0] * xl + n[1] * yl);
       size += std::abs(w) * reach_;
     }
-    node.gap = std::abs(gap) <= rounding::of_many * size ? 0.0 : gap;
+    node.gap = std::abs(gap) <= rounding::many_operations * size ? 0.0 : gap;
     seam.nodes.push_back(std::move(node));
   }
 
@@ -254,7 +254,7 @@ std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master, c
       if (nearest && std::abs(ahead) >= least) continue;
       if (ahead < 0.0) {
         if (depth == 0.0) depth = depth_of(middle, slave, outline);
-        if (-ahead >= depth * (1.0 - rounding::of_many)) continue;
+        if (-ahead >= depth * (1.0 - rounding::many_operations)) continue;
       }
       nearest = m;
       least = std::abs(ahead);
@@ -270,7 +270,7 @@ std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master, c
 }  // namespace
 
 MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
-                          const std::vector<PlaneMesh::Edge>& master, const PlaceOf& place,
+                          const std::vector<PlaneMesh::Edge>& master, const NodePosition& place,
                           const std::vector<PlaneMesh::Edge>& outline) {
   const Curves own = in_order(curves_of(slave, place)), other = curves_of(master, place),
                body = curves_of(outline, place);
@@ -279,7 +279,7 @@ MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
   return sums.seam(place);
 }
 
-MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const PlaceOf& place) {
+MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const NodePosition& place) {
   const Curves own = in_order(curves_of(slave, place));
   const double reach = reach_of({&own});
   MortarSums sums(own, reach);
@@ -290,7 +290,7 @@ MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const Pla
 }
 
 MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const PlanePoint& point,
-                          const PlanePoint& normal, const PlaceOf& place) {
+                          const PlanePoint& normal, const NodePosition& place) {
   const Curves all = in_order(curves_of(slave, place));
   Curves own;
   for (const EdgeCurve& edge : all)
@@ -304,7 +304,7 @@ MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const Plane
     node.normal = normal;
     const double gap = normal[0] * (x - point[0]) + normal[1] * (y - point[1]);
     const double size = reach + std::hypot(point[0], point[1]);
-    node.gap = std::abs(gap) <= rounding::of_many * size ? 0.0 : gap;
+    node.gap = std::abs(gap) <= rounding::many_operations * size ? 0.0 : gap;
   }
   seam.corners.clear();  // the line gives the normal
   return seam;

@@ -23,7 +23,7 @@
 namespace signorini::mesh {
 
 using PlanePoint = std::array<double, 2>;
-using PlaceOf = std::function<PlanePoint(int node)>;
+using NodePosition = std::function<PlanePoint(int node)>;
 
 struct MortarNode {
   int node = 0;
@@ -43,12 +43,13 @@ struct MortarSeam {
 
 /// outline: all known edges of the slave's body.
 [[nodiscard]] MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
-                                        const std::vector<PlaneMesh::Edge>& master, const PlaceOf& place,
+                                        const std::vector<PlaneMesh::Edge>& master, const NodePosition& place,
                                         const std::vector<PlaneMesh::Edge>& outline = {});
 /// Contact with a ground that coincides with the slave: full coverage, zero gap.
-[[nodiscard]] MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const PlaceOf& place);
+[[nodiscard]] MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave,
+                                          const NodePosition& place);
 /// Contact with a line through `point` with unit `normal`: g0_k = normal . (x_k - point).
 [[nodiscard]] MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const PlanePoint& point,
-                                        const PlanePoint& normal, const PlaceOf& place);
+                                        const PlanePoint& normal, const NodePosition& place);
 
 }  // namespace signorini::mesh

@@ -24,14 +24,14 @@
 #include "model/assembly/springs.hpp"
 #include "model/assembly/ties.hpp"
 #include "model/compliance_split.hpp"
-#include "model/geometric_start.hpp"
 #include "model/initial_state.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "model/massless.hpp"
 #include "model/model_warnings.hpp"
 #include "model/modes/modes.hpp"
 #include "model/outputs/make_outputs.hpp"
 #include "model/outputs/reactions.hpp"
+#include "model/p_delta.hpp"
 #include "model/reduce/reduction.hpp"
 #include "model/rigid_contacts.hpp"
 #include "model/scales.hpp"
@@ -45,7 +45,7 @@ using assembly::assemble_nodes;
 using assembly::Assembly;
 using assembly::DofMap;
 using assembly::place_of_structure;
-using modes::hold_contacts;
+using modes::constrain_contacts;
 using modes::lowest_frequency;
 
 namespace {
@@ -54,8 +54,9 @@ namespace {
 /// of user laws.
 void take_contacts(const SavedState& saved, Model& model) {
   for (Contact& c : model.contacts) {
-    for (const SavedState::Own& own : saved.own)
-      if (c.name == own.contact) std::tie(c.own_state, c.own_memory) = std::tie(own.state, own.memory);
+    for (const SavedState::UserLawMemory& own : saved.user_law_states)
+      if (c.name == own.contact)
+        std::tie(c.initial_law_state, c.initial_memory) = std::tie(own.state, own.memory);
     if (!c.has_friction()) continue;
     for (const auto& [name, T] : saved.shears)
       if (c.name == name && c.tangential_stiffness) c.initial_shear = T;
@@ -65,11 +66,11 @@ void take_contacts(const SavedState& saved, Model& model) {
 }
 
 /// Rows of all contacts of the model, in order; empty unless every contact has exactly one.
-std::vector<SavedState::Left> left_contacts(const SavedState& saved, const Model& model) {
-  if (!saved.differing.empty() || saved.left.size() != model.contacts.size()) return {};
+std::vector<SavedState::FinalContact> final_contacts(const SavedState& saved, const Model& model) {
+  if (!saved.structure_differences.empty() || saved.final_contacts.size() != model.contacts.size()) return {};
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
-    if (saved.left[k].contact != model.contacts[k].name) return {};
-  return saved.left;
+    if (saved.final_contacts[k].contact != model.contacts[k].name) return {};
+  return saved.final_contacts;
 }
 
 /// pressed: contacts that are closed in the first pass of run.geometric.
@@ -84,7 +85,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
     model.v0 = state.v;
     if (!scene.initial.saved) return;
     take_contacts(*scene.initial.saved, model);
-    model.continues = left_contacts(*scene.initial.saved, model);
+    model.saved_contacts = final_contacts(*scene.initial.saved, model);
     return;
   }
   bool loaded = false;
@@ -122,7 +123,7 @@ std::vector<bool> closed_at_start(const Model& model) {
 /// The run that this one continues, if it has the same structure.
 const SavedState* same_run(const Scene& scene) {
   const auto& saved = scene.initial.saved;
-  return saved && saved->differing.empty() ? &*saved : nullptr;
+  return saved && saved->structure_differences.empty() ? &*saved : nullptr;
 }
 
 /// dampers: C without alpha M + beta K.
@@ -148,13 +149,13 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
 }
 
 /// Finds the initial state and the frozen forces, with the geometric stiffness that follows from them.
-void start_as_stiff_as_it_is(const Scene& scene, DofMap& map, Model& model) {
+void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.matrices)
     throw SceneError(scene.run.geometric_place, "run.geometric", "has nothing to act on beside [matrices]");
   FirstPass first;
   if (scene.run.geometric && !scene.initial.is_frictional) {
     first = first_pass(scene, map, model);
-    stiffen(scene, first.forces, map, model);
+    apply_prestress(scene, first.forces, map, model);
   }
   check_massless(scene, model, map);
   set_initial_state(scene, first.closed, map, model);
@@ -165,14 +166,14 @@ void start_as_stiff_as_it_is(const Scene& scene, DofMap& map, Model& model) {
 void start(const Scene& scene, DofMap& map, Model& model) {
   const bool stands = scene.initial.is_static || scene.initial.is_frictional;
   if (!stands || !has_pressed_pendulums(scene)) {
-    if (same_run(scene)) carry(scene, carried_before(scene), model);
-    start_as_stiff_as_it_is(scene, map, model);
+    if (same_run(scene)) set_pendulum_forces(scene, saved_pendulum_forces(scene), model);
+    start_with_geometric_stiffness(scene, map, model);
     return;
   }
   const DofMap before = map;
-  start_on_pendulums(scene, model, [&](Model begun) {
+  solve_pendulum_start(scene, model, [&](Model begun) {
     map = before;
-    start_as_stiff_as_it_is(scene, map, begun);
+    start_with_geometric_stiffness(scene, map, begun);
     return begun;
   });
 }
@@ -181,27 +182,27 @@ void start(const Scene& scene, DofMap& map, Model& model) {
 void add_results(const Scene& scene, const DofMap& map, const std::optional<ComplianceSplit>& borrowed,
                  Model& model) {
   if (borrowed) {
-    check_unique(scene, model);
-    show_borrowed(*borrowed, model);
+    check_unique_forces(scene, model);
+    map_outputs(*borrowed, model);
   }
   add_shear_elements(scene, model);
-  assembly::name_tied(map, model);
+  assembly::name_tied_dofs(map, model);
   outputs::make_outputs(scene, map, model);
 }
 
 /// Sets velocities of rounding size in a saved state to zero. Displacements are known to rounding; the fastest mode
 /// turns this into velocities of
-///     |v| <= of_many omega_max max |u|,   translations and rotations separately. Such velocities would decide the slip
+///     |v| <= many_operations omega_max max |u|,   translations and rotations separately. Such velocities would decide the slip
 /// direction of a contact at its friction limit. If other bodies move, the same applies to a contact that was left
 /// without slip and whose tangential velocities are all that small.
-void take_out_rounding(const SavedState& saved, Model& model) {
+void remove_rounding(const SavedState& saved, Model& model) {
   double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
   for (int i = 0; i < model.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
     u[turns] = std::max(u[turns], std::abs(model.u0[i]));
     v[turns] = std::max(v[turns], std::abs(model.v0[i]));
   }
-  const double rate = rounding::of_many * model.omega_max;
+  const double rate = rounding::many_operations * model.omega_max;
   if (v[0] <= rate * u[0] && v[1] <= rate * u[1]) {
     model.v0.setZero();
     return;
@@ -212,7 +213,7 @@ void take_out_rounding(const SavedState& saved, Model& model) {
   };
   const auto touches = [&](const Contact& c) {
     return c.normal_force_given() ||
-           c.gap_at(model.u0) <= rounding::of_many * (std::abs(c.gap) + c.normal.magnitude(model.u0));
+           c.gap_at(model.u0) <= rounding::many_operations * (std::abs(c.gap) + c.normal.magnitude(model.u0));
   };
   for (const auto& [name, sign] : saved.slips)
     for (const Contact& c : model.contacts)
@@ -223,11 +224,11 @@ void take_out_rounding(const SavedState& saved, Model& model) {
 
 /// A static start without deformation has displacements of rounding size, below those of the scene. They would decide
 /// when a contact that just touches closes.
-void take_out_rounding_of_statics(Model& model) {
+void remove_rounding_of_statics(Model& model) {
   for (Eigen::Index i = 0; i < model.u0.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
     const double scale = turns ? model.scales.rotation : model.scales.displacement;
-    if (std::abs(model.u0[i]) > rounding::of_few * scale) return;
+    if (std::abs(model.u0[i]) > rounding::few_operations * scale) return;
   }
   model.u0.setZero();
 }
@@ -243,7 +244,7 @@ void resolve_times(double t_end, Model& model) {
 
 /// Frozen forces are not damped: beta times the model's stiffness would include their stiffness.
 void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly) {
-  assembly.dampers -= scene.damping.beta * assembly::assemble_geometric(scene, map).matrix;
+  assembly.dampers -= scene.damping.beta * assembly::assemble_geometric_stiffness(scene, map).matrix;
 }
 
 /// Data of the run that this one continues, if there is one.
@@ -255,7 +256,7 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
   return {s[0], s[1], s[2], s[3], s[4]};
 }
 
-enum class Extent { structure, undoubted, all };
+enum class Extent { structure, without_warnings, all };
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
@@ -286,21 +287,21 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   if (!scene.matrices) outputs::find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
-  model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
+  model.omega1 = lowest_frequency(model.mass, model.stiffness, constrain_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
   if (model.geometric && scene.damping.beta != 0.0) leave_out_frozen(scene, map, assembly);
   set_damping(scene, assembly.dampers, model);
   assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = modes::highest_frequency(model);
-  if (scene.initial.saved) take_out_rounding(*scene.initial.saved, model);
+  if (scene.initial.saved) remove_rounding(*scene.initial.saved, model);
   model.scales = scales_of(scene, map, closed, model);
-  if (model.static_start) take_out_rounding_of_statics(model);
+  if (model.static_start) remove_rounding_of_statics(model);
   check_rigid_contacts(scene, model);
   if (extent == Extent::all)
     for (std::string& doubt : model_warnings(scene, map, model)) model.warnings.push_back(std::move(doubt));
   resolve_times(scene.run.t_end, model);
   if (extent == Extent::structure) {
-    if (borrowed) show_borrowed(*borrowed, model);
+    if (borrowed) map_outputs(*borrowed, model);
     return model;
   }
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
@@ -319,11 +320,11 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
 }
 
 Model built(const Scene& scene, Extent extent) {
-  const Factors machine = machine_units(scene);
+  const Factors machine = find_internal_units(scene);
   try {
     Model model =
         rescaled(assembled(scene::rescaled(scene, scene::inverse(machine)), machine, extent), machine);
-    model.machine = machine;
+    model.internal_units = machine;
     // The same to the last bit; one object for all models of a scene.
     for (std::size_t k = 0; k < scene.contacts.size(); ++k)
       if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
@@ -345,7 +346,7 @@ Model build_model(const Scene& scene) { return model::built(scene, model::Extent
 }  // namespace signorini
 
 namespace signorini::model {
-Model build_without_warnings(const Scene& scene) { return built(scene, Extent::undoubted); }
+Model build_without_warnings(const Scene& scene) { return built(scene, Extent::without_warnings); }
 Model build_structure(const Scene& scene) { return built(scene, Extent::structure); }
 
 namespace {

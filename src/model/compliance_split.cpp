@@ -116,15 +116,15 @@ void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::Mat
   std::vector<Vector> pushes;
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     Combination& direction = model.loads[i].direction;
-    const Vector f = assembly::full(direction, model.size());
+    const Vector f = assembly::dense_vector(direction, model.size());
     Vector along = s.transpose() * f;
     const Vector terms = s.cwiseAbs().transpose() * f.cwiseAbs();
     for (Eigen::Index j = 0; j < along.size(); ++j)
-      if (std::abs(along[j]) <= rounding::of_many * terms[j]) along[j] = 0.0;
+      if (std::abs(along[j]) <= rounding::many_operations * terms[j]) along[j] = 0.0;
     if (along.isZero(0.0)) continue;
     const Vector shifted = x * along;
     const Vector moved = s * shifted, added = ks * shifted;
-    model.seen_loads.push_back({i, -moved, {}});
+    model.load_corrections.push_back({i, -moved, {}});
     const Vector all = f + added;
     direction.terms.clear();
     for (Eigen::Index k = 0; k < all.size(); ++k)
@@ -132,9 +132,9 @@ void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::Mat
     pushes.push_back(std::move(along));
   }
   for (std::size_t i = 0; i < pushes.size(); ++i) {
-    model.seen_loads[i].energies.resize(static_cast<Eigen::Index>(pushes.size()));
+    model.load_corrections[i].energies.resize(static_cast<Eigen::Index>(pushes.size()));
     for (std::size_t j = 0; j < pushes.size(); ++j)
-      model.seen_loads[i].energies[static_cast<Eigen::Index>(j)] = pushes[i].dot(x * pushes[j]);
+      model.load_corrections[i].energies[static_cast<Eigen::Index>(j)] = pushes[i].dot(x * pushes[j]);
   }
 }
 
@@ -186,10 +186,10 @@ Compliance compliance_of(const Model& model) {
   f.friction = Eigen::VectorXd::Zero(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Contact& c = model.contacts[f.contacts[static_cast<std::size_t>(i)]];
-    n.col(i) = pick.transpose() * assembly::full(c.normal, model.size());
+    n.col(i) = pick.transpose() * assembly::dense_vector(c.normal, model.size());
     of_n.col(i) = solver.solve(Vector(n.col(i)));
     if (!c.has_friction()) continue;
-    t.col(i) = pick.transpose() * assembly::full(c.tangent, model.size());
+    t.col(i) = pick.transpose() * assembly::dense_vector(c.tangent, model.size());
     f.friction[i] = std::max(c.friction.static_, c.friction.kinetic);
   }
   f.nn = of_n.transpose() * n;
@@ -241,7 +241,7 @@ std::optional<ComplianceSplit> split_compliance(const Scene& scene, const Sparse
 
 void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& model) {
   if (!scene.initial.saved) return;
-  if (model.continues.empty())
+  if (model.saved_contacts.empty())
     throw SceneError(scene.initial.place, "run.initial",
                      "the run has no row of contacts.csv at this time of the same contacts, from which rigid "
                      "contacts on parts without mass continue: expected one of its output times");
@@ -249,7 +249,7 @@ void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& m
   for (std::size_t j = 0; j < springs.rows.size(); ++j) {
     const auto [k, normal] = springs.rows[j];
     const Contact& c = model.contacts[k];
-    SavedState::Left& left = model.continues[k];
+    SavedState::FinalContact& left = model.saved_contacts[k];
     double& place = normal ? left.gap.emplace(left.gap.value_or(0.0)) : left.ut;
     const double by = normal ? left.N / c.normal_stiffness : left.T / *c.tangential_stiffness;
     place += by;
@@ -258,7 +258,7 @@ void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& m
   model.u0 += springs.shifts * given;
 }
 
-void show_borrowed(const ComplianceSplit& springs, Model& model) {
+void map_outputs(const ComplianceSplit& springs, Model& model) {
   const SparseMatrix& p = springs.displacements;
   if (model.reduction)
     model.reduction->shapes = p * model.reduction->shapes;
@@ -266,7 +266,7 @@ void show_borrowed(const ComplianceSplit& springs, Model& model) {
     model.basis = model.basis ? SparseMatrix(p * *model.basis) : p;
 }
 
-void check_unique(const Scene& scene, Model& model) {
+void check_unique_forces(const Scene& scene, Model& model) {
   const Compliance f = compliance_of(model);
   for (std::size_t i = 0; i < f.contacts.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);

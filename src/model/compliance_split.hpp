@@ -12,7 +12,7 @@
 // 2 sum_j |G_ij| makes L - G positive definite, and K' at most twice as stiff along B as K.
 //
 // The solution is not unique, like that of any contact without mass, if friction couples the normal to the tangent too
-// strongly; check_unique refuses this.
+// strongly; check_unique_forces refuses this.
 #pragma once
 
 #include <vector>
@@ -42,12 +42,12 @@ struct ComplianceSplit {
 void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& model);
 
 /// Makes outputs, columns and drawing refer to u; to be called when the model is complete or reduced.
-void show_borrowed(const ComplianceSplit& springs, Model& model);
+void map_outputs(const ComplianceSplit& springs, Model& model);
 
 /// Errors: SceneError if the forces of a sliding contact would not be unique: f |F_nt| >= F_nn, F being the compliance
 /// of parts without mass at it. A warning if the forces of contacts that slide in the same direction may not be unique
 /// together: the symmetric part of F_nn - s F_nt diag(f), s = 1 or -1, is not positive definite (sufficient for
 /// uniqueness).
-void check_unique(const Scene& scene, Model& model);
+void check_unique_forces(const Scene& scene, Model& model);
 
 }  // namespace signorini::model

@@ -11,7 +11,7 @@
 #include "contact/curved_surface.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/springs.hpp"
-#include "model/geometric_start.hpp"
+#include "model/p_delta.hpp"
 #include "model/statics/frictional.hpp"
 #include "scene/components.hpp"
 #include "scene/saved_state.hpp"
@@ -50,10 +50,10 @@ void check_saved_contacts(const Scene& scene) {
   for (const auto& [name, T] : scene.initial.saved->shears)
     if (!contacts.contains(name))
       refuse_saved(scene.initial, fmt::format("the saved state has a contact '{}' and the scene none", name));
-  for (const SavedState::Own& own : scene.initial.saved->own) {
+  for (const SavedState::UserLawMemory& own : scene.initial.saved->user_law_states) {
     const auto same = std::find_if(scene.contacts.begin(), scene.contacts.end(),
                                    [&](const ContactSpec& contact) { return contact.name == own.contact; });
-    if (same == scene.contacts.end() || own.state >= same->contact_law()->own_states().size())
+    if (same == scene.contacts.end() || own.state >= same->contact_law()->user_law_states().size())
       refuse_saved(scene.initial,
                    fmt::format("the saved state has contact '{}' in state {} of a law of its own, "
                                "which the scene has not",
@@ -107,7 +107,7 @@ std::string given_for(const assembly::DofMap& map, int tied) {
   std::vector<std::string> names;
   for (const assembly::TiedTerm& term : map.terms(tied))
     if (term.number >= 0) names.push_back(map.dofs[static_cast<std::size_t>(term.number)].displacement);
-  return names.empty() ? std::string("none: supports move it") : base::listed(names, 3);
+  return names.empty() ? std::string("none: supports move it") : base::join_quoted(names, 3);
 }
 
 std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assembly::DofMap& map) {
@@ -190,7 +190,7 @@ InitialState given_state(const Scene& scene, const assembly::DofMap& map) {
   const InitialSpec& spec = scene.initial;
   const int n = map.size();
   if (spec.saved) return saved_state(scene, map);
-  if (map.matrices())
+  if (map.is_matrix_scene())
     return {given_vector(spec.u, n, spec, "run.initial.u"), given_vector(spec.v, n, spec, "run.initial.v")};
   InitialState state{Vector::Zero(n), Vector::Zero(n)};
   for (const auto& c : spec.components)
@@ -202,11 +202,11 @@ namespace {
 
 // Forces that an equilibrium reproduces within this number of roundings of their inputs are converged. Chosen value;
 // each round is one solve with K.
-constexpr double settled = rounding::of_many;
+constexpr double settled = rounding::many_operations;
 constexpr int rounds = 50;
 
 bool is_pressed_pendulum(const ContactSpec& contact) {
-  return contact.bowl && contact.capabilities().normal_spring;
+  return contact.pendulum_surface && contact.capabilities().normal_spring;
 }
 
 /// Initial guess: the given forces, or the sum of the loads shared evenly. Its size affects only the number of rounds;
@@ -220,9 +220,10 @@ std::vector<double> first_guess(const Scene& scene, const Model& model) {
   for (const ContactSpec& contact : scene.contacts) bearings += is_pressed_pendulum(contact) ? 1.0 : 0.0;
   std::vector<double> forces;
   for (const ContactSpec& contact : scene.contacts)
-    forces.push_back(!contact.bowl                                                  ? 0.0
-                     : !is_pressed_pendulum(contact) || contact.bowl->carried > 0.0 ? contact.bowl->carried
-                                                                                    : pushed / bearings);
+    forces.push_back(!contact.pendulum_surface ? 0.0
+                     : !is_pressed_pendulum(contact) || contact.pendulum_surface->nominal_force > 0.0
+                         ? contact.pendulum_surface->nominal_force
+                         : pushed / bearings);
   return forces;
 }
 
@@ -248,23 +249,23 @@ bool has_pressed_pendulums(const Scene& scene) {
   return std::any_of(scene.contacts.begin(), scene.contacts.end(), is_pressed_pendulum);
 }
 
-void carry(const Scene& scene, const std::vector<double>& forces, Model& model) {
+void set_pendulum_forces(const Scene& scene, const std::vector<double>& forces, Model& model) {
   std::vector<assembly::LineSpring> springs;
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
-    if (!scene.contacts[k].bowl) continue;
+    if (!scene.contacts[k].pendulum_surface) continue;
     Contact& contact = model.contacts[k];
-    contact.bowl->carried = forces[k];
-    if (const double more = contact::beyond_spring(scene.contacts[k], contact); more != 0.0)
+    contact.pendulum_surface->nominal_force = forces[k];
+    if (const double more = contact::extra_stiffness(scene.contacts[k], contact); more != 0.0)
       springs.push_back({contact.tangent, more});
   }
   if (!springs.empty()) model.stiffness = assembly::with_springs(model.stiffness, springs);
 }
 
-void start_on_pendulums(const Scene& scene, Model& model, const std::function<Model(Model)>& start) {
+void solve_pendulum_start(const Scene& scene, Model& model, const std::function<Model(Model)>& start) {
   std::vector<double> forces = first_guess(scene, model);
   for (int round = 0; round < rounds; ++round) {
     Model begun = model;
-    carry(scene, forces, begun);
+    set_pendulum_forces(scene, forces, begun);
     begun = start(std::move(begun));
     const std::vector<double> sizes = summed(scene, begun);
     bool same = true;
@@ -283,12 +284,12 @@ void start_on_pendulums(const Scene& scene, Model& model, const std::function<Mo
                    "stands elsewhere, and presses them otherwise");
 }
 
-std::vector<double> carried_before(const Scene& scene) {
+std::vector<double> saved_pendulum_forces(const Scene& scene) {
   std::vector<double> forces;
   for (const ContactSpec& contact : scene.contacts) {
-    forces.push_back(contact.bowl ? contact.bowl->carried : 0.0);
+    forces.push_back(contact.pendulum_surface ? contact.pendulum_surface->nominal_force : 0.0);
     if (scene.initial.saved)
-      for (const auto& [name, force] : scene.initial.saved->carried)
+      for (const auto& [name, force] : scene.initial.saved->pendulum_forces)
         if (name == contact.name) forces.back() = force;
   }
   return forces;
@@ -408,7 +409,7 @@ bool presses(const StageSpec& spec, const Model& model) {
 
 void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
-    if (model.contacts[k].friction.by_force())
+    if (model.contacts[k].friction.is_load_dependent())
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("friction"),
                        "initial = \"frictional\" does not know friction that depends on the normal force; "
                        "use one coefficient, "
@@ -421,16 +422,17 @@ void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model
   const std::vector<statics::Stage> stages = stages_of(scene, model, acts);
   statics::FrictionalEquilibrium found =
       statics::frictional_equilibrium(model.stiffness, model.contacts, stages, map, scene.initial.place);
-  if (scene.run.geometric) found = stiffened_end(scene, acts, std::move(found), map, model);
+  if (scene.run.geometric) found = second_pass_frictional(scene, acts, std::move(found), map, model);
   for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
     if (stages[i].load.isZero(0.0) && !(scene.run.geometric && presses(scene.initial.stages[i], model)))
-      found.start.doubts.push_back(
+      found.start.undetermined.push_back(
           fmt::format("stage '{}' loads nothing: what it names is zero at t = 0", stages[i].name));
   model.u0 = std::move(found.u);
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;
   model.statics = std::move(found.start);
-  model.warnings.insert(model.warnings.end(), model.statics.doubts.begin(), model.statics.doubts.end());
+  model.warnings.insert(model.warnings.end(), model.statics.undetermined.begin(),
+                        model.statics.undetermined.end());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     Contact& c = model.contacts[k];
     if (!c.tangential_stiffness || !c.has_friction()) continue;

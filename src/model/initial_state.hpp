@@ -35,14 +35,14 @@ struct InitialState {
 
 /// Sets the carried force of each pendulum, one number per contact, and its N_k / R_k in K; other contacts are
 /// unchanged.
-void carry(const Scene& scene, const std::vector<double>& forces, Model& model);
+void set_pendulum_forces(const Scene& scene, const std::vector<double>& forces, Model& model);
 
 /// Calls `start` with K of the current forces until they converge, and carries them. Errors: SceneError if they do not
 /// converge.
-void start_on_pendulums(const Scene& scene, Model& model, const std::function<Model(Model)>& start);
+void solve_pendulum_start(const Scene& scene, Model& model, const std::function<Model(Model)>& start);
 
 /// Carried forces of the run that this one continues, if it has any.
-[[nodiscard]] std::vector<double> carried_before(const Scene& scene);
+[[nodiscard]] std::vector<double> saved_pendulum_forces(const Scene& scene);
 
 // Initial = "frictional": loads of each stage, and the initial state that results.
 //

@@ -71,7 +71,7 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
   if (heavy == 0) throw SceneError(assembly::place_of_structure(scene), "", "nothing in the scene has mass");
   // After scaling to a unit diagonal the pivots are dimensionless.
   const assembly::SymmetricSolver solver(block(assembly.mass, position, heavy, s));
-  if (!solver.ok() || solver.smallest_pivot() <= rounding::of_many * heavy)
+  if (!solver.ok() || solver.smallest_pivot() <= rounding::many_operations * heavy)
     throw SceneError(
         assembly::place_of_structure(scene), "matrices.mass",
         "the mass matrix must be positive definite on the degrees of freedom whose rows are not zero; "
@@ -113,7 +113,7 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
   Eigen::Index most = 0;
   motion.cwiseAbs().maxCoeff(&most);
   const SourcePlace place = assembly::place_of_dof(scene, map, where[static_cast<std::size_t>(most)]);
-  if (energy < -rounding::of_many * assembly::term_size(k, motion))
+  if (energy < -rounding::many_operations * assembly::term_magnitude(k, motion))
     throw SceneError(
         place, scene.matrices ? "matrices.stiffness" : "",
         fmt::format("the {} is unstable: it moves no mass and no damper, and its stiffness is negative, "
@@ -169,7 +169,7 @@ std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
     rows.push_back(row);
   }
   for (Eigen::Index j = 0; j < z.cols(); ++j) {
-    const double rounding = rounding::of_many * z.col(j).cwiseAbs().maxCoeff();
+    const double rounding = rounding::many_operations * z.col(j).cwiseAbs().maxCoeff();
     for (double& x : z.col(j)) x = std::abs(x) <= rounding ? 0.0 : x;
   }
   return rows;
@@ -186,7 +186,7 @@ Combination in_basis(const Combination& form, const SparseMatrix& basis) {
       }
   Combination result;
   for (int j = 0; j < sum.size(); ++j)
-    if (std::abs(sum[j]) > rounding::of_few * size[j]) result.terms.emplace_back(j, sum[j]);
+    if (std::abs(sum[j]) > rounding::few_operations * size[j]) result.terms.emplace_back(j, sum[j]);
   return result;
 }
 
@@ -244,7 +244,8 @@ class Turning {
         at(node).plane = at(node).plane || e->nodes().size() > 2;
       }
       for (const element::ElementUnknown& unknown : e->unknowns())
-        if (!unknown.own && unknown.component == rotation) at(e->nodes()[unknown.place]).turns = true;
+        if (!unknown.internal && unknown.component == rotation)
+          at(e->nodes()[unknown.local_node]).turns = true;
     }
   }
   /// True if elements end at the node but none of them, and no rigid body, rotates with it.
@@ -276,13 +277,13 @@ void name(Named& list, const std::string& key, const std::string& node) {
 }
 
 std::string nodes_of(const std::vector<std::string>& nodes) {
-  return (nodes.size() == 1 ? "node " : "nodes ") + base::listed(nodes, most_listed);
+  return (nodes.size() == 1 ? "node " : "nodes ") + base::join_quoted(nodes, most_listed);
 }
 
 }  // namespace
 
-std::vector<std::string> idle_rotations(const Scene& scene, const assembly::DofMap& map) {
-  if (map.matrices()) return {};
+std::vector<std::string> unconnected_rotations(const Scene& scene, const assembly::DofMap& map) {
+  if (map.is_matrix_scene()) return {};
   const Turning turning(map);
   Named moved, held;
   for (const PointMass& mass : scene.masses)

@@ -42,6 +42,6 @@ void separate_undamped(Model& model);
 // elements
 
 /// One sentence per table of the scene. map: of this scene.
-[[nodiscard]] std::vector<std::string> idle_rotations(const Scene& scene, const assembly::DofMap& map);
+[[nodiscard]] std::vector<std::string> unconnected_rotations(const Scene& scene, const assembly::DofMap& map);
 
 }  // namespace signorini::model

@@ -17,7 +17,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/initial_state.hpp"
 #include "model/massless.hpp"
-#include "model/modes/held.hpp"
+#include "model/modes/constrained_structure.hpp"
 #include "model/modes/stability.hpp"
 #include "model/outputs/reactions.hpp"
 #include "model/slip_growth.hpp"
@@ -37,7 +37,7 @@ constexpr std::size_t most_named = 3;
 std::string names(const Model& model, const std::vector<std::size_t>& contacts) {
   std::vector<std::string> list;
   for (const std::size_t k : contacts) list.push_back(model.contacts[k].name);
-  return (list.size() == 1 ? "contact " : "contacts ") + base::listed(list, most_named);
+  return (list.size() == 1 ? "contact " : "contacts ") + base::join_quoted(list, most_named);
 }
 
 /// True if f has values between these starts that exceed those before and after. Evaluated with a clock that begins at
@@ -73,7 +73,7 @@ class ModelWarnings {
 
   std::vector<std::string> all() {
     idle_loads();
-    for (std::string& idle : idle_rotations(scene_, map_)) found_.push_back(std::move(idle));
+    for (std::string& idle : unconnected_rotations(scene_, map_)) found_.push_back(std::move(idle));
     falls();
     sudden_weight();
     drag();
@@ -259,13 +259,13 @@ class ModelWarnings {
   void another_run() {
     if (!scene_.initial.saved) return;
     const std::string& run = scene_.initial.saved->run;
-    if (const std::string why = run.empty() ? "" : base::why_unchecked(run); !why.empty())
+    if (const std::string why = run.empty() ? "" : base::unchecked_reason(run); !why.empty())
       found_.push_back("continues from the run in " + why);
-    if (scene_.initial.saved->differing.empty()) return;
-    found_.push_back(
-        fmt::format("continues from a run in {} whose scene has other {}: its displacements, velocities and "
-                    "shears are used unchanged",
-                    scene_.initial.saved->run, base::listed_plainly(scene_.initial.saved->differing)));
+    if (scene_.initial.saved->structure_differences.empty()) return;
+    found_.push_back(fmt::format(
+        "continues from a run in {} whose scene has other {}: its displacements, velocities and "
+        "shears are used unchanged",
+        scene_.initial.saved->run, base::join_texts(scene_.initial.saved->structure_differences)));
   }
 
   void shear() {
@@ -339,15 +339,15 @@ constexpr double of_free = 64.0;
 
 /// Effective over full amplitude at this frequency.
 double share_at(const History& f, double amplitude, double t_end, double omega) {
-  return std::min(1.0, omega * history::greatest_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
+  return std::min(1.0, omega * history::max_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
 }
 
 /// Frequencies of the oscillations along the static responses to loads; 0 if there is none.
 class HalfPeriods {
  public:
-  HalfPeriods(const Model& model, const modes::Holding& holding) : model_(model) {
+  HalfPeriods(const Model& model, const modes::ContactConstraints& holding) : model_(model) {
     const SparseMatrix k = assembly::with_springs(model.stiffness, holding.springs);
-    if (statics::null_motions(modes::with_grips(k, holding.fixed)).cols() == 0)
+    if (statics::null_motions(modes::with_constraint_springs(k, holding.fixed)).cols() == 0)
       structure_.emplace(k, holding.fixed);
   }
   [[nodiscard]] double along(const Vector& p) const {
@@ -359,13 +359,13 @@ class HalfPeriods {
 
  private:
   const Model& model_;
-  std::optional<modes::HeldStructure> structure_;
+  std::optional<modes::ConstrainedStructure> structure_;
 };
 
 }  // namespace
 
-EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::Holding& holding, double omega,
-                                         double t_end) {
+EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::ContactConstraints& holding,
+                                         double omega, double t_end) {
   std::optional<HalfPeriods> swings;
   const auto own = [&](double along) { return along * t_end > 1.0 ? along : of_free / t_end; };
   // The share increases with the frequency, and the lowest frequency is known.
@@ -379,9 +379,9 @@ EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::Holdin
     const double amplitude = history::magnitude(load.history, t_end);
     if (lasts(load.history, amplitude)) continue;
     if (!swings) swings.emplace(model, holding);
-    const double along = swings->along(assembly::full(load.direction, model.size()));
+    const double along = swings->along(assembly::dense_vector(load.direction, model.size()));
     part.share = share_at(load.history, amplitude, t_end, own(along > 0.0 ? along : omega));
-    if (part.share < 1.0) part.thrown = share_at(load.history, amplitude, t_end, 1.0 / t_end);
+    if (part.share < 1.0) part.free_share = share_at(load.history, amplitude, t_end, 1.0 / t_end);
   }
   for (const Contact& contact : model.contacts) {
     double& share = effective.compressions.emplace_back(1.0);

@@ -43,8 +43,8 @@ namespace signorini::model {
 
 /// Fractions of each load's largest amplitude.
 struct EffectiveLoad {
-  double share = 1.0;   ///< effective / full amplitude; exactly 1 for lasting loads
-  double thrown = 1.0;  ///< the same for a free motion over the whole run: J over all of the run
+  double share = 1.0;       ///< effective / full amplitude; exactly 1 for lasting loads
+  double free_share = 1.0;  ///< the same for a free motion over the whole run: J over all of the run
 };
 
 struct EffectiveAmplitudes {
@@ -53,7 +53,8 @@ struct EffectiveAmplitudes {
 };
 
 /// omega: lowest frequency of the constrained structure; 0: it has none.
-[[nodiscard]] EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::Holding& holding,
-                                                       double omega, double t_end);
+[[nodiscard]] EffectiveAmplitudes effective_amplitudes(const Model& model,
+                                                       const modes::ContactConstraints& holding, double omega,
+                                                       double t_end);
 
 }  // namespace signorini::model

@@ -38,10 +38,10 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
     for (const auto& [dof, factor] : form->terms)
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
         refuse(scene, k, varies ? "friction" : "radius",
-               fmt::format(
-                   "{} needs mass where it acts, and {} has none",
-                   varies ? contact::named_friction(contact) : "a curved surface under a force that varies",
-                   d.displacement));
+               fmt::format("{} needs mass where it acts, and {} has none",
+                           varies ? contact::friction_description(contact)
+                                  : "a curved surface under a force that varies",
+                           d.displacement));
   }
 }
 
@@ -64,8 +64,8 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
   // A gap from displacements of rounding size is as uncertain as one from displacements of the scene's size.
-  const bool rounded = gap < 0.0 && -gap <= rounding::of_few * model.scales.displacement;
-  if (carries || rounded || std::abs(gap) <= rounding::of_many * terms) {
+  const bool rounded = gap < 0.0 && -gap <= rounding::few_operations * model.scales.displacement;
+  if (carries || rounded || std::abs(gap) <= rounding::many_operations * terms) {
     double square = 0.0;
     for (const auto& term : contact.normal.terms) square += term.second * term.second;
     for (const auto& [dof, factor] : contact.normal.terms) model.u0[dof] -= gap * factor / square;
@@ -89,7 +89,7 @@ void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   Eigen::MatrixXd normals(model.size(), static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
     normals.col(static_cast<Eigen::Index>(i)) =
-        assembly::full(model.contacts[contacts[i]].normal, model.size());
+        assembly::dense_vector(model.contacts[contacts[i]].normal, model.size());
   for (int round = 0; round < 2; ++round) {
     Eigen::VectorXd gaps(normals.cols());
     for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -108,7 +108,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
   std::vector<std::size_t> members;
   const auto consider = [&](std::size_t k) {
     const Contact& contact = model.contacts[k];
-    const Vector normal = assembly::full(contact.normal, model.size());
+    const Vector normal = assembly::dense_vector(contact.normal, model.size());
     if (!members.empty()) {
       const Eigen::VectorXd x = base::combination_of_columns(normals, normal);
       if ((normal - normals * x).norm() <= dependent * normal.norm()) {
@@ -126,7 +126,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
                  fmt::format(
                      "this contact closes at the same time as {}, so the share of each rigid contact in the "
                      "force is not determined; remove this contact, or give all of them law = \"compliant\"",
-                     base::listed(names)));
+                     base::join_quoted(names)));
         return;
       }
     }
@@ -184,7 +184,7 @@ void add_shear_elements(const Scene& scene, Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     Contact& contact = model.contacts[k];
     const double ct = scene.contacts[k].tangential_damping;
-    const bool by_rate = contact.friction.rises() && contact.tangential_stiffness;
+    const bool by_rate = contact.friction.is_rate_strengthening() && contact.tangential_stiffness;
     if ((ct == 0.0 && !by_rate) || !contact.has_friction()) continue;
     const double kt = *contact.tangential_stiffness;
     // Below this the element would respond immediately, within rounding.

@@ -9,7 +9,7 @@
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/model_warnings.hpp"
-#include "model/modes/held.hpp"
+#include "model/modes/constrained_structure.hpp"
 #include "model/modes/modes.hpp"
 #include "model/statics/mechanisms.hpp"
 
@@ -39,7 +39,7 @@ double force_factor(const Combination& direction, const assembly::DofMap& map) {
     greatest = std::max(greatest, std::abs(a));
     square += a * a;
   }
-  return map.matrices() ? greatest : std::sqrt(square);
+  return map.is_matrix_scene() ? greatest : std::sqrt(square);
 }
 
 /// Largest distance of two nodes; independent of the scene's orientation. Inner nodes lie between named ones.
@@ -74,7 +74,7 @@ double force_at(const Vector& p, const assembly::DofMap& map, std::size_t node, 
 
 /// Sum over all nodes; independent of the scene's orientation.
 double weight_of(const Vector& p, const assembly::DofMap& map) {
-  if (map.matrices()) return p.cwiseAbs().sum();
+  if (map.is_matrix_scene()) return p.cwiseAbs().sum();
   const double arm = length_of(map);
   double weight = 0.0;
   for (std::size_t i = 0; i < map.number.size(); ++i) weight += force_at(p, map, i, arm);
@@ -83,7 +83,7 @@ double weight_of(const Vector& p, const assembly::DofMap& map) {
 
 /// Force on the most loaded node.
 double greatest_force(const Vector& p, const assembly::DofMap& map) {
-  if (map.matrices()) return assembly::greatest_translation(p, map);
+  if (map.is_matrix_scene()) return assembly::max_translation(p, map);
   const double arm = length_of(map);
   double greatest = 0.0;
   for (std::size_t i = 0; i < map.number.size(); ++i) greatest = std::max(greatest, force_at(p, map, i, arm));
@@ -93,7 +93,7 @@ double greatest_force(const Vector& p, const assembly::DofMap& map) {
 /// Mass of a node along the direction in which it is largest; independent of the scene's orientation.
 double greatest_mass(const Model& model, const assembly::DofMap& map) {
   double greatest = 0.0;
-  if (map.matrices()) {
+  if (map.is_matrix_scene()) {
     for (int i = 0; i < model.size(); ++i) greatest = std::max(greatest, model.mass.coeff(i, i));
     return greatest;
   }
@@ -125,7 +125,7 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     const double most = effective.loads[i].share * history::magnitude(load.history, t_end);
-    const Vector direction = assembly::full(load.direction, model.size());
+    const Vector direction = assembly::dense_vector(load.direction, model.size());
     switch (load.kind) {
       case LoadKind::weight:
       case LoadKind::base:
@@ -158,25 +158,25 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
 }
 
 /// Largest static displacements under any single one of some forces; 0 if the matrix is singular.
-struct Answer {
+struct StaticResponse {
   double held = 0.0;
   /// With springs of the structure's own stiffness in place of constraints: the scale of displacements if the
   /// constrained parts cannot move.
   double gripped = 0.0;
 };
 
-Answer answer_to(const std::vector<Vector>& forces, const Model& model, const assembly::DofMap& map,
-                 const modes::Holding& holding) {
+StaticResponse find_static_response(const std::vector<Vector>& forces, const Model& model,
+                                    const assembly::DofMap& map, const modes::ContactConstraints& holding) {
   if (forces.empty()) return {};
   const SparseMatrix k = assembly::with_springs(model.stiffness, holding.springs);
-  const SparseMatrix gripped = modes::with_grips(k, holding.fixed);
+  const SparseMatrix gripped = modes::with_constraint_springs(k, holding.fixed);
   if (statics::null_motions(gripped).cols() > 0) return {};
-  const modes::HeldStructure structure(k, holding.fixed);
+  const modes::ConstrainedStructure structure(k, holding.fixed);
   const assembly::SymmetricSolver loose(gripped);
-  Answer result;
+  StaticResponse result;
   for (const Vector& p : forces) {
-    const double answer = assembly::greatest_translation(structure.solve(p), map);
-    const double free = assembly::greatest_translation(loose.solve(p), map);
+    const double answer = assembly::max_translation(structure.solve(p), map);
+    const double free = assembly::max_translation(loose.solve(p), map);
     // If everything movable is fixed, the response is rounding only.
     if (answer > only_rounding * free) result.held = std::max(result.held, answer);
     result.gripped = std::max(result.gripped, free);
@@ -188,7 +188,7 @@ std::vector<Vector> amplitudes_of_loads(const Model& model, const EffectiveAmpli
                                         double t_end) {
   std::vector<Vector> forces;
   for (std::size_t i = 0; i < model.loads.size(); ++i)
-    forces.emplace_back(assembly::full(model.loads[i].direction, model.size()) *
+    forces.emplace_back(assembly::dense_vector(model.loads[i].direction, model.size()) *
                         (effective.loads[i].share * history::magnitude(model.loads[i].history, t_end)));
   return forces;
 }
@@ -202,7 +202,7 @@ std::vector<Vector> limits_of_friction(const Model& model, const EffectiveAmplit
     if (const double limit = contact::static_friction(c) *
                              (effective.compressions[k] * history::magnitude(c.normal_force, t_end));
         c.normal_force_given() && limit > 0.0)
-      forces.emplace_back(assembly::full(c.tangent, model.size()) * limit);
+      forces.emplace_back(assembly::dense_vector(c.tangent, model.size()) * limit);
   }
   return forces;
 }
@@ -217,19 +217,19 @@ double thrown(const Model& model, const assembly::DofMap& map, const EffectiveAm
   double acceleration = 0.0;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const Load& load = model.loads[k];
-    Vector p = assembly::full(load.direction, model.size()) *
-               (effective.loads[k].thrown * history::magnitude(load.history, t_end));
+    Vector p = assembly::dense_vector(load.direction, model.size()) *
+               (effective.loads[k].free_share * history::magnitude(load.history, t_end));
     for (int i = 0; i < model.size(); ++i)
       if (model.dofs[static_cast<std::size_t>(i)].massless) p[i] = 0.0;
-    acceleration += assembly::greatest_translation(solver.solve(p), map);
+    acceleration += assembly::max_translation(solver.solve(p), map);
   }
-  return assembly::greatest_translation(model.u0, map) +
-         assembly::greatest_translation(model.v0, map) * t_end + 0.5 * acceleration * t_end * t_end;
+  return assembly::max_translation(model.u0, map) + assembly::max_translation(model.v0, map) * t_end +
+         0.5 * acceleration * t_end * t_end;
 }
 
 /// Solver error of a response that contacts prevent completely: rounding of the force's effect on the stiffest degree
 /// of freedom. Rotations over the length of the structure.
-double least_answer(const Model& model, const assembly::DofMap& map, double force) {
+double min_response(const Model& model, const assembly::DofMap& map, double force) {
   const double arm = length_of(map);
   double stiffest = 0.0;
   for (int i = 0; i < model.size(); ++i) {
@@ -237,11 +237,11 @@ double least_answer(const Model& model, const assembly::DofMap& map, double forc
     const double k = std::abs(model.stiffness.coeff(i, i));
     stiffest = std::max(stiffest, turns && arm > 0.0 ? k / (arm * arm) : k);
   }
-  return stiffest > 0.0 ? rounding::of_elimination * force / stiffest : 0.0;
+  return stiffest > 0.0 ? rounding::elimination * force / stiffest : 0.0;
 }
 
 /// Displacement of the softest spring by the force.
-double spring_answer(const Model& model, double force) {
+double spring_response(const Model& model, double force) {
   double softest = 0.0;
   auto consider = [&](double k) {
     if (k > 0.0 && (softest == 0.0 || k < softest)) softest = k;
@@ -259,9 +259,9 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
                    double t_end) {
   Scales scales;
   const double length = length_of(map);
-  const double v0 = assembly::greatest_translation(model.v0, map);
-  const modes::Holding holding = modes::hold_contacts(model.contacts, closed);
-  modes::Holding rested;  // without friction on closed rigid contacts
+  const double v0 = assembly::max_translation(model.v0, map);
+  const modes::ContactConstraints holding = modes::constrain_contacts(model.contacts, closed);
+  modes::ContactConstraints rested;  // without friction on closed rigid contacts
   for (std::size_t k = 0; k < closed.size(); ++k)
     if (closed[k] && model.contacts[k].takes_impulses()) rested.fixed.push_back(model.contacts[k].normal);
   const double omega =
@@ -269,12 +269,13 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   const EffectiveAmplitudes effective = effective_amplitudes(model, holding, omega, t_end);
   const double force = force_of(model, map, effective, t_end);
 
-  double displacement = assembly::greatest_translation(model.u0, map);
+  double displacement = assembly::max_translation(model.u0, map);
   const std::vector<Vector> loads = amplitudes_of_loads(model, effective, t_end);
-  const auto [held, gripped] = answer_to(loads, model, map, holding);
-  displacement = std::max(displacement, held > 0.0 ? held : answer_to(loads, model, map, rested).held);
+  const auto [held, gripped] = find_static_response(loads, model, map, holding);
+  displacement =
+      std::max(displacement, held > 0.0 ? held : find_static_response(loads, model, map, rested).held);
   if (displacement < only_rounding * gripped) displacement = gripped;
-  const double least = least_answer(model, map, force);
+  const double least = min_response(model, map, force);
   const auto answers = [&](double x) { return usable(x) && x > least; };
   if (!answers(displacement)) displacement = 0.0;
   // A free motion that is constrained by rounding alone, or hardly, has an unbounded response.
@@ -284,8 +285,8 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
   // A motion driven by friction alone goes as far as the friction limit deforms the structure.
   if (!usable(displacement))
-    displacement = answer_to(limits_of_friction(model, effective, t_end), model, map, rested).held;
-  if (!answers(displacement)) displacement = spring_answer(model, force);
+    displacement = find_static_response(limits_of_friction(model, effective, t_end), model, map, rested).held;
+  if (!answers(displacement)) displacement = spring_response(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))
     for (const Contact& c : model.contacts) displacement = std::max(displacement, std::abs(c.gap));

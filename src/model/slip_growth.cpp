@@ -37,7 +37,7 @@ double fastest_decay(const Model& model) {
   return std::max(rayleigh, diagonal_decay(model.mass.diagonal(), c, k));
 }
 
-double least_damping_ratio(const Model& model) {
+double min_damping_ratio(const Model& model) {
   if (!(model.omega_max > 0.0)) return 0.0;
   double beta = model.beta;
   for (const Contact& contact : model.contacts)
@@ -73,7 +73,7 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
   Slipping result;
   std::vector<assembly::LineSpring> springs;
   const auto spring = [&](const Combination& form, std::optional<double> k) {
-    return assembly::LineSpring{form, k ? *k : rigid * statics::own_stiffness(model.stiffness, form)};
+    return assembly::LineSpring{form, k ? *k : rigid * statics::structural_stiffness(model.stiffness, form)};
   };
   for (std::size_t k = 0; k < states.size(); ++k) {
     const Contact& c = model.contacts[k];
@@ -86,11 +86,11 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
       springs.push_back(normal);
       continue;
     }
-    const Vector n = assembly::full(c.normal, model.size());
-    const double f = c.friction.by_force()
+    const Vector n = assembly::dense_vector(c.normal, model.size());
+    const double f = c.friction.is_load_dependent()
                          ? contact::friction_limit_slope(c.friction, -c.normal_stiffness * c.gap_at(model.u0))
                          : contact::kinetic_friction(c);
-    const Vector push = n - s * f * assembly::full(c.tangent, model.size());
+    const Vector push = n - s * f * assembly::dense_vector(c.tangent, model.size());
     result.drives.push_back({n, push, normal.stiffness, c.normal_damping});
     result.contacts.push_back(k);
   }

@@ -35,7 +35,7 @@ namespace signorini::model {
 
 /// Smallest damping ratio of any frequency up to omega_max, in any contact state (contact springs are not part of the
 /// damping beta K); 0 if unknown.
-[[nodiscard]] double least_damping_ratio(const Model& model);
+[[nodiscard]] double min_damping_ratio(const Model& model);
 
 struct SlipGrowth {
   double rate = 0.0;                  ///< gamma, > 0; 1/time

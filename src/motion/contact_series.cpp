@@ -12,10 +12,11 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   scale_ = series.scale;
   slide_row_ = contact.sliding_point() ? slide : ut;
   values_.resize(fields * stride());
-  there_.fill(false);
-  for (const Field field : {N, T, gap, ut, slide}) there_[field] = true;
-  there_[applied_normal_force_rate] = contact.normal_force_given();
-  double *const g = place(gap), *const slip = place(ut), *const normal = place(N), *const tangent = place(T);
+  valid_.fill(false);
+  for (const Field field : {N, T, gap, ut, slide}) valid_[field] = true;
+  valid_[applied_normal_force_rate] = contact.normal_force_given();
+  double *const g = mutable_coefficients(gap), *const slip = mutable_coefficients(ut),
+                *const normal = mutable_coefficients(N), *const tangent = mutable_coefficients(T);
   for (std::size_t k = 0; k < stride(); ++k) {
     g[k] = gap_coefficient(contact, series, k);
     slip[k] = ut_coefficient(contact, index, series, k);
@@ -29,18 +30,19 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   if (contact.sliding_point()) {
     const double* surface = series.forcing.surface.data() + index * series.forcing.count;
     for (std::size_t k = 0; k <= degree; ++k)
-      place(slide)[k] =
+      mutable_coefficients(slide)[k] =
           contact.body_tangent().dot(series.u.col(static_cast<Eigen::Index>(k)).data()) - surface[k];
   }
-  if (there_[applied_normal_force_rate]) {
+  if (valid_[applied_normal_force_rate]) {
     const double* applied = series.forcing.applied_normal_force.data() + index * series.forcing.count;
     for (std::size_t k = 0; k <= degree; ++k)
-      place(applied_normal_force_rate)[k] = static_cast<double>(k + 1) / series.scale * applied[k + 1];
+      mutable_coefficients(applied_normal_force_rate)[k] =
+          static_cast<double>(k + 1) / series.scale * applied[k + 1];
   }
 }
 
 void ContactSeries::derive(Field field) const {
-  const double *const g = of(gap), *const slip = of(ut);
+  const double *const g = coefficients(gap), *const slip = coefficients(ut);
   double* out = values_.data() + row_of(field) * stride();
   for (std::size_t k = 0; k <= degree_; ++k) {
     const double rate = static_cast<double>(k + 1) / scale_;
@@ -50,14 +52,14 @@ void ContactSeries::derive(Field field) const {
              : field == an ? second * g[k + 2]
                            : 0.0;  // no applied normal force
   }
-  there_[field] = true;
+  valid_[field] = true;
 }
 
 void ContactSeries::bound_rates(double x) {
   constexpr std::array<Field, 4> bounded{N, T, gap, slide};
   std::array<const double*, bounded.size()> a{};
   std::array<double, bounded.size()> rate{};
-  for (std::size_t f = 0; f < bounded.size(); ++f) a[f] = of(bounded[f]);
+  for (std::size_t f = 0; f < bounded.size(); ++f) a[f] = coefficients(bounded[f]);
   for (std::size_t k = degree_; k >= 1; --k)  // sums in parallel: none waits for another
     for (std::size_t f = 0; f < bounded.size(); ++f)
       rate[f] = rate[f] * x + static_cast<double>(k) * std::abs(a[f][k]);
@@ -68,7 +70,7 @@ void ContactSeries::combine(const Form& form, double* out) const {
   std::fill(out, out + degree_ + 1, 0.0);
   const auto add = [&](double factor, Field field) {
     if (factor == 0.0) return;
-    const double* f = of(field);
+    const double* f = coefficients(field);
     for (std::size_t k = 0; k <= degree_; ++k) out[k] += factor * f[k];
   };
   add(form.N, N);
@@ -108,7 +110,7 @@ ContactSeries::GuardSeries ContactSeries::expand(const GuardForm& guard, double 
         if (i + j <= result.degree)
           out[i + j] += c;
         else
-          result.cut += std::abs(c) * std::pow(reach, static_cast<double>(i + j));
+          result.truncation_bound += std::abs(c) * std::pow(reach, static_cast<double>(i + j));
       }
   }
   return result;

@@ -38,12 +38,14 @@ class ContactSeries {
     degree_ = degree;
     slide_row_ = slide;
     values_.assign(fields * stride(), 0.0);
-    there_.fill(true);
+    valid_.fill(true);
   }
-  [[nodiscard]] double* place(Field field) { return values_.data() + row_of(field) * stride(); }
+  [[nodiscard]] double* mutable_coefficients(Field field) {
+    return values_.data() + row_of(field) * stride();
+  }
   [[nodiscard]] std::size_t degree() const { return degree_; }
-  [[nodiscard]] const double* of(Field field) const {
-    if (!there_[field]) derive(field);
+  [[nodiscard]] const double* coefficients(Field field) const {
+    if (!valid_[field]) derive(field);
     return values_.data() + row_of(field) * stride();
   }
   /// Place in the structure's series where x is 0 for these coefficients; value() and integral() take x of the
@@ -59,19 +61,19 @@ class ContactSeries {
   /// The guard's polynomial, about the origin.
   struct GuardSeries {
     std::size_t degree = 0;
-    double cut = 0.0;    ///< upper limit of the sum of terms of higher orders
-    double terms = 0.0;  ///< sum of the magnitudes of the terms in products
+    double truncation_bound = 0.0;  ///< upper limit of the sum of terms of higher orders
+    double terms = 0.0;             ///< sum of the magnitudes of the terms in products
   };
   /// out[0 .. most_degree]: coefficients of the guard; reach: the greatest distance from the origin.
   GuardSeries expand(const GuardForm& guard, double reach, std::size_t most_degree, double* out) const;
   /// Sum of the magnitudes of the form's terms at distances up to reach.
   [[nodiscard]] double magnitude(const Form& form, double reach) const;
   [[nodiscard]] double value(Field field, double x) const {
-    return value_at(of(field), degree_, x - origin_);
+    return value_at(coefficients(field), degree_, x - origin_);
   }
   /// Integral from the origin to x.
   [[nodiscard]] double integral(Field field, double x) const {
-    const double* a = of(field);
+    const double* a = coefficients(field);
     x -= origin_;
     double sum = 0.0;
     for (std::size_t k = degree_ + 1; k-- > 0;) sum = sum * x + a[k] / static_cast<double>(k + 1);
@@ -94,7 +96,7 @@ class ContactSeries {
   std::array<double, fields> rates_ = unbounded();
   std::size_t slide_row_ = slide;  // row of ut, if the body's ut is the same
   mutable std::vector<double> values_;
-  mutable std::array<bool, fields> there_{};           // valid entries of values_
+  mutable std::array<bool, fields> valid_{};           // valid entries of values_
   mutable std::vector<double> factor_, other_factor_;  // factors of a product
 };
 

@@ -40,13 +40,14 @@ Forcing::Forcing(const Model& model, double t, Side side) : Forcing(model) {
     surface_.push_back(piece(contact.surface_motion, t, side));
     moves_.push_back(changes(*surface_.back()));
     presses_.push_back(changes(*applied_normal_force_.back()));
-    still_surface_.push_back(surface_.back()->value(t));
-    still_pressing_.push_back(applied_normal_force_.back()->value(t));
-    drives_.push_back(moves_.back() || presses_.back());
-    varies_ = varies_ || drives_.back();
-    if (!vanishes(*applied_normal_force_.back())) pressed_.push_back(applied_normal_force_.size() - 1);
-    if (!vanishes(*surface_.back())) carried_.push_back(surface_.size() - 1);
-    lifted_.push_back(contact.normal_force_given() && vanishes(*applied_normal_force_.back()));
+    constant_surface_.push_back(surface_.back()->value(t));
+    constant_normal_force_.push_back(applied_normal_force_.back()->value(t));
+    driven_.push_back(moves_.back() || presses_.back());
+    varies_ = varies_ || driven_.back();
+    if (!vanishes(*applied_normal_force_.back()))
+      loaded_contacts_.push_back(applied_normal_force_.size() - 1);
+    if (!vanishes(*surface_.back())) moving_surfaces_.push_back(surface_.size() - 1);
+    unloaded_.push_back(contact.normal_force_given() && vanishes(*applied_normal_force_.back()));
   }
   varies_ = varies_ || !varying_.empty();
   loaded_ = !varying_.empty() || !constant_.isZero(0.0);
@@ -74,10 +75,10 @@ Forcing Forcing::none(const Model& model) {
   Forcing f(model);
   f.applied_normal_force_.assign(model.contacts.size(), &still);
   f.surface_ = f.applied_normal_force_;
-  f.lifted_.assign(model.contacts.size(), false);
-  f.moves_ = f.presses_ = f.drives_ = f.lifted_;
-  f.still_pressing_.assign(model.contacts.size(), 0.0);
-  f.still_surface_ = f.still_pressing_;
+  f.unloaded_.assign(model.contacts.size(), false);
+  f.moves_ = f.presses_ = f.driven_ = f.unloaded_;
+  f.constant_normal_force_.assign(model.contacts.size(), 0.0);
+  f.constant_surface_ = f.constant_normal_force_;
   return f;
 }
 
@@ -98,13 +99,13 @@ Forcing Forcing::on_part(const Model& part, const std::vector<int>& dofs,
     f.surface_.push_back(surface_[k]);
     f.moves_.push_back(moves_[k]);
     f.presses_.push_back(presses_[k]);
-    f.drives_.push_back(drives_[k]);
-    f.lifted_.push_back(lifted_[k]);
-    f.still_pressing_.push_back(still_pressing_[k]);
-    f.still_surface_.push_back(still_surface_[k]);
-    f.varies_ = f.varies_ || drives_[k];
-    if (!vanishes(*applied_normal_force_[k])) f.pressed_.push_back(i);
-    if (!vanishes(*surface_[k])) f.carried_.push_back(i);
+    f.driven_.push_back(driven_[k]);
+    f.unloaded_.push_back(unloaded_[k]);
+    f.constant_normal_force_.push_back(constant_normal_force_[k]);
+    f.constant_surface_.push_back(constant_surface_[k]);
+    f.varies_ = f.varies_ || driven_[k];
+    if (!vanishes(*applied_normal_force_[k])) f.loaded_contacts_.push_back(i);
+    if (!vanishes(*surface_[k])) f.moving_surfaces_.push_back(i);
   }
   f.varies_ = f.varies_ || !f.varying_.empty();
   f.loaded_ = !f.varying_.empty() || !f.constant_.isZero(0.0);
@@ -118,19 +119,20 @@ void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& o
     else
       for (const std::size_t k : held) std::fill_n(rows.data() + k * count, count, 0.0);
   };
-  clear(out.applied_normal_force, out.pressed);
-  clear(out.surface, out.carried);
-  out.pressed = pressed_;
-  out.carried = carried_;
+  clear(out.applied_normal_force, out.loaded_contacts);
+  clear(out.surface, out.moving_surfaces);
+  out.loaded_contacts = loaded_contacts_;
+  out.moving_surfaces = moving_surfaces_;
   out.count = count;
   out.loads.resize(varying_.size() * count);
   out.rounding.resize(surface_.size());
   for (std::size_t k = 0; k < surface_.size(); ++k) out.rounding[k] = surface_rounding(k, t);
   for (std::size_t i = 0; i < varying_.size(); ++i)
     varying_[i].second->taylor(t, scale, count, out.loads.data() + i * count);
-  for (const std::size_t k : pressed_)
+  for (const std::size_t k : loaded_contacts_)
     applied_normal_force_[k]->taylor(t, scale, count, out.applied_normal_force.data() + k * count);
-  for (const std::size_t k : carried_) surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
+  for (const std::size_t k : moving_surfaces_)
+    surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
 }
 
 void Forcing::add_load(const ForcingSeries& series, std::size_t k, double* P) const {
@@ -157,33 +159,33 @@ double Forcing::power(double t, const double* v) const {
   return sum;
 }
 
-double Forcing::greatest_omega() const {
+double Forcing::max_omega() const {
   double omega = 0.0;
   const auto consider = [&](const Piece* p) {
     if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
   };
   for (const auto& [load, p] : varying_) consider(p);
-  for (const std::size_t k : pressed_) consider(applied_normal_force_[k]);
-  for (const std::size_t k : carried_) consider(surface_[k]);
+  for (const std::size_t k : loaded_contacts_) consider(applied_normal_force_[k]);
+  for (const std::size_t k : moving_surfaces_) consider(surface_[k]);
   return omega;
 }
 
 double Forcing::surface_omega() const {
   double omega = 0.0;
-  for (const std::size_t k : carried_)
+  for (const std::size_t k : moving_surfaces_)
     if (const Piece* p = surface_[k]; p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
   return omega;
 }
 
-std::size_t Forcing::greatest_degree() const {
+std::size_t Forcing::max_degree() const {
   std::size_t degree = 0;
   const auto consider = [&](const Piece* p) {
     for (std::size_t j = degree + 1; j < p->coefficients.size(); ++j)
       if (p->coefficients[j] != 0.0) degree = j;
   };
   for (const auto& [load, p] : varying_) consider(p);
-  for (const std::size_t k : pressed_) consider(applied_normal_force_[k]);
-  for (const std::size_t k : carried_) consider(surface_[k]);
+  for (const std::size_t k : loaded_contacts_) consider(applied_normal_force_[k]);
+  for (const std::size_t k : moving_surfaces_) consider(surface_[k]);
   return degree;
 }
 

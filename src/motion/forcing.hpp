@@ -18,7 +18,7 @@ struct ForcingSeries {
   std::vector<double> loads, applied_normal_force, surface;
   std::vector<double> rounding;  ///< rounding of each surface's velocity
   /// Contacts whose rows may be nonzero.
-  std::vector<std::size_t> pressed, carried;
+  std::vector<std::size_t> loaded_contacts, moving_surfaces;
 };
 
 class Forcing {
@@ -37,7 +37,7 @@ class Forcing {
   /// P += factor times the derivative of the given order of the load vector; length n.
   void add_load(double t, int order, double* P, double factor = 1.0) const;
   /// Constant part of the load on a degree of freedom.
-  [[nodiscard]] double standing_load(std::size_t dof) const { return constant_.data()[dof]; }
+  [[nodiscard]] double constant_load(std::size_t dof) const { return constant_.data()[dof]; }
   /// P += the varying part of the load at t, for the loads whose numbers are `wanted` only.
   template <class Wanted>
   void add_varying(double t, const Wanted& wanted, double* P) const;
@@ -48,27 +48,29 @@ class Forcing {
   /// Same with magnitudes of the terms: measure of the uncertainty of loads that balance each other.
   void add_load_terms(const ForcingSeries& series, std::size_t k, double* P) const;
   /// False: no load acts.
-  [[nodiscard]] bool loaded() const { return loaded_; }
+  [[nodiscard]] bool has_loads() const { return loaded_; }
   /// P(t) . v
   [[nodiscard]] double power(double t, const double* v) const;
   /// True unless the surface of contact k rests at its initial place.
-  [[nodiscard]] bool moves(std::size_t k) const { return moves_[k]; }
+  [[nodiscard]] bool surface_moves(std::size_t k) const { return moves_[k]; }
   /// False: all loads, compressions and surfaces are constant.
   [[nodiscard]] bool varies() const { return varies_; }
   /// True while the compression or the surface of contact k changes.
-  [[nodiscard]] bool drives(std::size_t k) const { return drives_[k]; }
+  [[nodiscard]] bool is_driven(std::size_t k) const { return driven_[k]; }
   /// Greatest circular frequency in the forcing; surface_omega(): in the motions of surfaces alone. Unit: rad per time.
-  [[nodiscard]] double greatest_omega() const;
+  [[nodiscard]] double max_omega() const;
   [[nodiscard]] double surface_omega() const;
   /// Greatest degree of a polynomial in the forcing.
-  [[nodiscard]] std::size_t greatest_degree() const;
+  [[nodiscard]] std::size_t max_degree() const;
   /// Derivative of normal_force of contact k.
   [[nodiscard]] double applied_normal_force(std::size_t k, double t, int order) const {
-    return presses_[k] ? applied_normal_force_[k]->value(t, order) : order == 0 ? still_pressing_[k] : 0.0;
+    return presses_[k]  ? applied_normal_force_[k]->value(t, order)
+           : order == 0 ? constant_normal_force_[k]
+                        : 0.0;
   }
   /// Derivative of the motion of the surface of contact k (order 1: surface velocity).
   [[nodiscard]] double surface(std::size_t k, double t, int order) const {
-    return moves_[k] ? surface_[k]->value(t, order) : order == 0 ? still_surface_[k] : 0.0;
+    return moves_[k] ? surface_[k]->value(t, order) : order == 0 ? constant_surface_[k] : 0.0;
   }
   /// Coefficients scale^j / j! s_k^(j)(t), j < count, of the motion of a surface.
   void expand_surface(std::size_t k, double t, double scale, std::size_t count, double* out) const {
@@ -80,7 +82,7 @@ class Forcing {
   /// Rounding of the surface velocity at t.
   [[nodiscard]] double surface_rounding(std::size_t k, double t) const;
   /// True while the compression of slider k is zero over an interval.
-  [[nodiscard]] bool lifted(std::size_t k) const { return lifted_[k]; }
+  [[nodiscard]] bool is_unloaded(std::size_t k) const { return unloaded_[k]; }
 
  private:
   explicit Forcing(const Model& model)
@@ -90,9 +92,10 @@ class Forcing {
   Vector constant_, constant_terms_;                           // constant loads; sums of their magnitudes
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load and its piece
   std::vector<const Piece*> applied_normal_force_, surface_;
-  std::vector<bool> lifted_, moves_, presses_, drives_;
-  std::vector<std::size_t> pressed_, carried_;  // contacts with nonzero compression, with moving surface
-  std::vector<double> still_pressing_, still_surface_;  // used if the forcing is constant
+  std::vector<bool> unloaded_, moves_, presses_, driven_;
+  std::vector<std::size_t> loaded_contacts_,
+      moving_surfaces_;  // contacts with nonzero compression, with moving surface
+  std::vector<double> constant_normal_force_, constant_surface_;  // used if the forcing is constant
   bool varies_ = false, loaded_ = false;
 };
 

@@ -11,10 +11,10 @@ namespace signorini::motion {
 namespace {
 
 // Factor between the difference due to some roundings and noise: the difference is a single sample.
-constexpr double noise_factor = rounding::of_many / rounding::eps / DataPerturbation::most;
+constexpr double noise_factor = rounding::many_operations / rounding::eps / DataPerturbation::max_roundings;
 
 // Noise of a form on data: the largest sample of their rounding, and the rounding of the sum.
-constexpr double of_data = 2.0 * rounding::of_many;
+constexpr double of_data = 2.0 * rounding::many_operations;
 
 constexpr std::size_t known = MotionJet::orders + 2;  // number of derivatives used by the orders of a motion
 
@@ -56,15 +56,16 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
     d.gap[k] = factorial * gap_coefficient(contact, series, k);
     d.ut[k] = factorial * ut_coefficient(contact, c, series, k);
     if (with_terms) {
-      d.gap_terms[k] = factorial * size_of(model, contact.normal, u);
-      d.ut_terms[k] = factorial * (size_of(model, contact.tangent, u) + std::abs(f.surface[c * f.count + k]));
+      d.gap_terms[k] = factorial * form_magnitude(model, contact.normal, u);
+      d.ut_terms[k] =
+          factorial * (form_magnitude(model, contact.tangent, u) + std::abs(f.surface[c * f.count + k]));
     }
     if (k > last) continue;
     d.N[k] = factorial * series.forces.data()[k * forces + model.layout.normal(c)];
     d.T[k] = factorial * series.forces.data()[k * forces + model.layout.tangent(c)];
   }
   d.gap_terms[0] += std::abs(contact.gap);
-  if (contact.friction.by_force()) fill_limit(contact, c, series, last, d);
+  if (contact.friction.is_load_dependent()) fill_limit(contact, c, series, last, d);
 }
 
 /// The k-th derivative; pressing: coefficients, factorial: k!.
@@ -107,29 +108,29 @@ Jet JetMaker::expand(const StateSystemPtr& system, const Forcing& forcing, doubl
 }
 
 Jet JetMaker::make(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                   const Vector& v, std::vector<MotionJet>& result, const Enough& enough,
+                   const Vector& v, std::vector<MotionJet>& result, const StopCriterion& enough,
                    const Forcing* second) {
   Jet jet = expand(system, forcing, t, u, v);
   const DataPerturbation disturbance{series_};
   const Forcing& again = second != nullptr ? *second : forcing;
-  taylor_.begin(system, again, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
+  taylor_.begin(system, again, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, perturbed_, &disturbance);
   result.resize(model_.contacts.size());
   if (enough && !taylor_.massless()) {
-    expand_open(*jet.system, again, disturbance, enough, result);
+    expand_undecided(*jet.system, again, disturbance, enough, result);
     return jet;
   }
-  taylor_.extend(again, levels_, disturbed_, &disturbance);
+  taylor_.extend(again, levels_, perturbed_, &disturbance);
   for (std::size_t c = 0; c < result.size(); ++c)
     motions(*jet.system, c, 0, MotionJet::orders - 1, result[c]);
   return jet;
 }
 
 /// Computes order by order, as far as requested.
-void JetMaker::expand_open(const StateSystem& system, const Forcing& forcing,
-                           const DataPerturbation& disturbance, const Enough& enough,
-                           std::vector<MotionJet>& result) {
+void JetMaker::expand_undecided(const StateSystem& system, const Forcing& forcing,
+                                const DataPerturbation& disturbance, const StopCriterion& enough,
+                                std::vector<MotionJet>& result) {
   constexpr std::size_t last = MotionJet::orders - 1;
-  taylor_.extend(forcing, 0, disturbed_, &disturbance);
+  taylor_.extend(forcing, 0, perturbed_, &disturbance);
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < result.size(); ++c) {
     motions(system, c, 0, 0, result[c]);
@@ -139,7 +140,7 @@ void JetMaker::expand_open(const StateSystem& system, const Forcing& forcing,
     rates(c, 2, last, result[c]);
   }
   for (std::size_t k = 1; k <= last && !open.empty(); ++k) {
-    taylor_.extend(forcing, static_cast<int>(k), disturbed_, &disturbance);
+    taylor_.extend(forcing, static_cast<int>(k), perturbed_, &disturbance);
     for (const std::size_t c : open) motions(system, c, k, k, result[c]);
     std::erase_if(open, [&](std::size_t c) { return enough(c, result[c], k + 1); });
   }
@@ -150,11 +151,12 @@ JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows,
                                        std::size_t k) const {
   const auto terms = taylor_.terms().col(static_cast<Eigen::Index>(k));
   const auto size = [&](const Combination& form) {
-    return size_by(model_, form, [&](int dof) { return terms[dof]; });
+    return form_magnitude_by(model_, form, [&](int dof) { return terms[dof]; });
   };
   const auto moved = [&](const Combination& form) {
-    return size_by(model_, form,
-                   [&](int dof) { return terms[dof] * taylor_.mobility()[static_cast<std::size_t>(dof)]; });
+    return form_magnitude_by(model_, form, [&](int dof) {
+      return terms[dof] * taylor_.mobility()[static_cast<std::size_t>(dof)];
+    });
   };
   const auto squared = [](const Combination& form) {
     double sum = 0.0;
@@ -184,12 +186,12 @@ void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t fir
                        MotionJet& result) const {
   // A single sample of rounding can be small by chance, so the terms of each sum count as well.
   const auto noise = [](double x, double y, double size) {
-    return noise_factor * std::abs(x - y) + rounding::of_many * size;
+    return noise_factor * std::abs(x - y) + rounding::many_operations * size;
   };
   Derivatives a, b;
   const Rows& rows = system.rows()[c];
   fill(model_, c, series_, last, true, a);
-  fill(model_, c, disturbed_, last, false, b);
+  fill(model_, c, perturbed_, last, false, b);
   const double* applied = series_.forcing.applied_normal_force.data() + c * series_.forcing.count;
   double factorial = 1.0;
   for (std::size_t k = 0; k <= last; ++k) {
@@ -228,9 +230,9 @@ void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t fir
     d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
     d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
     d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
-    d.applied_normal_force = rounding::of_many * terms.applied_normal_force;
-    d.applied_normal_force_rate = rounding::of_many * terms.applied_normal_force_rate;
-    if (const Friction& f = model_.contacts[c].friction; f.by_force()) {
+    d.applied_normal_force = rounding::many_operations * terms.applied_normal_force;
+    d.applied_normal_force_rate = rounding::many_operations * terms.applied_normal_force_rate;
+    if (const Friction& f = model_.contacts[c].friction; f.is_load_dependent()) {
       const double slope = std::max(f.static_, f.kinetic), kn = model_.contacts[c].normal_stiffness;
       d.limit = noise(a.limit[k], b.limit[k], slope * N + std::abs(m.limit));
       d.limit_rate =

@@ -26,7 +26,7 @@ struct Jet {
   StateSystemPtr system;  ///< system of the contact state, with friction at this instant's slip rates
 
   /// True for a jet by JetMaker. Local jets (motion/local_derivatives.hpp) end with accelerations and the rates of forces.
-  [[nodiscard]] bool whole() const { return forces.cols() > orders; }
+  [[nodiscard]] bool is_complete() const { return forces.cols() > orders; }
   [[nodiscard]] auto v() const { return u.col(1); }
   [[nodiscard]] auto a() const { return u.col(2); }
 };
@@ -38,7 +38,7 @@ class JetMaker {
 
   /// Predicate: true if all that will be requested of a contact is known once the noise of the first `orders` orders of
   /// its motion is known. The motion itself is known to one order more.
-  using Enough = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
+  using StopCriterion = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
 
   /// The jet at t from u and v (v of massless degrees of freedom is not read).
   [[nodiscard]] Jet expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
@@ -48,7 +48,7 @@ class JetMaker {
   /// complete. Computed values are bitwise the same. second: replaces `forcing` in the second computation, so that the
   /// difference between the two counts as noise, too.
   [[nodiscard]] Jet make(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                         const Vector& v, std::vector<MotionJet>& motions, const Enough& enough = {},
+                         const Vector& v, std::vector<MotionJet>& motions, const StopCriterion& enough = {},
                          const Forcing* second = nullptr);
 
  private:
@@ -59,15 +59,16 @@ class JetMaker {
   /// forces: nonzero for rows that contain an acceleration.
   [[nodiscard]] Balance balance_of(const Contact& contact, const Rows& rows, double factorial,
                                    std::size_t k) const;
-  void expand_open(const StateSystem& system, const Forcing& forcing, const DataPerturbation& disturbance,
-                   const Enough& enough, std::vector<MotionJet>& result);
+  void expand_undecided(const StateSystem& system, const Forcing& forcing,
+                        const DataPerturbation& disturbance, const StopCriterion& enough,
+                        std::vector<MotionJet>& result);
   void rates(std::size_t contact, std::size_t first, std::size_t last, MotionJet& result) const;
   void motions(const StateSystem& system, std::size_t contact, std::size_t first, std::size_t last,
                MotionJet& result) const;
 
   const Model& model_;
   Taylor taylor_;
-  Series series_, disturbed_;  // series of the last jet
+  Series series_, perturbed_;  // series of the last jet
   int levels_;
 };
 

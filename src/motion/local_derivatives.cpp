@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/rounding.hpp"
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 #include "motion/point.hpp"
 
 namespace signorini::motion {
@@ -31,9 +31,9 @@ constexpr std::size_t part_of_structure = 4;
 /// Forces of the surrounding structure on the neighbourhood at order 0.
 Vector from_outside(const Neighbourhood& near, const Point& now) {
   Vector P = Vector::Zero(near.model.size());
-  for (const Neighbourhood::Tie& tie : near.ties)
+  for (const Neighbourhood::Coupling& tie : near.couplings)
     P[tie.at] -= tie.m * now.a[tie.dof] + tie.c * now.v[tie.dof] + tie.k * now.u[tie.dof];
-  for (const Neighbourhood::Pull& pull : near.pulls)
+  for (const Neighbourhood::CrossingForce& pull : near.crossing_forces)
     P[pull.at] -= pull.factor * now.forces[static_cast<Eigen::Index>(pull.force)];
   return P;
 }
@@ -45,19 +45,19 @@ LocalDerivatives::LocalDerivatives(StateSystems& systems, int least)
       possible_(model_.size() >= least && follows_from_motion(model_)),
       taylor_(systems) {
   if (!possible_) return;
-  near_.emplace(systems, spread);
+  neighbourhoods_.emplace(systems, spread);
   for (const Contact& c : model_.contacts) {
     Soft soft;
     const auto take = [&](const Combination& form, double& squared) {
-      soft.is = soft.is && form.terms.size() <= most_plane_terms;
+      soft.valid = soft.valid && form.terms.size() <= max_plane_terms;
       for (const auto& [dof, factor] : form.terms) {
-        soft.is = soft.is && factor != 0.0 && !model_.dofs[static_cast<std::size_t>(dof)].rotation;
+        soft.valid = soft.valid && factor != 0.0 && !model_.dofs[static_cast<std::size_t>(dof)].rotation;
         squared += factor * factor;
         terms_.emplace_back(static_cast<std::size_t>(dof), factor);
       }
       return terms_.size();
     };
-    soft.is = !c.normal_force_given() && c.normal_damping == 0.0;
+    soft.valid = !c.normal_force_given() && c.normal_damping == 0.0;
     soft.gap = c.gap;
     soft.first = terms_.size();
     soft.middle = take(c.normal, soft.normal_squared);
@@ -68,8 +68,8 @@ LocalDerivatives::LocalDerivatives(StateSystems& systems, int least)
 
 /// Same results, bit by bit, as motion_of(), order_one() and bound_rounding() for a soft contact that is not driven and
 /// whose surface is at rest.
-void LocalDerivatives::settle_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
-                                   MotionJet& result) const {
+void LocalDerivatives::set_soft_motion(const Rows& rows, double surface, const Point& now,
+                                       std::size_t contact, MotionJet& result) const {
   const Soft& c = soft_[contact];
   const double *u = now.u.data(), *v = now.v.data(), *a = now.a.data();
   ContactMotion &m = result.motion[0] = {}, &d = result.motion[1] = {}, &noise = result.noise[0] = {};
@@ -100,7 +100,7 @@ void LocalDerivatives::settle_soft(const Rows& rows, double surface, const Point
   d.vt = m.at;
   d.N = -(rows.normal.gap * d.gap) / rows.normal.N;
   d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut) / rows.tangent.T;
-  constexpr double once = rounding::of_many;
+  constexpr double once = rounding::many_operations;
   terms.gap += std::abs(c.gap);
   terms.ut += std::abs(surface);
   terms.N = std::abs(rows.normal.gap * terms.gap) + std::abs(rows.normal.constant) + std::abs(m.N);
@@ -139,13 +139,13 @@ void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& 
   const Rows& rows = system.rows()[contact];
   const ContactMotion& m = result.motion[0];
   ContactMotion terms, &d = result.noise[0] = {};
-  terms.gap = size_of(model_, c.normal, now.u) + std::abs(c.gap);
-  terms.ut = size_of(model_, c.tangent, now.u) + std::abs(forcing.surface(contact, series_.t, 0));
-  terms.vn = size_of(model_, c.normal, now.v);
-  terms.vt = size_of(model_, c.tangent, now.v) + std::abs(forcing.surface(contact, series_.t, 1));
+  terms.gap = form_magnitude(model_, c.normal, now.u) + std::abs(c.gap);
+  terms.ut = form_magnitude(model_, c.tangent, now.u) + std::abs(forcing.surface(contact, series_.t, 0));
+  terms.vn = form_magnitude(model_, c.normal, now.v);
+  terms.vt = form_magnitude(model_, c.tangent, now.v) + std::abs(forcing.surface(contact, series_.t, 1));
   terms.applied_normal_force = std::abs(m.applied_normal_force);
   terms.applied_normal_force_rate = std::abs(m.applied_normal_force_rate);
-  constexpr double once = rounding::of_many;
+  constexpr double once = rounding::many_operations;
   terms.N = rows.normal.magnitude(terms) + std::abs(rows.normal.constant) + std::abs(m.N);
   terms.T = rows.tangent.magnitude(terms) + std::abs(rows.tangent.constant) + std::abs(m.T);
   d.N = 4.0 * once * terms.N;
@@ -159,18 +159,19 @@ void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& 
 }
 
 /// False: the neighbourhood does not decide the contact's state.
-bool LocalDerivatives::look_near(const StateSystemPtr& system, const Forcing& forcing, const Point& now,
-                                 std::size_t contact, const JetMaker::Enough& enough, MotionJet& motion) {
-  Neighbourhood* near = near_->around(contact, *system);
+bool LocalDerivatives::compute_locally(const StateSystemPtr& system, const Forcing& forcing, const Point& now,
+                                       std::size_t contact, const JetMaker::StopCriterion& enough,
+                                       MotionJet& motion) {
+  Neighbourhood* near = neighbourhoods_->around(contact, *system);
   if (near == nullptr) {
-    possible_ = !near_->hopeless();
+    possible_ = !neighbourhoods_->has_given_up();
     return false;
   }
-  const StateSystemPtr own = near->systems.of(near->mode_of(system->mode()));
+  const StateSystemPtr own = near->systems.system_of(near->local_states(system->states()));
   if (!own) return false;
   const auto at = static_cast<std::size_t>(
       std::lower_bound(near->contacts.begin(), near->contacts.end(), contact) - near->contacts.begin());
-  while (work_.size() < near_->size()) work_.emplace_back();
+  while (work_.size() < neighbourhoods_->size()) work_.emplace_back();
   std::unique_ptr<Work>& work = work_[near->number];
   if (!work) work = std::make_unique<Work>(near->systems);
   const Vector outside = from_outside(*near, now);
@@ -194,11 +195,11 @@ bool LocalDerivatives::look_near(const StateSystemPtr& system, const Forcing& fo
 
 /// True if order 0 decided the contact before and is bitwise unchanged: forces follow from its own rows, places and
 /// velocities.
-bool LocalDerivatives::stays(std::size_t contact, const Jet& jet, const Beside& beside) const {
-  if (jet.system->mode()[contact] != beside.jet.system->mode()[contact] ||
-      std::binary_search(beside.open.begin(), beside.open.end(), contact))
+bool LocalDerivatives::is_unchanged(std::size_t contact, const Jet& jet, const PreviousJet& previous) const {
+  if (jet.system->states()[contact] != previous.jet.system->states()[contact] ||
+      std::binary_search(previous.open.begin(), previous.open.end(), contact))
     return false;
-  const auto same = [&](const auto& term) { return jet.u(term.first, 2) == beside.jet.u(term.first, 2); };
+  const auto same = [&](const auto& term) { return jet.u(term.first, 2) == previous.jet.u(term.first, 2); };
   const Contact& c = model_.contacts[contact];
   return std::all_of(c.normal.terms.begin(), c.normal.terms.end(), same) &&
          std::all_of(c.tangent.terms.begin(), c.tangent.terms.end(), same);
@@ -223,11 +224,11 @@ const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contac
   if (std::exchange(columns.known, true)) return columns;
   const auto n = static_cast<std::size_t>(model_.size());
   column_.resize(system.unknowns().size());
-  room_.resize(column_.size());
+  scratch_.resize(column_.size());
   const auto solve = [&](const Combination& form, std::vector<std::pair<Eigen::Index, double>>& column) {
     std::fill(column_.begin(), column_.end(), 0.0);
     form.add_to(column_, 1.0);
-    system.solve(column_.data(), room_.data());
+    system.solve(column_.data(), scratch_.data());
     const auto weighted = [&](std::size_t i) {
       const auto at = static_cast<Eigen::Index>(i);
       return column_[i] * column_[i] * model_.mass.coeff(at, at);
@@ -247,22 +248,22 @@ const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contac
 }
 
 /// Same for states that differ from those of a known jet. nullopt: too many states differ, or the change reaches far.
-std::optional<Jet> LocalDerivatives::follow(const StateSystemPtr& system, const Forcing& forcing, double t,
-                                            const Beside& beside) {
-  const contact::ContactStates &mode = system->mode(), &before = beside.jet.system->mode();
+std::optional<Jet> LocalDerivatives::update(const StateSystemPtr& system, const Forcing& forcing, double t,
+                                            const PreviousJet& previous) {
+  const contact::ContactStates &states = system->states(), &before = previous.jet.system->states();
   std::vector<std::size_t> others;
-  for (std::size_t c = 0; c < mode.size(); ++c)
-    if (mode[c] != before[c]) others.push_back(c);
+  for (std::size_t c = 0; c < states.size(); ++c)
+    if (states[c] != before[c]) others.push_back(c);
   if (others.size() > most_open) return std::nullopt;
   for (const std::size_t c : others)
     if (!columns_of(c, *system).few) return std::nullopt;
-  Jet jet{t, beside.jet.u, beside.jet.forces, system};
+  Jet jet{t, previous.jet.u, previous.jet.forces, system};
   series_.t = t;
   for (const std::size_t c : others) {
     const Contact& contact = model_.contacts[c];
     const Rows& rows = system->rows()[c];
     ContactMotion m;  // the part without forces
-    contact::set_place(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
+    contact::set_displacement(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
     contact::set_velocity(contact, jet.u.col(1), forcing.surface(c, t, 1), m);
     m.applied_normal_force = forcing.applied_normal_force(c, t, 0);
     const double N = -rows.normal.value(m) / rows.normal.N,
@@ -279,11 +280,14 @@ std::optional<Jet> LocalDerivatives::follow(const StateSystemPtr& system, const 
   return jet;
 }
 
-std::optional<LocalDerivatives::Made> LocalDerivatives::make(
-    const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
-    std::vector<MotionJet>& motions, const JetMaker::Enough& enough, const std::optional<Beside>& beside) {
+std::optional<LocalDerivatives::LocalJet> LocalDerivatives::make(const StateSystemPtr& system,
+                                                                 const Forcing& forcing, double t,
+                                                                 const Vector& u, const Vector& v,
+                                                                 std::vector<MotionJet>& motions,
+                                                                 const JetMaker::StopCriterion& enough,
+                                                                 const std::optional<PreviousJet>& previous) {
   if (!possible_ || !system->factorised().by_mass) return std::nullopt;
-  std::optional<Jet> followed = beside ? follow(system, forcing, t, *beside) : std::nullopt;
+  std::optional<Jet> followed = previous ? update(system, forcing, t, *previous) : std::nullopt;
   Jet jet = followed ? *std::move(followed) : expand(system, forcing, t, u, v);
   const std::size_t count = model_.contacts.size();
   const Point now{u, v, jet.forces.col(0), jet.u.col(2)};
@@ -291,9 +295,10 @@ std::optional<LocalDerivatives::Made> LocalDerivatives::make(
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < count; ++c) {
     MotionJet& motion = motions[c];
-    const bool known = beside && stays(c, jet, *beside), soft = soft_[c].is && !forcing.drives(c);
+    const bool known = previous && is_unchanged(c, jet, *previous),
+               soft = soft_[c].valid && !forcing.is_driven(c);
     if (!known && soft) {
-      settle_soft(system->rows()[c], forcing.surface(c, t, 0), now, c, motion);
+      set_soft_motion(system->rows()[c], forcing.surface(c, t, 0), now, c, motion);
     } else if (!known) {
       motion.motion[0] = motion_of(model_.contacts[c], c, forcing, t, now);
       order_one(*system, forcing, c, motion);
@@ -301,14 +306,14 @@ std::optional<LocalDerivatives::Made> LocalDerivatives::make(
     }
     jet.forces(static_cast<Eigen::Index>(model_.layout.normal(c)), 1) = motion.motion[1].N;
     jet.forces(static_cast<Eigen::Index>(model_.layout.tangent(c)), 1) = motion.motion[1].T;
-    if (known || ((soft || !accelerates(model_.contacts[c], system->mode()[c])) && enough(c, motion, 1)))
+    if (known || ((soft || !accelerates(model_.contacts[c], system->states()[c])) && enough(c, motion, 1)))
       continue;
     open.push_back(c);
     if (open.size() > most_open) return std::nullopt;
   }
   for (const std::size_t c : open)
-    if (!look_near(system, forcing, now, c, enough, motions[c])) return std::nullopt;
-  return Made{std::move(jet), std::move(open)};
+    if (!compute_locally(system, forcing, now, c, enough, motions[c])) return std::nullopt;
+  return LocalJet{std::move(jet), std::move(open)};
 }
 
 namespace {
@@ -336,18 +341,18 @@ template <class T, std::size_t count>
 
 }  // namespace
 
-SIGNORINI_WIDE_LANES void both_products(const double* a, const double* b, std::size_t rows,
-                                        std::size_t columns, const double* u, const double* w, double factor,
-                                        double* y) {
+SIGNORINI_WIDE_LANES void fused_products(const double* a, const double* b, std::size_t rows,
+                                         std::size_t columns, const double* u, const double* w, double factor,
+                                         double* y) {
   const Columns c{a, b, rows, columns, u, w, factor};
   std::size_t i = 0;
-  for (; i + 16 <= rows; i += 16) some_rows<base::Four, 4>(c, i, y);
+  for (; i + 16 <= rows; i += 16) some_rows<base::Double4, 4>(c, i, y);
   if (i + 8 <= rows) {
-    some_rows<base::Four, 2>(c, i, y);
+    some_rows<base::Double4, 2>(c, i, y);
     i += 8;
   }
   if (i + 4 <= rows) {
-    some_rows<base::Four, 1>(c, i, y);
+    some_rows<base::Double4, 1>(c, i, y);
     i += 4;
   }
   for (; i < rows; ++i) some_rows<double, 1>(c, i, y);

@@ -29,26 +29,27 @@ class LocalDerivatives {
 
   /// True if local jets suit the model, as far as is known; false once M^-1 was found to decay nowhere.
   [[nodiscard]] bool possible() const { return possible_; }
-  struct Made {
+  struct LocalJet {
     Jet jet;                        ///< orders 0 to 2 of u, orders 0 and 1 of forces
     std::vector<std::size_t> open;  ///< contacts that order 0 does not decide
   };
   /// Last result at the same instant, under the same forcing and for the same query, possibly in other states.
-  struct Beside {
+  struct PreviousJet {
     const Jet& jet;
     const std::vector<std::size_t>& open;
   };
   /// Same meaning as JetMaker::make. nullopt: the whole structure is needed. beside: `motions` still contains its
   /// motions, which are kept if other states change neither row nor acceleration.
-  [[nodiscard]] std::optional<Made> make(const StateSystemPtr& system, const Forcing& forcing, double t,
-                                         const Vector& u, const Vector& v, std::vector<MotionJet>& motions,
-                                         const JetMaker::Enough& enough,
-                                         const std::optional<Beside>& beside = {});
+  [[nodiscard]] std::optional<LocalJet> make(const StateSystemPtr& system, const Forcing& forcing, double t,
+                                             const Vector& u, const Vector& v,
+                                             std::vector<MotionJet>& motions,
+                                             const JetMaker::StopCriterion& enough,
+                                             const std::optional<PreviousJet>& previous = {});
 
  private:
   /// A soft contact without a dashpot, on translations alone: data for its motion and rounding, contiguous in memory.
   struct Soft {
-    bool is = false;
+    bool valid = false;
     std::size_t first = 0, middle = 0, end = 0;  // terms of its normal, terms of its tangent
     double gap = 0.0, normal_squared = 0.0, tangent_squared = 0.0;
   };
@@ -60,27 +61,28 @@ class LocalDerivatives {
   [[nodiscard]] const Columns& columns_of(std::size_t contact, const StateSystem& system);
   [[nodiscard]] Jet expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                            const Vector& v);
-  [[nodiscard]] std::optional<Jet> follow(const StateSystemPtr& system, const Forcing& forcing, double t,
-                                          const Beside& beside);
-  void settle_soft(const Rows& rows, double surface, const Point& now, std::size_t contact,
-                   MotionJet& motion) const;
+  [[nodiscard]] std::optional<Jet> update(const StateSystemPtr& system, const Forcing& forcing, double t,
+                                          const PreviousJet& previous);
+  void set_soft_motion(const Rows& rows, double surface, const Point& now, std::size_t contact,
+                       MotionJet& motion) const;
   void order_one(const StateSystem& system, const Forcing& forcing, std::size_t contact,
                  MotionJet& motion) const;
   void bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
                       std::size_t contact, MotionJet& motion) const;
-  [[nodiscard]] bool stays(std::size_t contact, const Jet& jet, const Beside& beside) const;
-  [[nodiscard]] bool look_near(const StateSystemPtr& system, const Forcing& forcing, const Point& now,
-                               std::size_t contact, const JetMaker::Enough& enough, MotionJet& motion);
+  [[nodiscard]] bool is_unchanged(std::size_t contact, const Jet& jet, const PreviousJet& previous) const;
+  [[nodiscard]] bool compute_locally(const StateSystemPtr& system, const Forcing& forcing, const Point& now,
+                                     std::size_t contact, const JetMaker::StopCriterion& enough,
+                                     MotionJet& motion);
 
   const Model& model_;
   bool possible_;
   Taylor taylor_;
   Series series_;
-  std::vector<Soft> soft_;             // one for each contact
-  std::vector<Columns> columns_;       // one for each contact
-  std::vector<double> column_, room_;  // scratch for one column
+  std::vector<Soft> soft_;                // one for each contact
+  std::vector<Columns> columns_;          // one for each contact
+  std::vector<double> column_, scratch_;  // scratch for one column
   std::vector<std::pair<std::size_t, double>> terms_;
-  std::optional<Neighbourhoods> near_;
+  std::optional<Neighbourhoods> neighbourhoods_;
   struct Work {  // scratch for one neighbourhood
     explicit Work(StateSystems& systems) : jets(systems) {}
     JetMaker jets;
@@ -95,7 +97,7 @@ class LocalDerivatives {
 //
 // Rows are summed four at a time, each in the order of j: the results are bitwise those of the plain loop.
 
-void both_products(const double* a, const double* b, std::size_t rows, std::size_t columns, const double* u,
-                   const double* w, double factor, double* y);
+void fused_products(const double* a, const double* b, std::size_t rows, std::size_t columns, const double* u,
+                    const double* w, double factor, double* y);
 
 }  // namespace signorini::motion

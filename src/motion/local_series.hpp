@@ -22,10 +22,10 @@ class LocalSeries {
   explicit LocalSeries(StateSystems& systems);
 
   /// False: M^-1 was found to decay nowhere.
-  [[nodiscard]] bool possible() const { return !near_.hopeless(); }
+  [[nodiscard]] bool possible() const { return !neighbourhoods_.has_given_up(); }
 
   /// Coefficients of the earlier motion about the instant: levels + 3 for a degree of freedom, levels + 1 for a force.
-  struct AsItWas {
+  struct PreviousSeries {
     std::function<void(int dof, double* out)> u;
     std::function<void(std::size_t slot, double* out)> force;
   };
@@ -35,32 +35,33 @@ class LocalSeries {
     const std::vector<double>& weights;
     double least;
   };
-  struct Made {
+  struct LocalExpansion {
     const Neighbourhood* where;
     const Series* series;  ///< series on it, valid until the next one is made there
   };
   /// Expands from u and v at t to `levels`. changed: contacts. reach: that of the earlier series, in units of `scale`.
   /// nullopt: no single W contains all changes, or their effect reaches beyond it.
-  [[nodiscard]] std::optional<Made> expand(const std::vector<std::size_t>& changed,
-                                           const StateSystemPtr& system, const Forcing& forcing, double t,
-                                           const Vector& u, const Vector& v, int levels, double scale,
-                                           double reach, const Sizes& sizes, const AsItWas& as_it_was);
+  [[nodiscard]] std::optional<LocalExpansion> expand(const std::vector<std::size_t>& changed,
+                                                     const StateSystemPtr& system, const Forcing& forcing,
+                                                     double t, const Vector& u, const Vector& v, int levels,
+                                                     double scale, double reach, const Sizes& sizes,
+                                                     const PreviousSeries& previous);
 
  private:
   struct Work {  // scratch for one neighbourhood
     explicit Work(Neighbourhood& near);
     Taylor taylor;
     Series series;
-    std::vector<int> ring, boundary;         // neighbours outside, in the whole; places inside
-    std::vector<Eigen::Index> place_of_tie;  // place in the ring of each tie
-    std::vector<std::size_t> place_of_pull;  // place in `across` of each pull
-    std::vector<std::size_t> across;         // forces
-    Eigen::MatrixXd outside, forces;         // coefficients: columns for the ring; for `across`
+    std::vector<int> ring, boundary;              // neighbours outside, in the whole; places inside
+    std::vector<Eigen::Index> place_of_coupling;  // place in the ring of each tie
+    std::vector<std::size_t> place_of_crossing;   // place in `across` of each pull
+    std::vector<std::size_t> across;              // forces
+    Eigen::MatrixXd outside, forces;              // coefficients: columns for the ring; for `across`
   };
-  [[nodiscard]] bool dies_out(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
-                              const AsItWas& as_it_was) const;
+  [[nodiscard]] bool decays(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
+                            const PreviousSeries& previous) const;
 
-  Neighbourhoods near_;
+  Neighbourhoods neighbourhoods_;
   std::vector<std::unique_ptr<Work>> work_;
 };
 

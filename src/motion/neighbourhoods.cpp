@@ -38,7 +38,7 @@ Neighbourhoods::Neighbourhoods(StateSystems& systems, int spread)
       structure_(systems.structure()),
       spread_(spread),
       of_contact_(model_.contacts.size(), nullptr),
-      looked_for_(model_.contacts.size(), false) {
+      searched_(model_.contacts.size(), false) {
   neighbours_.resize(static_cast<std::size_t>(structure_.size));
   contacts_at_.resize(neighbours_.size());
   for (std::size_t j = 0; j < neighbours_.size(); ++j)
@@ -124,12 +124,12 @@ std::unique_ptr<Neighbourhood> Neighbourhoods::make(const std::vector<int>& dist
     for (auto p = static_cast<std::size_t>(structure_.column_start[j]);
          p < static_cast<std::size_t>(structure_.column_start[j + 1]); ++p)
       if (inside(structure_.row[p]))
-        near->ties.push_back({place[static_cast<std::size_t>(structure_.row[p])], static_cast<int>(j),
-                              structure_.m[p], structure_.c[p], structure_.k[p]});
+        near->couplings.push_back({place[static_cast<std::size_t>(structure_.row[p])], static_cast<int>(j),
+                                   structure_.m[p], structure_.c[p], structure_.k[p]});
   }
   const auto pull = [&](const Combination& form, std::size_t force) {
     for (const auto& [dof, factor] : form.terms)
-      if (inside(dof)) near->pulls.push_back({place[static_cast<std::size_t>(dof)], force, factor});
+      if (inside(dof)) near->crossing_forces.push_back({place[static_cast<std::size_t>(dof)], force, factor});
   };
   for (const std::size_t c : across) {
     pull(model_.contacts[c].normal, model_.layout.normal(c));
@@ -139,7 +139,7 @@ std::unique_ptr<Neighbourhood> Neighbourhoods::make(const std::vector<int>& dist
 }
 
 Neighbourhood* Neighbourhoods::around(std::size_t contact, const StateSystem& system) {
-  if (looked_for_[contact]) return of_contact_[contact];
+  if (searched_[contact]) return of_contact_[contact];
   const std::vector<int> distance = distances(dofs_of(model_.contacts[contact]));
   const int radius = reach(contact, system, distance) + spread_, shared = radius / sharing;
   std::unique_ptr<Neighbourhood> made = make(distance, radius + shared);
@@ -148,16 +148,15 @@ Neighbourhood* Neighbourhoods::around(std::size_t contact, const StateSystem& sy
     near->number = made_.size();
     made_.push_back(std::move(made));
   } else {
-    ++vain_;
+    ++failures_;
   }
   for (std::size_t i = 0; i < distance.size(); ++i)
     for (const std::size_t c : contacts_at_[i])
-      if (!looked_for_[c] &&
-          (c == contact || (near != nullptr && distance[i] >= 0 && distance[i] <= shared))) {
-        looked_for_[c] = true;
+      if (!searched_[c] && (c == contact || (near != nullptr && distance[i] >= 0 && distance[i] <= shared))) {
+        searched_[c] = true;
         of_contact_[c] = near;
       }
-  looked_for_[contact] = true;  // the contact may act on no degree of freedom
+  searched_[contact] = true;  // the contact may act on no degree of freedom
   return near;
 }
 

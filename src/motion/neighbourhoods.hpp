@@ -24,7 +24,7 @@ struct Neighbourhood {
                 std::vector<std::size_t> loads_)
       : model(std::move(part)),
         structure(model),
-        systems(model, structure, few_modes),
+        systems(model, structure, few_states),
         dofs(std::move(dofs_)),
         contacts(std::move(contacts_)),
         loads(std::move(loads_)) {}
@@ -33,7 +33,7 @@ struct Neighbourhood {
 
   /// Limit of cached states. States share one factorisation of M_WW, so that keeping many saves no time; there may be
   /// hundreds of neighbourhoods.
-  static constexpr base::CacheBounds few_modes{8, std::size_t{1} << 18};
+  static constexpr base::CacheLimits few_states{8, std::size_t{1} << 18};
   Model model;
   linear::SystemMatrices structure;
   StateSystems systems;
@@ -41,24 +41,24 @@ struct Neighbourhood {
   std::vector<int> dofs;                     // numbers in the whole, ascending
   std::vector<std::size_t> contacts, loads;  // same
   /// Coupling of row `at` here to column `dof` outside.
-  struct Tie {
+  struct Coupling {
     int at, dof;
     double m, c, k;
   };
-  std::vector<Tie> ties;
+  std::vector<Coupling> couplings;
   /// Contacts that reach across the boundary: their forces act on `at`.
-  struct Pull {
+  struct CrossingForce {
     int at;
     std::size_t force;  // slot of the force
     double factor;
   };
-  std::vector<Pull> pulls;
+  std::vector<CrossingForce> crossing_forces;
 
-  [[nodiscard]] contact::ContactStates mode_of(const contact::ContactStates& whole) const {
-    contact::ContactStates mode;
-    mode.reserve(contacts.size());
-    for (const std::size_t c : contacts) mode.push_back(whole[c]);
-    return mode;
+  [[nodiscard]] contact::ContactStates local_states(const contact::ContactStates& whole) const {
+    contact::ContactStates states;
+    states.reserve(contacts.size());
+    for (const std::size_t c : contacts) states.push_back(whole[c]);
+    return states;
   }
 };
 
@@ -70,11 +70,11 @@ class Neighbourhoods {
   /// Null: M^-1 does not decay within a quarter of the structure. system: that of any state, with a factorisation of M.
   [[nodiscard]] Neighbourhood* around(std::size_t contact, const StateSystem& system);
   /// True once several searches have found no neighbourhood.
-  [[nodiscard]] bool hopeless() const { return made_.empty() && vain_ >= most_vain; }
+  [[nodiscard]] bool has_given_up() const { return made_.empty() && failures_ >= max_failures; }
   [[nodiscard]] std::size_t size() const { return made_.size(); }
 
  private:
-  static constexpr int most_vain = 4;  // chosen
+  static constexpr int max_failures = 4;  // chosen
   [[nodiscard]] std::vector<int> distances(const std::vector<int>& from) const;
   [[nodiscard]] int reach(std::size_t contact, const StateSystem& system,
                           const std::vector<int>& distance) const;
@@ -88,8 +88,8 @@ class Neighbourhoods {
   std::vector<double> root_of_mass_;                   // for each degree of freedom
   std::vector<std::unique_ptr<Neighbourhood>> made_;
   std::vector<Neighbourhood*> of_contact_;  // set once searched
-  std::vector<bool> looked_for_;
-  int vain_ = 0;
+  std::vector<bool> searched_;
+  int failures_ = 0;
 };
 
 }  // namespace signorini::motion

@@ -22,7 +22,7 @@ namespace signorini::motion {
 
 /// Times closer than this are equal for an integrator: IDA's own measure.
 [[nodiscard]] inline double resolution_at(double t, double step) {
-  return rounding::of_time * (std::abs(t) + std::abs(step));
+  return rounding::time_resolution * (std::abs(t) + std::abs(step));
 }
 
 /// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
@@ -47,7 +47,7 @@ struct Point {
 };
 
 /// Point on the straight line from a to b, 0 <= x <= 1.
-[[nodiscard]] inline Point between(const Point& a, const Point& b, double x) {
+[[nodiscard]] inline Point interpolate(const Point& a, const Point& b, double x) {
   return {(1.0 - x) * a.u + x * b.u, (1.0 - x) * a.v + x * b.v, (1.0 - x) * a.forces + x * b.forces,
           (1.0 - x) * a.a + x * b.a};
 }
@@ -58,7 +58,7 @@ struct Point {
   ContactMotion m;
   m.N = point.N(forcing.layout(), k);
   m.T = point.T(forcing.layout(), k);
-  contact::set_place(contact, point.u, forcing.surface(k, t, 0), m);
+  contact::set_displacement(contact, point.u, forcing.surface(k, t, 0), m);
   contact::set_velocity(contact, point.v, forcing.surface(k, t, 1), m);
   if (point.a.size() > 0) contact::set_acceleration(contact, point.a, forcing.surface(k, t, 2), m);
   m.applied_normal_force = forcing.applied_normal_force(k, t, 0);
@@ -72,8 +72,8 @@ struct Point {
 struct BodySlide {
   double ut = 0.0, vt = 0.0;
 };
-[[nodiscard]] inline BodySlide slide_of(const Contact& contact, std::size_t k, const Forcing& forcing,
-                                        double t, const Vector& u, const Vector& v) {
+[[nodiscard]] inline BodySlide body_slide(const Contact& contact, std::size_t k, const Forcing& forcing,
+                                          double t, const Vector& u, const Vector& v) {
   return {contact.body_tangent().dot(u) - forcing.surface(k, t, 0),
           contact.body_tangent().dot(v) - forcing.surface(k, t, 1)};
 }
@@ -83,8 +83,8 @@ struct BodySlide {
 //   r = M a + C v + K u + sum ( n N + t T ) - P(t)
 
 /// Greatest |r_i| at a point whose accelerations are known. Unit: force.
-[[nodiscard]] double imbalance(const Model& model, const linear::SystemMatrices& structure,
-                               const Forcing& forcing, double t, const Point& point);
+[[nodiscard]] double equilibrium_residual(const Model& model, const linear::SystemMatrices& structure,
+                                          const Forcing& forcing, double t, const Point& point);
 
 // The rates at which the system gains and loses energy.
 //
@@ -123,7 +123,7 @@ class Powers {
   /// Number of powers at one time: loads, damping, then friction, surface and -N of each contact.
   [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
   /// Evaluates all powers into out[0 .. count()).
-  void at(const Forcing& forcing, double t, const contact::ContactStates& mode, const Point& point,
+  void at(const Forcing& forcing, double t, const contact::ContactStates& states, const Point& point,
           double* out) const;
   /// works += factor * powers
   void add(const double* powers, double factor, WorkIntegrals& works) const;
@@ -137,15 +137,15 @@ class Powers {
 //
 //   |form| |x|  in the plane, whatever the angle between them and the axes;  sum |form_i x_i|  of unlike coordinates
 
-inline constexpr std::size_t most_plane_terms = 4;  // for a form on the translations of one node, or of two
+inline constexpr std::size_t max_plane_terms = 4;  // for a form on the translations of one node, or of two
 
 /// x: maps a degree of freedom to its size. Components that the form does not contain do not count.
 template <class Size>
-double size_by(const Model& model, const Combination& form, const Size& x) {
+double form_magnitude_by(const Model& model, const Combination& form, const Size& x) {
   double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
   for (const auto& [dof, factor] : form.terms) {
     const bool in_plane =
-        form.terms.size() <= most_plane_terms && !model.dofs[static_cast<std::size_t>(dof)].rotation;
+        form.terms.size() <= max_plane_terms && !model.dofs[static_cast<std::size_t>(dof)].rotation;
     if (!in_plane) {
       terms += std::abs(factor * x(dof));
     } else if (factor != 0.0) {
@@ -156,8 +156,8 @@ double size_by(const Model& model, const Combination& form, const Size& x) {
   return terms + std::sqrt(form_squared * x_squared);
 }
 template <class Entries>
-double size_of(const Model& model, const Combination& form, const Entries& x) {
-  return size_by(model, form, [&x](int dof) { return x[dof]; });
+double form_magnitude(const Model& model, const Combination& form, const Entries& x) {
+  return form_magnitude_by(model, form, [&x](int dof) { return x[dof]; });
 }
 
 }  // namespace signorini::motion

@@ -9,7 +9,7 @@
 
 namespace signorini::motion {
 
-void FactorisedMode::solve(double* x, double* y) const {
+void FactorisedStates::solve(double* x, double* y) const {
   if (by_mass) return by_mass->solve(x, y);
   if (!dense()) {
     sparse.solve(x, y);
@@ -27,9 +27,10 @@ void FactorisedMode::solve(double* x, double* y) const {
   std::copy(y, y + size, x);
 }
 
-std::size_t FactorisedMode::bytes() const {
-  return sizeof(*this) + kinds.size() * sizeof(linear::DofKind) + pinned.size() * sizeof(linear::Pinned) +
-         by_rate.size() * sizeof(std::size_t) + sparse.bytes() + (by_mass ? by_mass->bytes() : 0) +
+std::size_t FactorisedStates::bytes() const {
+  return sizeof(*this) + kinds.size() * sizeof(linear::DofKind) +
+         prescribed.size() * sizeof(linear::PrescribedDof) + rate_dependent.size() * sizeof(std::size_t) +
+         sparse.bytes() + (by_mass ? by_mass->bytes() : 0) +
          (inverse.size() + from_u.size() + from_v.size()) * sizeof(double);
 }
 
@@ -50,8 +51,8 @@ bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared,
       const std::size_t c = layout.contact_of(shared.rows[i]);
       const double zi = z[at], rate = forcing.surface(c, t, order);
       sum += zi * rate;
-      zero += std::abs(zi) *
-              (rounding::of_many * std::abs(rate) + (order == 1 ? forcing.surface_rounding(c, t) : 0.0));
+      zero += std::abs(zi) * (rounding::many_operations * std::abs(rate) +
+                              (order == 1 ? forcing.surface_rounding(c, t) : 0.0));
     }
     if (std::abs(sum) > zero) return false;
   }
@@ -61,7 +62,7 @@ bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared,
 }  // namespace
 
 StateSystems::StateSystems(const Model& model, const linear::SystemMatrices& structure,
-                           base::CacheBounds bounds)
+                           base::CacheLimits bounds)
     : model_(model),
       structure_(structure),
       own_kinds_(linear::dof_kinds(model, structure)),
@@ -70,7 +71,7 @@ StateSystems::StateSystems(const Model& model, const linear::SystemMatrices& str
       weights_(static_cast<std::size_t>(structure.size)),
       cache_(bounds) {
   const std::size_t unknowns = own_kinds_.size() + static_cast<std::size_t>(model.force_count());
-  if (!massless_ && unknowns > most_dense) mass_ = linear::mass_factors(structure);
+  if (!massless_ && unknowns > max_dense_size) mass_ = linear::mass_factors(structure);
   for (const std::vector<std::size_t>& group : sharing())
     for (const std::size_t c : group) {
       const Contact& contact = model.contacts[c];
@@ -82,63 +83,65 @@ StateSystems::StateSystems(const Model& model, const linear::SystemMatrices& str
 
 /// Computing it takes no longer than a search, which compares states one by one. Null: a row contains an acceleration,
 /// or friction that will change.
-std::shared_ptr<const FactorisedMode> StateSystems::by_mass(const contact::ContactStates& mode,
-                                                            const std::vector<Rows>& rows) {
-  std::vector<linear::OwnForces> forces = mass_ ? linear::own_forces(rows) : std::vector<linear::OwnForces>{};
+std::shared_ptr<const FactorisedStates> StateSystems::by_mass(const contact::ContactStates& contact_states,
+                                                              const std::vector<Rows>& rows) {
+  std::vector<linear::ContactForceBlock> forces =
+      mass_ ? linear::contact_force_blocks(rows) : std::vector<linear::ContactForceBlock>{};
   if (forces.empty()) return nullptr;
-  FactorisedMode made = describe(mode, rows);
-  if (!made.by_rate.empty()) return nullptr;
+  FactorisedStates made = describe(contact_states, rows);
+  if (!made.rate_dependent.empty()) return nullptr;
   ++made_;
   made.by_mass.emplace(model_, mass_, std::move(forces));
   made.regular = true;
-  return std::make_shared<const FactorisedMode>(std::move(made));
+  return std::make_shared<const FactorisedStates>(std::move(made));
 }
 
-std::shared_ptr<const FactorisedMode> StateSystems::cached(const contact::ContactStates& mode,
-                                                           const std::vector<Rows>& rows) {
-  const std::vector<State> states = contact::states_of(mode);
+std::shared_ptr<const FactorisedStates> StateSystems::cached(const contact::ContactStates& contact_states,
+                                                             const std::vector<Rows>& rows) {
+  const std::vector<State> states = contact::states_of(contact_states);
   if (const auto* known = cache_.find(states)) return *known;
-  FactorisedMode made = describe(mode, rows);
+  FactorisedStates made = describe(contact_states, rows);
   factorise(rows, made);
-  auto factorised = std::make_shared<const FactorisedMode>(std::move(made));
+  auto factorised = std::make_shared<const FactorisedStates>(std::move(made));
   cache_.insert(states, factorised, factorised->bytes() + states.size() * sizeof(State));
   return factorised;
 }
 
-FactorisedMode StateSystems::describe(const contact::ContactStates& mode,
-                                      const std::vector<Rows>& rows) const {
-  FactorisedMode result;
-  result.unknowns = {own_kinds_.size(), mode.size(), model_.layout};
+FactorisedStates StateSystems::describe(const contact::ContactStates& contact_states,
+                                        const std::vector<Rows>& rows) const {
+  FactorisedStates result;
+  result.unknowns = {own_kinds_.size(), contact_states.size(), model_.layout};
   result.massless = massless_;
   if (massless_) {
-    linear::MotionKinds in_mode = linear::kinds_in_mode(own_kinds_, model_, rows);
+    linear::MotionKinds in_mode = linear::kinds_in_states(own_kinds_, model_, rows);
     result.kinds = std::move(in_mode.kinds);
     result.undamped = std::move(in_mode.undamped);
   } else {
     result.kinds = own_kinds_;
   }
-  result.pinned = linear::pinned_by(model_, rows);
-  for (std::size_t c = 0; c < mode.size(); ++c)
-    if (contact::slips_nonlinearly(model_.contacts[c], mode[c].state)) result.by_rate.push_back(c);
+  result.prescribed = linear::prescribed_dofs(model_, rows);
+  for (std::size_t c = 0; c < contact_states.size(); ++c)
+    if (contact::slips_nonlinearly(model_.contacts[c], contact_states[c].state))
+      result.rate_dependent.push_back(c);
   return result;
 }
 
-void StateSystems::factorise(const std::vector<Rows>& rows, FactorisedMode& mode) {
+void StateSystems::factorise(const std::vector<Rows>& rows, FactorisedStates& mode) {
   ++made_;
   for (std::size_t i = 0; i < weights_.size(); ++i)
     weights_[i] = mode.kinds[i] == linear::DofKind::massive  ? linear::Weights{1.0, 0.0, 0.0}
                   : mode.kinds[i] == linear::DofKind::damped ? linear::Weights{0.0, 1.0, 0.0}
                                                              : linear::Weights{0.0, 0.0, 1.0};
   mode.regular = matrix_.set(rows, weights_, true, mode.undamped);
-  mode.shared = matrix_.shared();
+  mode.shared = matrix_.shared_forces();
   if (!mode.regular) return;
-  if (mode.unknowns.size() <= most_dense && mode.by_rate.empty())
+  if (mode.unknowns.size() <= max_dense_size && mode.rate_dependent.empty())
     invert(rows, mode);
   else
     mode.sparse = matrix_.klu().factors();
 }
 
-void StateSystems::invert(const std::vector<Rows>& rows, FactorisedMode& mode) {
+void StateSystems::invert(const std::vector<Rows>& rows, FactorisedStates& mode) {
   const linear::Unknowns& at = mode.unknowns;
   const std::size_t size = at.size(), n = at.dofs;
   std::vector<double> inverse(size * size, 0.0), work(size);
@@ -171,29 +174,31 @@ void StateSystems::invert(const std::vector<Rows>& rows, FactorisedMode& mode) {
 }
 
 /// Rows of the last state, updated for contacts that have changed.
-std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& mode) const {
-  if (!last_) return linear::rows_of(model_, mode);
+std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& contact_states) const {
+  if (!last_) return linear::rows_of(model_, contact_states);
   std::vector<Rows> result = last_->rows();
-  for (std::size_t c = 0; c < mode.size(); ++c)
-    if (mode[c] != last_->mode()[c]) result[c] = contact::rows(model_.contacts[c], mode[c]);
+  for (std::size_t c = 0; c < contact_states.size(); ++c)
+    if (contact_states[c] != last_->states()[c])
+      result[c] = contact::rows(model_.contacts[c], contact_states[c]);
   return result;
 }
 
-StateSystemPtr StateSystems::of(const contact::ContactStates& mode) {
-  if (last_ && last_->mode() == mode)
+StateSystemPtr StateSystems::system_of(const contact::ContactStates& contact_states) {
+  if (last_ && last_->states() == contact_states)
     return last_;  // a decision begins with the final state of the previous one
-  std::vector<Rows> rows = rows_beside(mode);
-  std::shared_ptr<const FactorisedMode> factorised = by_mass(mode, rows);
-  if (!factorised) factorised = cached(mode, rows);
+  std::vector<Rows> rows = rows_beside(contact_states);
+  std::shared_ptr<const FactorisedStates> factorised = by_mass(contact_states, rows);
+  if (!factorised) factorised = cached(contact_states, rows);
   if (!factorised->regular) return nullptr;
-  return last_ = std::make_shared<const StateSystem>(mode, std::move(rows), std::move(factorised));
+  return last_ = std::make_shared<const StateSystem>(contact_states, std::move(rows), std::move(factorised));
 }
 
-bool StateSystems::held_by_others(std::size_t c, contact::ContactStates mode, const Forcing& forcing,
-                                  double t) const {
-  if (!may_share(c) || !model_.contacts[c].sticks_rigidly() || mode[c].is_open()) return false;
-  mode[c].state = State::stick;
-  for (const linear::SharedForces& shared : matrix_.shared_rows().in_force(linear::rows_of(model_, mode))) {
+bool StateSystems::held_by_others(std::size_t c, contact::ContactStates contact_states,
+                                  const Forcing& forcing, double t) const {
+  if (!may_share(c) || !model_.contacts[c].sticks_rigidly() || contact_states[c].is_open()) return false;
+  contact_states[c].state = State::stick;
+  for (const linear::SharedForces& shared :
+       matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states))) {
     const auto at =
         std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
     if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::has_share(shared.null, at))
@@ -204,24 +209,25 @@ bool StateSystems::held_by_others(std::size_t c, contact::ContactStates mode, co
   return false;
 }
 
-void StateSystems::mark_static_limits(contact::ContactStates& mode, const Forcing& forcing, double t) const {
+void StateSystems::mark_static_limits(contact::ContactStates& contact_states, const Forcing& forcing,
+                                      double t) const {
   for (const std::size_t c : holdable_)
-    if (const int s = slip_sign(mode[c].state); s != 0) {
-      const bool held = held_by_others(c, mode, forcing, t);
-      mode[c].state = s > 0 ? (held ? State::static_limit_plus : State::slip_plus)
-                            : (held ? State::static_limit_minus : State::slip_minus);
+    if (const int s = slip_sign(contact_states[c].state); s != 0) {
+      const bool held = held_by_others(c, contact_states, forcing, t);
+      contact_states[c].state = s > 0 ? (held ? State::static_limit_plus : State::slip_plus)
+                                      : (held ? State::static_limit_minus : State::slip_minus);
     }
 }
 
-StateSystemPtr StateSystems::at_friction(const StateSystem& system, std::span<const Form> tangents) {
+StateSystemPtr StateSystems::with_friction(const StateSystem& system, std::span<const Form> tangents) {
   std::vector<Rows> rows = system.rows();
-  const std::vector<std::size_t>& by_rate = system.factorised().by_rate;
+  const std::vector<std::size_t>& by_rate = system.factorised().rate_dependent;
   for (std::size_t i = 0; i < by_rate.size(); ++i) rows[by_rate[i]].tangent = tangents[i];
-  FactorisedMode made = describe(system.mode(), rows);
+  FactorisedStates made = describe(system.states(), rows);
   factorise(rows, made);
   if (!made.regular) return nullptr;
-  return std::make_shared<const StateSystem>(system.mode(), std::move(rows),
-                                             std::make_shared<const FactorisedMode>(std::move(made)));
+  return std::make_shared<const StateSystem>(system.states(), std::move(rows),
+                                             std::make_shared<const FactorisedStates>(std::move(made)));
 }
 
 namespace {
@@ -241,20 +247,20 @@ Eigen::VectorXd correct(const StateSystem& system, const std::vector<double>& mi
 
 }  // namespace
 
-Eigen::VectorXd hold(const Model& model, const StateSystem& system, const Forcing& forcing, double t,
-                     Vector& u, Vector& v) {
-  const contact::ContactStates& mode = system.mode();
+Eigen::VectorXd project_constraints(const Model& model, const StateSystem& system, const Forcing& forcing,
+                                    double t, Vector& u, Vector& v) {
+  const contact::ContactStates& contact_states = system.states();
   const auto is_held = [&](std::size_t c) {
-    return model.contacts[c].takes_impulses() && !mode[c].is_open();
+    return model.contacts[c].takes_impulses() && !contact_states[c].is_open();
   };
   const auto sticks = [&](std::size_t c) {
-    return mode[c].state == State::stick && model.contacts[c].sticks_rigidly();
+    return contact_states[c].state == State::stick && model.contacts[c].sticks_rigidly();
   };
   bool any = false;
-  for (std::size_t c = 0; c < mode.size() && !any; ++c) any = is_held(c) || sticks(c);
+  for (std::size_t c = 0; c < contact_states.size() && !any; ++c) any = is_held(c) || sticks(c);
   if (!any) return {};
-  std::vector<double> places(model.layout.size(mode.size()), 0.0), rates(places);
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  std::vector<double> places(model.layout.size(contact_states.size()), 0.0), rates(places);
+  for (std::size_t c = 0; c < contact_states.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (is_held(c)) {
       places[model.layout.normal(c)] = -contact.gap_at(u);
@@ -265,7 +271,7 @@ Eigen::VectorXd hold(const Model& model, const StateSystem& system, const Forcin
   }
   correct(system, places, u);
   Eigen::VectorXd impulses = correct(system, rates, v);
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < contact_states.size(); ++c) {
     const Contact& contact = model.contacts[c];
     const bool held = is_held(c), still = sticks(c);
     const double surface = still ? forcing.surface(c, t, 1) : 0.0;

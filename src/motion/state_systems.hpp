@@ -31,22 +31,22 @@ namespace signorini::motion {
 //   | M w_a + C w_v + K w_u    n   t |  x = b      w: 1 for the unknown quantity of a degree of freedom
 //   | rows of the contacts         . |             (linear/unknowns.hpp), else 0
 //
-// The part that depends on the states alone is a FactorisedMode, shared by all anchors: anchors are constants of rows.
+// The part that depends on the states alone is a FactorisedStates, shared by all anchors: anchors are constants of rows.
 // Friction that depends on the slip rate is in the matrix: such a system is valid for the friction coefficients that it
 // was made with, initially the kinetic ones.
 // Shapes: n degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
 
 /// Limit of unknowns up to which a dense inverse is faster than a sparse solve.
-inline constexpr std::size_t most_dense = 40;
+inline constexpr std::size_t max_dense_size = 40;
 
-struct FactorisedMode {
+struct FactorisedStates {
   linear::Unknowns unknowns;
   std::vector<linear::DofKind> kinds;  ///< one for each degree of freedom
   /// The column of such a degree of freedom represents a whole motion.
   std::vector<linear::UndampedMotion> undamped;
-  std::vector<linear::Pinned> pinned;
+  std::vector<linear::PrescribedDof> prescribed;
   std::vector<linear::SharedForces> shared;   ///< rigid contacts that constrain one motion together
-  std::vector<std::size_t> by_rate;           ///< contacts that slip with rate-dependent friction
+  std::vector<std::size_t> rate_dependent;    ///< contacts that slip with rate-dependent friction
   bool massless = false;                      ///< some degrees of freedom are massless
   bool regular = false;                       ///< false: rows are linearly dependent; there is no inverse
   linear::TriangularFactors sparse;           ///< empty if `inverse` or `by_mass` is used
@@ -64,74 +64,76 @@ struct FactorisedMode {
 
 class StateSystem {
  public:
-  StateSystem(contact::ContactStates mode, std::vector<Rows> rows,
-              std::shared_ptr<const FactorisedMode> factorised)
-      : mode_(std::move(mode)), rows_(std::move(rows)), factorised_(std::move(factorised)) {}
+  StateSystem(contact::ContactStates states, std::vector<Rows> rows,
+              std::shared_ptr<const FactorisedStates> factorised)
+      : states_(std::move(states)), rows_(std::move(rows)), factorised_(std::move(factorised)) {}
 
-  [[nodiscard]] const contact::ContactStates& mode() const { return mode_; }
+  [[nodiscard]] const contact::ContactStates& states() const { return states_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
-  [[nodiscard]] const FactorisedMode& factorised() const { return *factorised_; }
+  [[nodiscard]] const FactorisedStates& factorised() const { return *factorised_; }
   [[nodiscard]] const std::vector<linear::DofKind>& kinds() const { return factorised_->kinds; }
   [[nodiscard]] const std::vector<linear::UndampedMotion>& undamped() const { return factorised_->undamped; }
   [[nodiscard]] const linear::Unknowns& unknowns() const { return factorised_->unknowns; }
   void solve(double* x, double* work) const { factorised_->solve(x, work); }
 
  private:
-  contact::ContactStates mode_;
+  contact::ContactStates states_;
   std::vector<Rows> rows_;
-  std::shared_ptr<const FactorisedMode> factorised_;
+  std::shared_ptr<const FactorisedStates> factorised_;
 };
 
 using StateSystemPtr = std::shared_ptr<const StateSystem>;
 
-inline constexpr base::CacheBounds mode_bounds{1024, std::size_t{16} << 20};
+inline constexpr base::CacheLimits state_cache_limits{1024, std::size_t{16} << 20};
 
 class StateSystems {
  public:
   /// Both arguments must outlive the object.
   StateSystems(const Model& model, const linear::SystemMatrices& structure,
-               base::CacheBounds bounds = mode_bounds);
+               base::CacheLimits bounds = state_cache_limits);
 
   /// The system of a contact state. Null: its rows are linearly dependent, so forces would not be unique.
-  [[nodiscard]] StateSystemPtr of(const contact::ContactStates& mode);
+  [[nodiscard]] StateSystemPtr system_of(const contact::ContactStates& states);
   /// The same system with these coefficients of friction for the contacts `by_rate`. It is not cached, since slip rates
   /// do not recur. Null: singular.
-  [[nodiscard]] StateSystemPtr at_friction(const StateSystem& system, std::span<const Form> tangents);
+  [[nodiscard]] StateSystemPtr with_friction(const StateSystem& system, std::span<const Form> tangents);
 
   /// True if other sticking or touching contacts hold contact c at rest on its surface, so that its sticking would add
   /// no constraint. With H z = 0 of the rows in force its slip rate is -z.s'/z_c, s the motions of the surfaces: zero
   /// from t on if all derivatives of z.s are zero. A contact held by others on a moving surface slips.
-  [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates mode, const Forcing& forcing,
+  [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates states, const Forcing& forcing,
                                     double t) const;
 
   /// Marks slips of contacts that others hold, and that keep their static friction (State::static_limit_plus); if both
   /// coefficients are equal there is no difference.
-  void mark_static_limits(contact::ContactStates& mode, const Forcing& forcing, double t) const;
+  void mark_static_limits(contact::ContactStates& states, const Forcing& forcing, double t) const;
 
   /// Lists of two or more contacts that may constrain one motion together; may_share(): membership.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& sharing() const {
-    return matrix_.shared_rows().groups();
+    return matrix_.redundant_rows().groups();
   }
-  [[nodiscard]] bool may_share(std::size_t contact) const { return matrix_.shared_rows().may_share(contact); }
+  [[nodiscard]] bool may_share(std::size_t contact) const {
+    return matrix_.redundant_rows().may_share(contact);
+  }
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const linear::SystemMatrices& structure() const { return structure_; }
   /// Number and size of the cached systems.
-  [[nodiscard]] std::size_t held() const { return cache_.size(); }
+  [[nodiscard]] std::size_t cached_count() const { return cache_.size(); }
   [[nodiscard]] std::size_t bytes() const { return cache_.bytes(); }
   /// Number of systems made so far.
-  [[nodiscard]] long made() const { return made_; }
+  [[nodiscard]] long created_count() const { return made_; }
 
  private:
-  [[nodiscard]] std::vector<Rows> rows_beside(const contact::ContactStates& mode) const;
-  [[nodiscard]] FactorisedMode describe(const contact::ContactStates& mode,
-                                        const std::vector<Rows>& rows) const;
-  void factorise(const std::vector<Rows>& rows, FactorisedMode& mode);
-  [[nodiscard]] std::shared_ptr<const FactorisedMode> by_mass(const contact::ContactStates& mode,
-                                                              const std::vector<Rows>& rows);
-  [[nodiscard]] std::shared_ptr<const FactorisedMode> cached(const contact::ContactStates& mode,
-                                                             const std::vector<Rows>& rows);
-  void invert(const std::vector<Rows>& rows, FactorisedMode& mode);
+  [[nodiscard]] std::vector<Rows> rows_beside(const contact::ContactStates& states) const;
+  [[nodiscard]] FactorisedStates describe(const contact::ContactStates& states,
+                                          const std::vector<Rows>& rows) const;
+  void factorise(const std::vector<Rows>& rows, FactorisedStates& mode);
+  [[nodiscard]] std::shared_ptr<const FactorisedStates> by_mass(const contact::ContactStates& states,
+                                                                const std::vector<Rows>& rows);
+  [[nodiscard]] std::shared_ptr<const FactorisedStates> cached(const contact::ContactStates& states,
+                                                               const std::vector<Rows>& rows);
+  void invert(const std::vector<Rows>& rows, FactorisedStates& mode);
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
@@ -140,7 +142,7 @@ class StateSystems {
   linear::SystemMatrix matrix_;  // matrix in which systems are assembled
   std::vector<linear::Weights> weights_;
   std::shared_ptr<const linear::TriangularFactors> mass_;  // null: not used for this model
-  base::BoundedCache<std::vector<State>, std::shared_ptr<const FactorisedMode>> cache_;
+  base::LruCache<std::vector<State>, std::shared_ptr<const FactorisedStates>> cache_;
   std::vector<std::size_t> holdable_;  // contacts that others may hold at a static limit above kinetic
   StateSystemPtr last_;                // the last system returned
   long made_ = 0;
@@ -153,7 +155,7 @@ class StateSystems {
 
 /// Changes u and v as little as possible, in the norm of M, so that they satisfy the constraints of the contact state
 /// at t. Returns the impulses along n and t of the contacts that change v, slots like those of forces; empty: none.
-Eigen::VectorXd hold(const Model& model, const StateSystem& system, const Forcing& forcing, double t,
-                     Vector& u, Vector& v);
+Eigen::VectorXd project_constraints(const Model& model, const StateSystem& system, const Forcing& forcing,
+                                    double t, Vector& u, Vector& v);
 
 }  // namespace signorini::motion

@@ -15,7 +15,7 @@ namespace signorini::motion {
 FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s, const Form& normal,
                                const Series& series)
     : contact_(&contact), index_(index), sign_(s) {
-  if (contact.friction.by_force()) {
+  if (contact.friction.is_load_dependent()) {
     begin_by_force(normal, series);
     return;
   }
@@ -51,8 +51,8 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
                         normal.applied_normal_force * per_time * f.applied_normal_force[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
   const double zero =
-      rounding::of_elimination * (std::abs(normal.gap) * (std::abs(c.gap) + c.normal.magnitude(u)) +
-                                  element.stiffness * (element.body.magnitude(u) + c.tangent.magnitude(u)));
+      rounding::elimination * (std::abs(normal.gap) * (std::abs(c.gap) + c.normal.magnitude(u)) +
+                               element.stiffness * (element.body.magnitude(u) + c.tangent.magnitude(u)));
   double rate = 0.0;
   if (pressed <= zero) {  // T and N begin together
     constant_ = true;
@@ -66,14 +66,14 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   if (const auto found = contact::massless_slip_rate(c.friction, pull, element.damping, pressed)) {
     rate = *found;
   } else {
-    const double greatest = greatest_rate();
+    const double greatest = max_rate();
     rate = along - c.friction.kinetic * growth / element.stiffness;
     if (rate >= greatest) {
       constant_ = true;
       row_ = contact::sliding_row(s, contact::sliding_friction(c, rate));
       return;
     }
-    doubtful_ = normal.vn != 0.0;
+    ambiguous_ = normal.vn != 0.0;
     rate = greatest;
     jump_ = length - s * contact::sliding_friction(c, rate) * pressed / element.stiffness;
   }
@@ -85,9 +85,9 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   row_.constant = -row_.vt * m.vt;
 }
 
-double FrictionSeries::greatest_rate() const { return contact::rate_of_saturation(contact_->friction); }
+double FrictionSeries::max_rate() const { return contact::saturation_rate(contact_->friction); }
 
-void FrictionSeries::follow_at_once() {
+void FrictionSeries::follow_quasi_statically() {
   constant_ = true;
   jump_ = 0.0;
   row_ = contact::sliding_row(sign_, contact_->friction.kinetic);
@@ -116,13 +116,13 @@ double FrictionSeries::known(int k, const Series& series) {
   return friction_.without_rate(applied);
 }
 
-double DataPerturbation::part(std::size_t i) {
+double DataPerturbation::fraction(std::size_t i) {
   std::uint64_t mixed = (static_cast<std::uint64_t>(i) + 1) * 0x9e3779b97f4a7c15u;  // splitmix64
   mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
   mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
   mixed ^= mixed >> 31;
   const double size = 0.5 + 0.5 * rounding::eps * static_cast<double>(mixed >> 12);  // 52 bits
-  return (mixed & 1u ? most : -most) * rounding::eps * size;
+  return (mixed & 1u ? max_roundings : -max_roundings) * rounding::eps * size;
 }
 
 Taylor::Taylor(StateSystems& systems)
@@ -141,19 +141,20 @@ Taylor::Taylor(StateSystems& systems)
     mobility_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
   }
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-    if (model_.contacts[c].curved_surface()) bowls_.push_back(c);
+    if (model_.contacts[c].curved_surface()) curved_contacts_.push_back(c);
 }
 
 /// Friction at the beginning of a series is a coefficient of its matrix.
 void Taylor::start_friction(const Forcing& forcing, Series& series) {
   friction_.clear();
-  const std::vector<std::size_t>& by_rate = system_->factorised().by_rate;
+  const std::vector<std::size_t>& by_rate = system_->factorised().rate_dependent;
   for (const std::size_t c : by_rate)
-    friction_.emplace_back(model_.contacts[c], c, slip_sign(system_->mode()[c].state),
+    friction_.emplace_back(model_.contacts[c], c, slip_sign(system_->states()[c].state),
                            system_->rows()[c].normal, series);
   if (by_rate.empty()) return;
-  if (std::any_of(friction_.begin(), friction_.end(), [](const FrictionSeries& f) { return f.doubtful(); }))
-    settle_doubts(forcing, series);
+  if (std::any_of(friction_.begin(), friction_.end(),
+                  [](const FrictionSeries& f) { return f.is_ambiguous(); }))
+    resolve_ambiguities(forcing, series);
   for (const FrictionSeries& friction : friction_)
     for (const auto& [dof, factor] : model_.contacts[friction.contact()].tangent.terms)
       series.u(dof, 0) += factor * friction.jump();  // zero if the point has mass
@@ -163,24 +164,24 @@ void Taylor::start_friction(const Forcing& forcing, Series& series) {
 StateSystemPtr Taylor::at_friction() const {
   std::vector<Form> rows;
   for (const FrictionSeries& friction : friction_) rows.push_back(friction.row());
-  return systems_.at_friction(*system_, rows);
+  return systems_.with_friction(*system_, rows);
 }
 
 /// Points that may follow quasi-statically do so for two levels, which yields accelerations and thus their rates.
 /// Points whose rate reaches that of greatest friction remain quasi-static.
-void Taylor::settle_doubts(const Forcing& forcing, Series& series) {
+void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   const std::vector<FrictionSeries> given = friction_;
   const StateSystemPtr own = system_;
   for (FrictionSeries& friction : friction_)
-    if (friction.doubtful()) friction.follow_at_once();
+    if (friction.is_ambiguous()) friction.follow_quasi_statically();
   std::vector<FrictionSeries> settled = given;
   if (StateSystemPtr at = at_friction()) {
     const Eigen::MatrixXd before = series.u;
     system_ = std::move(at);
     for (int k = 0; k < 2; ++k) level(forcing, k, series, nullptr);
     for (std::size_t i = 0; i < given.size(); ++i)
-      if (given[i].doubtful() && friction_[i].rate_in(series) >= given[i].greatest_rate())
-        settled[i].follow_at_once();
+      if (given[i].is_ambiguous() && friction_[i].rate_in(series) >= given[i].max_rate())
+        settled[i].follow_quasi_statically();
     series.u = before;
   }
   system_ = own;
@@ -188,8 +189,8 @@ void Taylor::settle_doubts(const Forcing& forcing, Series& series) {
 }
 
 /// Contribution of curved surfaces beside K: products of two series.
-void Taylor::add_bowls(int order, const Series& series) {
-  for (const std::size_t c : bowls_) {
+void Taylor::add_restoring_forces(int order, const Series& series) {
+  for (const std::size_t c : curved_contacts_) {
     const Contact& contact = model_.contacts[c];
     const Form& row = system_->rows()[c].normal;
     const auto k = static_cast<std::size_t>(order);
@@ -200,13 +201,13 @@ void Taylor::add_bowls(int order, const Series& series) {
       const double ut =
           contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
       // The constant contained in K counts once.
-      force += j == 0 ? contact::bowl_force(contact, N, ut) : contact::bowl_product(contact, N, ut);
+      force += j == 0 ? contact::restoring_force(contact, N, ut) : contact::restoring_product(contact, N, ut);
     }
     contact.body_tangent().add_to(x_, -force);
   }
 }
 
-double Taylor::pinned_value(const linear::Pinned& p, int order, const Series& series) const {
+double Taylor::prescribed_value(const linear::PrescribedDof& p, int order, const Series& series) const {
   if (p.tangent == 0.0) return 0.0;
   const ForcingSeries& f = series.forcing;
   const double second = static_cast<double>((order + 1) * (order + 2)) / (series.scale * series.scale);
@@ -243,7 +244,7 @@ bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
 /// Sizes known to the compiler (0: unknown) let it unroll the loops over one or two masses.
 template <std::size_t fixed_n, std::size_t fixed_size>
 void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
-  const FactorisedMode& mode = system_->factorised();
+  const FactorisedStates& mode = system_->factorised();
   const std::size_t n = fixed_n > 0 ? fixed_n : known_u_.size();
   const std::size_t size = fixed_size > 0 ? fixed_size : x_.size();
   const double to_velocity = (order + 1) / series.scale;
@@ -254,7 +255,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
   double *x = x_.data(), *y = work_.data();
   const double *from_u = mode.from_u.data(), *from_v = mode.from_v.data();
   if constexpr (fixed_size == 0) {
-    both_products(from_u, from_v, size, n, u_k, u_k1, to_velocity, y);
+    fused_products(from_u, from_v, size, n, u_k, u_k1, to_velocity, y);
   } else {
     for (std::size_t i = 0; i < size; ++i) y[i] = 0.0;
     for (std::size_t j = 0; j < n; ++j, from_u += size, from_v += size) {
@@ -266,7 +267,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
     for (std::size_t i = 0; i < size; ++i) x[i] = 0.0;
     forcing.add_load(series.forcing, static_cast<std::size_t>(order), x);
     for (std::size_t c = 0; c < mode.unknowns.contacts; ++c) {
-      if (order > 0 && !(forcing.drives(c) && is_driven(series.forcing, c, order))) continue;
+      if (order > 0 && !(forcing.is_driven(c) && is_driven(series.forcing, c, order))) continue;
       double r = 0.0, q = 0.0;
       known_of_rows(c, order, series, r, q);
       x[mode.unknowns.normal(c)] = -r;
@@ -279,7 +280,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
       for (std::size_t i = 0; i < size; ++i) y[i] += column[i] * xj;
     }
   }
-  for (const linear::Pinned& p : mode.pinned) y[p.dof] = pinned_value(p, order, series);
+  for (const linear::PrescribedDof& p : mode.prescribed) y[p.dof] = prescribed_value(p, order, series);
   const double to_u = 1.0 / to_acceleration;
   for (std::size_t i = 0; i < n; ++i) u_k2[i] = y[i] * to_u;
   double* forces = series.forces.data() + static_cast<std::size_t>(order) * (size - n);
@@ -287,7 +288,8 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
 }
 
 void Taylor::level(const Forcing& forcing, int order, Series& series, const DataPerturbation* disturbance) {
-  if (massless_ || disturbance != nullptr || besides_ || !bowls_.empty() || !system_->factorised().dense())
+  if (massless_ || disturbance != nullptr || additional_loads_ || !curved_contacts_.empty() ||
+      !system_->factorised().dense())
     return level_any(forcing, order, series, disturbance);
   const std::size_t masses = known_u_.size(), unknowns = x_.size();
   if (masses == 1 && unknowns == 3) return level_dense<1, 3>(forcing, order, series);
@@ -297,7 +299,7 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Data
 }
 
 /// Writes u and v at order k as far as they are not unknowns of this level.
-void Taylor::know_motion(int order, const Series& series) {
+void Taylor::set_known_motion(int order, const Series& series) {
   const std::size_t n = known_u_.size();
   const double to_velocity = (order + 1) / series.scale;
   const double *u_k = series.u.col(order).data(), *u_k1 = series.u.col(order + 1).data();
@@ -381,7 +383,7 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
 }
 
 /// Disturbs each equation by some roundings of its terms: the backward error of its solution.
-void Taylor::disturb(const Forcing& forcing, int order, const DataPerturbation& disturbance) {
+void Taylor::perturb(const Forcing& forcing, int order, const DataPerturbation& disturbance) {
   const Series& motion = disturbance.motion;
   if (order == 0) {
     terms_.resize(static_cast<Eigen::Index>(x_.size()), motion.levels + 1);
@@ -400,7 +402,7 @@ void Taylor::disturb(const Forcing& forcing, int order, const DataPerturbation& 
   const double to_acceleration = (order + 1) * (order + 2) / (motion.scale * motion.scale);
   double* carried = sizes_.col(order + 2).data();
   for (std::size_t i = 0; i < known_u_.size(); ++i) carried[i] += mobility_[i] * terms[i] / to_acceleration;
-  for (const linear::Pinned& p : system_->factorised().pinned)
+  for (const linear::PrescribedDof& p : system_->factorised().prescribed)
     carried[p.dof] = std::abs(motion.u(static_cast<Eigen::Index>(p.dof), order + 2));
 }
 
@@ -432,17 +434,17 @@ void Taylor::take(int order, Series& series) const {
 void Taylor::level_any(const Forcing& forcing, int order, Series& series,
                        const DataPerturbation* disturbance) {
   const std::size_t n = known_u_.size();
-  know_motion(order, series);
+  set_known_motion(order, series);
   std::fill(x_.begin(), x_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   forcing.add_load(series.forcing, static_cast<std::size_t>(order), x_.data());
-  if (besides_) besides_(order, x_.data());
+  if (additional_loads_) additional_loads_(order, x_.data());
   structure_.subtract_forces(known_v_.data(), known_u_.data(), x_.data());
   const linear::Unknowns& at = system_->unknowns();
   for (std::size_t c = 0; c < at.contacts; ++c) {
     const Contact& contact = model_.contacts[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
     double r = 0.0, q = 0.0;
-    if (order == 0 || forcing.drives(c)) known_of_rows(c, order, series, r, q);
+    if (order == 0 || forcing.is_driven(c)) known_of_rows(c, order, series, r, q);
     if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_.data());
     if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_.data());
     if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_.data());
@@ -450,15 +452,15 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series,
     x_[at.normal(c)] = -r;
     x_[at.tangent(c)] = -q;
   }
-  if (!bowls_.empty()) add_bowls(order, series);
+  if (!curved_contacts_.empty()) add_restoring_forces(order, series);
   for (FrictionSeries& friction : friction_)
     x_[at.tangent(friction.contact())] -= friction.known(order, series);
-  if (disturbance != nullptr) disturb(forcing, order, *disturbance);
+  if (disturbance != nullptr) perturb(forcing, order, *disturbance);
 
   system_->solve(x_.data(), work_.data());
   if (disturbance == nullptr)
-    for (const linear::Pinned& p : system_->factorised().pinned)
-      if (system_->kinds()[p.dof] == linear::DofKind::massive) x_[p.dof] = pinned_value(p, order, series);
+    for (const linear::PrescribedDof& p : system_->factorised().prescribed)
+      if (system_->kinds()[p.dof] == linear::DofKind::massive) x_[p.dof] = prescribed_value(p, order, series);
   take(order, series);
 }
 
@@ -486,7 +488,7 @@ void Taylor::begin(const StateSystemPtr& system, const Forcing& forcing, double 
     if (system->kinds()[static_cast<std::size_t>(i)] == linear::DofKind::massive) out.u(i, 1) = scale * v[i];
   if (disturbance != nullptr) {
     const std::size_t n = known_u_.size(), data = x_.size() * static_cast<std::size_t>(levels + 1);
-    while (parts_.size() < data + 2 * n) parts_.push_back(DataPerturbation::part(parts_.size()));
+    while (parts_.size() < data + 2 * n) parts_.push_back(DataPerturbation::fraction(parts_.size()));
     for (std::size_t i = 0; i < 2 * n; ++i) out.u.data()[i] *= 1.0 + parts_[data + i];
   }
   start_friction(forcing, out);

@@ -87,12 +87,12 @@ class FrictionSeries {
   /// True if friction is at its greatest, the spring force does not determine the rate, and the growth rate of N
   /// depends on accelerations, through a dashpot: row() is that of a rate at which friction just reaches its greatest
   /// value.
-  [[nodiscard]] bool doubtful() const { return doubtful_; }
+  [[nodiscard]] bool is_ambiguous() const { return ambiguous_; }
   /// Changes to a point that follows quasi-statically; the accelerations require it.
-  void follow_at_once();
+  void follow_quasi_statically();
   /// Rate along the slip in a series in which the point follows quasi-statically.
   [[nodiscard]] double rate_in(const Series& series) const { return sign_ * slip_rate(0, series); }
-  [[nodiscard]] double greatest_rate() const;
+  [[nodiscard]] double max_rate() const;
   /// Known part of the row; to be called for k = 0, 1, 2, ... in turn.
   [[nodiscard]] double known(int k, const Series& series);
 
@@ -107,7 +107,7 @@ class FrictionSeries {
   Form row_;
   double jump_ = 0.0;
   bool constant_ = false;  // friction's coefficient is constant
-  bool doubtful_ = false;
+  bool ambiguous_ = false;
   contact::FrictionRecursion friction_;
   std::optional<contact::LimitSeries> limit_;  // for friction that depends on N
 };
@@ -117,9 +117,10 @@ class FrictionSeries {
 struct DataPerturbation {
   const Series& motion;  ///< undisturbed: source of the terms
 
-  static constexpr double most = 8.0;  ///< number of roundings: results show them above their last digit
+  static constexpr double max_roundings =
+      8.0;  ///< number of roundings: results show them above their last digit
   /// +-(1/2 .. 1) most eps
-  static double part(std::size_t i);
+  static double fraction(std::size_t i);
 };
 
 /// Expands one series at a time; apart from the state's system it uses only its own memory.
@@ -137,8 +138,8 @@ class Taylor {
   void extend(const Forcing& forcing, int levels, Series& out, const DataPerturbation* disturbance = nullptr);
 
   /// Additional loads on the structure at a level, for all later series; the function must outlive them.
-  using Besides = std::function<void(int level, double* P)>;
-  void act_besides(Besides besides) { besides_ = std::move(besides); }
+  using AdditionalLoads = std::function<void(int level, double* P)>;
+  void set_additional_loads(AdditionalLoads besides) { additional_loads_ = std::move(besides); }
 
   /// 1 over the mass of each degree of freedom alone, 0 for massless ones.
   [[nodiscard]] const std::vector<double>& mobility() const { return mobility_; }
@@ -151,20 +152,21 @@ class Taylor {
 
  private:
   void start_friction(const Forcing& forcing, Series& series);
-  void settle_doubts(const Forcing& forcing, Series& series);
+  void resolve_ambiguities(const Forcing& forcing, Series& series);
   [[nodiscard]] StateSystemPtr at_friction() const;
-  void add_bowls(int k, const Series& series);
-  [[nodiscard]] double pinned_value(const linear::Pinned& pinned, int k, const Series& series) const;
+  void add_restoring_forces(int k, const Series& series);
+  [[nodiscard]] double prescribed_value(const linear::PrescribedDof& pinned, int k,
+                                        const Series& series) const;
   void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;
   void level(const Forcing& forcing, int k, Series& series, const DataPerturbation* disturbance);
   template <std::size_t fixed_n, std::size_t fixed_size>
   void level_dense(const Forcing& forcing, int k, Series& series);
   void level_any(const Forcing& forcing, int k, Series& series, const DataPerturbation* disturbance);
-  void know_motion(int k, const Series& series);
+  void set_known_motion(int k, const Series& series);
   void measure_equations(const Forcing& forcing, int k, const Series& series, double* terms) const;
   void measure_forces(std::size_t contact, int k, const Series& series, double* terms) const;
   void measure_rows(std::size_t contact, int k, const Series& series, double* terms) const;
-  void disturb(const Forcing& forcing, int k, const DataPerturbation& disturbance);
+  void perturb(const Forcing& forcing, int k, const DataPerturbation& disturbance);
   void take(int k, Series& series) const;
 
   StateSystems& systems_;
@@ -172,9 +174,9 @@ class Taylor {
   const linear::SystemMatrices& structure_;
   const bool massless_;
   StateSystemPtr system_;
-  Besides besides_;                       // empty: none
-  std::vector<std::size_t> bowls_;        // contacts on curved surfaces under forces that vary
-  std::vector<FrictionSeries> friction_;  // for contacts with rate-dependent friction
+  AdditionalLoads additional_loads_;          // empty: none
+  std::vector<std::size_t> curved_contacts_;  // contacts on curved surfaces under forces that vary
+  std::vector<FrictionSeries> friction_;      // for contacts with rate-dependent friction
   std::vector<double> x_, work_, known_u_, known_v_, mobility_, parts_;
   Eigen::MatrixXd terms_, sizes_;  // for a disturbed series; sizes_: |u_k| and the rounding carried into it
 };

@@ -7,7 +7,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/text.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "orbit/orbit_engine.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
@@ -19,8 +19,8 @@ namespace {
 // the step, which the residual of an orbit shows; its square root balances both. Chosen bounds for `exact`, and the
 // step for `ida`.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-constexpr std::size_t most_kept = 4;  // maps: for a point, its difference, and the next point
-constexpr double most_periods = restart_periods + 4.0;  // transient, and the orbit itself
+constexpr std::size_t max_kept = 4;  // maps: for a point, its difference, and the next point
+constexpr double max_periods = restart_periods + 4.0;  // transient, and the orbit itself
 constexpr double same_time = 1e-9;  // relative to a period: rounding of times written as text
 
 }  // namespace
@@ -28,14 +28,14 @@ constexpr double same_time = 1e-9;  // relative to a period: rounding of times w
 BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first,
                      Recorder* recorder)
     : read_(read), options_(options), recorder_(recorder), autonomous_(first.autonomous) {
-  const double at = options.resumed ? options.resumed->parameter : options.from;
+  const double at = options.resume_from ? options.resume_from->parameter : options.from;
   start_.s = (at - options.from) / (options.to - options.from);
   const SceneReader begun = branch_reader(read_, options_.path, at);
   const Scene scene = begun({});
   t_end_ = std::max(scene.run.t_end, first.phase + 4.0 * first.period);
   drive_ = driving_loads(scene);
   Model on_orbit = build_model(orbit_scene(begun, first));
-  machine_ = on_orbit.machine;
+  machine_ = on_orbit.internal_units;
   phase_ = first.phase / machine_.time;
   first_ = model::rescaled(std::move(on_orbit), scene::inverse(machine_));
   start_.state.u = first_.u0;
@@ -55,8 +55,8 @@ Orbit BranchMap::orbit_at(const BranchState& state) const {
   orbit.phase = phase_ * machine_.time;
   const double section = autonomous_ ? 0.0 : section_;
   const Result rows = at(state.s)->rows(state.state, (1.0 - section) * state.duration);
-  orbit.start =
-      last_state(driven_from(build_model(scene_at(state.s)), orbit.phase + section * orbit.period), rows);
+  orbit.start = last_state(
+      with_shifted_excitation(build_model(scene_at(state.s)), orbit.phase + section * orbit.period), rows);
   return orbit;
 }
 
@@ -76,12 +76,12 @@ double BranchMap::parameter(double s) const {
 /// Periodic loads must act until the end of the run: long enough for the period at s and a transient.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
-    return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::shortest(t_end)}});
+    return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::format_number(t_end)}});
   };
   Scene scene = until(t_end_);
   if (autonomous_) return scene;
   const double period = loads_at(scene).period.value_or(0.0) * options_.orbit.times;
-  const double needed = phase_ * machine_.time + most_periods * period;
+  const double needed = phase_ * machine_.time + max_periods * period;
   return needed > t_end_ ? until(needed) : scene;
 }
 
@@ -90,11 +90,11 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   const LoadPeriod loads = options_.orbit.period ? check_period(scene, *options_.orbit.period, drive_)
                                                  : load_period(scene, drive_);
   const double phase = phase_ * machine_.time;
-  if (loads.settled > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
+  if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
     throw SceneError(
         {}, options_.path,
         fmt::format("the loads repeat themselves from t = {:g} on, at the start of the branch from {:g} on",
-                    loads.settled, phase));
+                    loads.periodic_from, phase));
   return loads;
 }
 
@@ -124,8 +124,8 @@ BranchMap::Kept BranchMap::make(double s) const {
   model.scales = first_.scales;  // tolerances and amplitudes are the same along the whole branch
   run = scene::rescaled(run, scene::inverse(machine_));
   const double period = autonomous_ ? 0.0 : period_of(scene);
-  auto map =
-      std::make_shared<PeriodMap>(driven_from(std::move(model), phase_ + section_ * period), run, recorder_);
+  auto map = std::make_shared<PeriodMap>(
+      with_shifted_excitation(std::move(model), phase_ + section_ * period), run, recorder_);
   map->take_flow(flow_);
   map->share(memory_);
   return {s, section_, period, std::move(map)};
@@ -138,14 +138,14 @@ const BranchMap::Kept& BranchMap::kept(double at) const {
     if (one.s == s && one.section == section_) return one;
   }
   Kept made = make(s);
-  if (kept_.size() == most_kept) kept_.erase(kept_.begin());
+  if (kept_.size() == max_kept) kept_.erase(kept_.begin());
   kept_.push_back(std::move(made));
   return kept_.back();
 }
 
 std::shared_ptr<const PeriodMap> BranchMap::at(double s) const { return kept(s).map; }
 
-OrbitState BranchMap::fitted(OrbitState state, const contact::ContactStates& mode, double s) const {
+OrbitState BranchMap::projected(OrbitState state, const contact::ContactStates& states, double s) const {
   const Model& model = at(s)->model();
   const auto fit = [&](Vector& x, const std::vector<std::pair<const Combination*, double>>& rows) {
     if (rows.empty()) return;
@@ -159,13 +159,13 @@ OrbitState BranchMap::fitted(OrbitState state, const contact::ContactStates& mod
     x += base::least_squares(A, b);
   };
   std::vector<std::pair<const Combination*, double>> places, rates;
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (contact.takes_impulses() && !mode[c].is_open()) {
+    if (contact.takes_impulses() && !states[c].is_open()) {
       places.emplace_back(&contact.normal, -contact.gap);
       rates.emplace_back(&contact.normal, 0.0);
     }
-    if (contact.sticks_rigidly() && mode[c].state == State::stick)
+    if (contact.sticks_rigidly() && states[c].state == State::stick)
       rates.emplace_back(&contact.tangent, contact.surface_motion.piece(0.0).value(0.0, 1));
   }
   fit(state.u, places);
@@ -178,10 +178,10 @@ OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs)
 }
 
 OrbitPass BranchMap::margins(const BranchState& state) const {
-  return at(state.s)->pass({state.state, state.duration, false, false, places_of_margins});
+  return at(state.s)->pass({state.state, state.duration, false, false, margin_samples});
 }
 
-Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {
+Vector BranchMap::parameter_derivative(const BranchState& state, const OrbitPass& pass) const {
   const OrbitSection section(first_, pass.begin);
   const Eigen::Index n = section.basis().rows();
   if (conservative()) return -Vector::Unit(n + 1, n);
@@ -193,13 +193,13 @@ Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) 
   };
   const auto gap = [&](double s) -> std::optional<Vector> {
     const OrbitPass other = this->pass(
-        {fitted(state.state, pass.begin.mode, s), autonomous_ ? state.duration : period(s), s}, false);
+        {projected(state.state, pass.begin.states, s), autonomous_ ? state.duration : period(s), s}, false);
     if (!other.done()) return std::nullopt;
     return rows_of(other);
   };
   const Vector here = rows_of(pass);
   const double noise = residual_of(section, pass, here.head(n));
-  const double h = name_of(at(state.s)->run().engine).accuracy == Accuracy::rounding
+  const double h = engine_info(at(state.s)->run().engine).accuracy == Accuracy::rounding
                        ? std::clamp(std::sqrt(noise), difference, greatest_difference)
                        : difference_of_steps;
   const double side = state.s < 0.5 ? h : -h;  // stays within the range

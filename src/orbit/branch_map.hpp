@@ -60,13 +60,13 @@ class BranchMap {
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
   /// The state at s that satisfies the rigid constraints of this mode: n . u = -g0 and n . v = 0 for closed contacts, t
   /// . v equal to that of the surface for sticking ones. A key may change all three.
-  [[nodiscard]] OrbitState fitted(OrbitState state, const contact::ContactStates& mode, double s) const;
+  [[nodiscard]] OrbitState projected(OrbitState state, const contact::ContactStates& states, double s) const;
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
   /// A pass with margins only, from many rows.
   [[nodiscard]] OrbitPass margins(const BranchState& state) const;
   /// dG/ds by a one-sided difference, in coordinates at the section, not yet times B^T, and the row of the energy if
   /// there is one. Its accuracy is sufficient for a matrix of Newton's method and a direction.
-  [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
+  [[nodiscard]] Vector parameter_derivative(const BranchState& state, const OrbitPass& pass) const;
 
  private:
   [[nodiscard]] Scene scene_at(double s) const;
@@ -81,7 +81,7 @@ class BranchMap {
   Factors machine_;
   double phase_;  // machine units
   double t_end_;  // end of the scenes' runs
-  SilentLoads drive_;
+  CountedLoads drive_;
   double section_ = 0.0;
   Model first_;
   BranchState start_;
@@ -92,7 +92,7 @@ class BranchMap {
   [[nodiscard]] const Kept& kept(double at) const;
   [[nodiscard]] Kept make(double s) const;
   mutable std::vector<Kept> kept_;
-  std::shared_ptr<modal::ModalMemory> memory_ = std::make_shared<modal::ModalMemory>();
+  std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
   mutable std::shared_ptr<sensitivity::StateFlow> flow_;  // taken from the last map that had one
 };
 

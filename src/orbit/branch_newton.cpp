@@ -12,7 +12,7 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr int most_corrections = 10;
+constexpr int max_corrections = 10;
 constexpr double longest_correction = 0.1;  // limit in the norm; steps are shorter. Chosen value.
 constexpr double slow = 0.02;  // reduction of the residual; beyond it dG/ds is recomputed at this point
 constexpr double corrected_at_last = 1e-9;  // residual over amplitude, as in shooting.cpp
@@ -54,7 +54,7 @@ BranchState BranchNewton::moved(const BranchState& from, const OrbitPass& pass, 
   BranchState to = from;
   to.state = section.moved(orbit_state(pass.begin), sizes_.cwiseProduct(dy.head(section.size())));
   to.s = std::clamp(from.s + dy[dy.size() - 1], 0.0, 1.0);  // the key may be invalid outside
-  to.state = map_.fitted(std::move(to.state), pass.begin.mode, to.s);
+  to.state = map_.projected(std::move(to.state), pass.begin.states, to.s);
   to.duration = map_.autonomous() ? from.duration * (1.0 + dy[section.size()]) : map_.period(to.s);
   return to;
 }
@@ -85,10 +85,10 @@ Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass
   return J;
 }
 
-Vector BranchNewton::by_parameter(const BranchState& state, const OrbitPass& pass) const {
+Vector BranchNewton::parameter_derivative(const BranchState& state, const OrbitPass& pass) const {
   const OrbitSection section(map_.model(), pass.begin);
   const Eigen::MatrixXd& B = section.basis();
-  const Vector rates = map_.by_parameter(state, pass);
+  const Vector rates = map_.parameter_derivative(state, pass);
   const Eigen::Index of_energy = rates.size() - B.rows();
   Vector by_s(section.size() + of_energy);
   by_s << B.transpose() * rates.head(B.rows()), rates.tail(of_energy);
@@ -102,29 +102,31 @@ std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) 
   return size(pass) != unknowns ? "the contact state at the section changes" : "";
 }
 
-double BranchNewton::closed_at_last() const { return std::max(corrected_at_last, of_noise_at_last * noise_); }
+double BranchNewton::accepted_residual() const {
+  return std::max(corrected_at_last, accepted_noise_factor * noise_);
+}
 
 /// E*(s) - E(x, s), in the scene's units; 0 if no energy is prescribed.
-double BranchNewton::energy_missing(const Corrected& c) const {
+double BranchNewton::energy_residual(const CorrectedPoint& c) const {
   const std::optional<double> kept = map_.energy(c.state.s);
   return kept ? *kept - c.pass.energy : 0.0;
 }
 
-Corrected BranchNewton::correct(BranchState guess, const Vector& direction, const Vector& by_s) const {
-  Corrected c;
+CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction, const Vector& by_s) const {
+  CorrectedPoint c;
   c.state = std::move(guess);
-  const bool held = holds(direction);
+  const bool held = fixes_parameter(direction);
   Vector t = direction, slope = by_s;
   if (held) t = Vector::Unit(t.size(), t.size() - 1);
-  const double enough = std::max(corrected_to, of_noise * noise_);
+  const double enough = std::max(correction_tolerance, of_noise * noise_);
   double before = 0.0;
-  for (c.iterations = 0; c.iterations <= most_corrections; ++c.iterations) {
+  for (c.iterations = 0; c.iterations <= max_corrections; ++c.iterations) {
     c.pass = map_.pass(c.state);
     c.reason = refusal(c.pass, t.size());
     if (!c.reason.empty()) return c;
     c.residual = orbit_residual(map_.model(), c.pass);
-    if (map_.keeps_energy()) c.residual = std::max(c.residual, std::abs(energy_missing(c)) / c.pass.energy);
-    const bool stands = c.iterations > 0 && c.residual > 0.5 * before && c.residual <= closed_at_last();
+    if (map_.keeps_energy()) c.residual = std::max(c.residual, std::abs(energy_residual(c)) / c.pass.energy);
+    const bool stands = c.iterations > 0 && c.residual > 0.5 * before && c.residual <= accepted_residual();
     if (c.residual <= enough || stands) {
       c.done = true;
       return c;
@@ -134,15 +136,16 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     before = c.residual;
     const OrbitSection section(map_.model(), c.pass.begin);
     const Eigen::Index of_energy = map_.keeps_energy() ? 1 : 0;
-    if (!held && (slope.size() != section.size() + of_energy || stale)) slope = by_parameter(c.state, c.pass);
+    if (!held && (slope.size() != section.size() + of_energy || stale))
+      slope = parameter_derivative(c.state, c.pass);
     const Eigen::MatrixXd J = jacobian(c.state, c.pass, slope);
     Eigen::MatrixXd A(J.rows() + 1, t.size());
     A << J, t.transpose();
     Vector b = Vector::Zero(A.rows());
-    if (of_energy == 1) b[J.rows() - 1] = energy_missing(c) / map_.energy_unit();
+    if (of_energy == 1) b[J.rows() - 1] = energy_residual(c) / map_.energy_unit();
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
-    Vector dy = base::shortest_solution(A, b, least);
+    Vector dy = base::min_norm_solution(A, b, least);
     if (held) dy[dy.size() - 1] = 0.0;  // it is zero to rounding
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
@@ -157,9 +160,9 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
 }
 
 /// Damped steps. Where events appear and vanish between steps, as beside a graze, Phi jumps, and full steps alternate.
-void BranchNewton::close_damped(Corrected& c, Eigen::Index unknowns) const {
-  const ShootingStart start{c.state.state, c.state.duration, false, closed_at_last(), {}};
-  Shot shot = shoot(*map_.at(c.state.s), start, corrected_to);
+void BranchNewton::close_damped(CorrectedPoint& c, Eigen::Index unknowns) const {
+  const ShootingStart start{c.state.state, c.state.duration, false, accepted_residual(), {}};
+  ShootingResult shot = shoot(*map_.at(c.state.s), start, correction_tolerance);
   if (!shot.closed || !refusal(shot.pass, unknowns).empty()) return;
   c.state.state = std::move(shot.state);
   c.pass = std::move(shot.pass);
@@ -167,18 +170,18 @@ void BranchNewton::close_damped(Corrected& c, Eigen::Index unknowns) const {
   c.done = true;
 }
 
-bool BranchNewton::holds(const Vector& t) { return std::abs(t[t.size() - 1]) >= held_from; }
+bool BranchNewton::fixes_parameter(const Vector& t) { return std::abs(t[t.size() - 1]) >= held_from; }
 
-Vector BranchNewton::tangent(Corrected& at, const Vector& before) const {
-  if (at.by_s.size() == 0) at.by_s = by_parameter(at.state, at.pass);
-  const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.by_s);
+Vector BranchNewton::tangent(CorrectedPoint& at, const Vector& before) const {
+  if (at.derivative_by_s.size() == 0) at.derivative_by_s = parameter_derivative(at.state, at.pass);
+  const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.derivative_by_s);
   Eigen::MatrixXd A(J.rows() + 1, before.size());
   A << J, before.transpose();
-  const Vector t = base::shortest_solution(A, Vector::Unit(A.rows(), A.rows() - 1), singular);
+  const Vector t = base::min_norm_solution(A, Vector::Unit(A.rows(), A.rows() - 1), singular);
   return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
 }
 
-const Eigen::MatrixXd& BranchNewton::families(Corrected& at) const {
+const Eigen::MatrixXd& BranchNewton::families(CorrectedPoint& at) const {
   const Eigen::Index n = at.monodromy.rows(), all = size(at.pass);
   const Eigen::Index count = map_.autonomous() ? 0 : std::min(n, static_cast<Eigen::Index>(at.ones));
   if (at.family.rows() == all && at.family.cols() == count) return at.family;
@@ -186,11 +189,11 @@ const Eigen::MatrixXd& BranchNewton::families(Corrected& at) const {
   if (count == 0) return at.family;
   const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
                             (at.monodromy - Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
-  at.family.topRows(n) = base::least_stretched(A, count);
+  at.family.topRows(n) = base::smallest_singular_vectors(A, count);
   return at.family;
 }
 
-BranchNewton::Way BranchNewton::split(Corrected& at, const Vector& way) const {
+BranchNewton::StepDirection BranchNewton::split(CorrectedPoint& at, const Vector& way) const {
   const Eigen::MatrixXd& directions = families(at);
   const Vector part = directions * (directions.transpose() * way), rest = way - part;
   if (!(rest.norm() > least_left)) return {way, Vector::Zero(way.size())};
@@ -198,11 +201,11 @@ BranchNewton::Way BranchNewton::split(Corrected& at, const Vector& way) const {
 }
 
 /// Removes from t its part along families, where Phi - I is zero, too: t must not drift along them.
-Vector BranchNewton::without_families(Corrected& at, const Vector& t) const {
+Vector BranchNewton::without_families(CorrectedPoint& at, const Vector& t) const {
   return families(at).cols() == 0 ? t : split(at, t).across;
 }
 
-Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones,
+Vector BranchNewton::examine(CorrectedPoint& at, const Vector& before, std::optional<std::size_t> ones,
                              bool known) const {
   if (at.multipliers.empty()) {
     at.monodromy = monodromy(map_.model(), at.pass);
@@ -237,18 +240,18 @@ void BranchNewton::measure(const OrbitPass& pass, Vector* t) {
     t->head(sizes_.size()) = t->head(sizes_.size()).cwiseProduct(before).cwiseQuotient(sizes_).eval();
 }
 
-Vector BranchNewton::flip_direction(const Corrected& at) const {
+Vector BranchNewton::flip_direction(const CorrectedPoint& at) const {
   const Eigen::Index n = at.monodromy.rows();
   const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
                             (at.monodromy + Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
   Vector away = Vector::Zero(size(at.pass));
-  away.head(n) = sizes_.cwiseProduct(base::least_stretched(A, 1).col(0));
+  away.head(n) = sizes_.cwiseProduct(base::smallest_singular_vectors(A, 1).col(0));
   return away;
 }
 
-Vector BranchNewton::other_direction(Corrected at, const Vector& t) const {
-  if (at.by_s.size() == 0) at.by_s = by_parameter(at.state, at.pass);
-  const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.by_s);
+Vector BranchNewton::other_direction(CorrectedPoint at, const Vector& t) const {
+  if (at.derivative_by_s.size() == 0) at.derivative_by_s = parameter_derivative(at.state, at.pass);
+  const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.derivative_by_s);
   // t is one of two null vectors of J; with t as an additional row, the other one remains.
   Eigen::MatrixXd A(J.rows() + 1, J.cols());
   A << J, t.transpose();
@@ -263,7 +266,7 @@ Vector BranchNewton::in_norm(const Vector& raw) const {
   return t / t.norm();
 }
 
-std::optional<Vector> BranchNewton::difference(const BranchPlace& from, const Corrected& to) const {
+std::optional<Vector> BranchNewton::difference(const SecantPoint& from, const CorrectedPoint& to) const {
   const OrbitSection section(map_.model(), to.pass.begin), before(map_.model(), from.begin);
   if (before.size() != section.size() || before.basis().rows() != section.basis().rows()) return std::nullopt;
   Vector t(size(to.pass));
@@ -275,18 +278,18 @@ std::optional<Vector> BranchNewton::difference(const BranchPlace& from, const Co
   return t;
 }
 
-std::optional<Vector> BranchNewton::secant(const BranchPlace& from, const Corrected& to) const {
+std::optional<Vector> BranchNewton::secant(const SecantPoint& from, const CorrectedPoint& to) const {
   const std::optional<Vector> t = difference(from, to);
   const double length = t ? t->norm() : 0.0;
   if (!(length > 0.0)) return std::nullopt;
   return Vector(*t / length);
 }
 
-void BranchNewton::hear_noise(const OrbitPass& first, const OrbitPass& second) {
-  if (const auto noise = map_noise(map_.model(), first, second)) noise_ = std::min(greatest_noise, *noise);
+void BranchNewton::update_noise(const OrbitPass& first, const OrbitPass& second) {
+  if (const auto noise = map_noise(map_.model(), first, second)) noise_ = std::min(max_noise, *noise);
 }
 
-std::optional<double> BranchNewton::shift(const Corrected& at, const Vector& t) const {
+std::optional<double> BranchNewton::shift(const CorrectedPoint& at, const Vector& t) const {
   if (map_.autonomous()) return std::nullopt;
   const OrbitSection section(map_.model(), at.pass.begin);
   const Vector x = sizes_.cwiseProduct(t.head(section.size()));
@@ -304,12 +307,12 @@ constexpr double balanced = 1e-3, finest = 1e-8, coarsest = 1e-5;
 constexpr double along_family = 1e-5;  // step of finite differences, in the norm; chosen value
 constexpr double singular_family =
     1e-6;  // limit for a direction that changes no margin, in amplitudes of T per unit. Chosen value.
-constexpr int most_centrings = 3;
+constexpr int max_centrings = 3;
 
 std::vector<std::size_t> never_slip(const Model& model, const OrbitPass& pass) {
   std::vector<std::size_t> list;
-  for (std::size_t c = 0; c < pass.held.size(); ++c)
-    if (pass.held[c] && model.contacts[c].has_friction() && pass.begin.mode[c].state == State::stick)
+  for (std::size_t c = 0; c < pass.never_slips.size(); ++c)
+    if (pass.never_slips[c] && model.contacts[c].has_friction() && pass.begin.states[c].state == State::stick)
       list.push_back(c);
   return list;
 }
@@ -331,7 +334,7 @@ bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass
 }
 
 /// Their derivatives along directions of the family; empty: unknown. here: differences at the point.
-Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const Corrected& at,
+Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const CorrectedPoint& at,
                        const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& directions,
                        const Vector& here) {
   Eigen::MatrixXd D(here.size(), directions.cols());
@@ -345,24 +348,24 @@ Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const C
 
 }  // namespace
 
-std::optional<Corrected> representative_member(const BranchMap& map, const BranchNewton& newton,
-                                               const Corrected& here, const Vector& t) {
+std::optional<CorrectedPoint> representative_member(const BranchMap& map, const BranchNewton& newton,
+                                                    const CorrectedPoint& here, const Vector& t) {
   const std::vector<std::size_t> contacts = never_slip(map.model(), here.pass);
-  Corrected at = here;
+  CorrectedPoint at = here;
   const Eigen::MatrixXd directions = newton.families(at);
   if (contacts.empty() || directions.cols() == 0) return std::nullopt;
   bool moved = false;
   OrbitPass fine = map.margins(at.state);
-  for (int i = 0; i < most_centrings && fine.done(); ++i) {
+  for (int i = 0; i < max_centrings && fine.done(); ++i) {
     const Vector d = imbalances(contacts, fine);
     if (is_balanced(contacts, fine, d)) break;
     const Eigen::MatrixXd D = slopes(map, newton, at, contacts, directions, d);
     if (D.size() == 0) break;
     // If everything else slips, the structure moves with the anchor, and no force changes.
-    const Vector part = base::shortest_solution(D, -d, singular_family, at.pass.T_amplitude);
+    const Vector part = base::min_norm_solution(D, -d, singular_family, at.pass.T_amplitude);
     if (!(part.norm() > 0.0)) break;
-    Corrected next = newton.correct(newton.moved(at.state, at.pass, directions * part),
-                                    newton.upwards(at.pass, 1.0), at.by_s);
+    CorrectedPoint next = newton.correct(newton.moved(at.state, at.pass, directions * part),
+                                         newton.parameter_direction(at.pass, 1.0), at.derivative_by_s);
     if (!next.done) break;
     fine = map.margins(next.state);
     if (!fine.done() || !(imbalances(contacts, fine).norm() < 0.5 * d.norm())) break;

@@ -17,19 +17,19 @@
 namespace signorini::orbit {
 
 /// Target for the residual over amplitude, unless the noise of the map is larger.
-inline constexpr double corrected_to = 1e-11;
+inline constexpr double correction_tolerance = 1e-11;
 
 /// Cosine of two directions that count as equal. Chosen value.
-inline constexpr double alike = 0.9;
+inline constexpr double same_direction_cosine = 0.9;
 
 /// A point of the branch, as needed for a secant.
-struct BranchPlace {
+struct SecantPoint {
   OrbitPoint begin;
   double duration = 0.0, s = 0.0;
 };
 
 /// Result of a correction.
-struct Corrected {
+struct CorrectedPoint {
   bool done = false;
   std::string reason;  ///< reason for a failure
   BranchState state;
@@ -37,7 +37,7 @@ struct Corrected {
   double residual = 0.0;
   int iterations = 0;
   Vector
-      by_s;  ///< B^T dG/ds at this point, and the row of the energy if there is one; empty: not computed yet
+      derivative_by_s;  ///< B^T dG/ds at this point, and the row of the energy if there is one; empty: not computed yet
   Eigen::MatrixXd monodromy;  ///< with multipliers and tests: from examine()
   Multipliers multipliers;
   double error = 0.0;      ///< error_of() the monodromy matrix
@@ -58,60 +58,60 @@ class BranchNewton {
     return OrbitSection(map_.model(), pass.begin).size() + (map_.autonomous() ? 2 : 1);
   }
   /// The direction of the parameter alone.
-  [[nodiscard]] Vector upwards(const OrbitPass& pass, double sign) const {
+  [[nodiscard]] Vector parameter_direction(const OrbitPass& pass, double sign) const {
     Vector t = Vector::Zero(size(pass));
     t[t.size() - 1] = sign;
     return t;
   }
   [[nodiscard]] BranchState moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const;
   /// by_s: value at the previous point, used as long as Newton's method converges; empty: none.
-  [[nodiscard]] Corrected correct(BranchState guess, const Vector& t, const Vector& by_s) const;
+  [[nodiscard]] CorrectedPoint correct(BranchState guess, const Vector& t, const Vector& by_s) const;
   /// Returns the direction of the branch, oriented like `before`; computes multipliers and test functions. ones: number
   /// of structural multipliers 1, as at the point before; absent: counted, where no special point is near. known:
   /// `before` is the direction.
-  Vector examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones = {},
+  Vector examine(CorrectedPoint& at, const Vector& before, std::optional<std::size_t> ones = {},
                  bool known = false) const;
   /// True if corrections fix the parameter for this direction.
-  [[nodiscard]] static bool holds(const Vector& t);
+  [[nodiscard]] static bool fixes_parameter(const Vector& t);
   /// Directions of families: one column for each structural multiplier 1, in y, of length 1.
-  [[nodiscard]] const Eigen::MatrixXd& families(Corrected& at) const;
+  [[nodiscard]] const Eigen::MatrixXd& families(CorrectedPoint& at) const;
   /// A way along the branch; its part along families does not count in the length of a step.
-  struct Way {
+  struct StepDirection {
     Vector across;  ///< without families, length 1
     Vector drift;   ///< along families, per unit of `across`; at most 1
   };
-  [[nodiscard]] Way split(Corrected& at, const Vector& way) const;
+  [[nodiscard]] StepDirection split(CorrectedPoint& at, const Vector& way) const;
   /// Direction of the orbit of twice the period at a flip: coordinates at the section, dT/T, s.
-  [[nodiscard]] Vector flip_direction(const Corrected& at) const;
+  [[nodiscard]] Vector flip_direction(const CorrectedPoint& at) const;
   /// Direction of the branch that crosses the one along t at a branch point.
-  [[nodiscard]] Vector other_direction(Corrected at, const Vector& t) const;
+  [[nodiscard]] Vector other_direction(CorrectedPoint at, const Vector& t) const;
   /// Such coordinates scaled to length 1 in the norm.
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
   /// Component of v along t, as corrections preserve it: 1 for t itself.
   [[nodiscard]] static double along(const Vector& v, const Vector& t) {
-    return holds(t) ? v[v.size() - 1] / t[t.size() - 1] : v.dot(t);
+    return fixes_parameter(t) ? v[v.size() - 1] / t[t.size() - 1] : v.dot(t);
   }
   /// Difference from one point to another; nullopt if the state at the section has other unknowns.
-  [[nodiscard]] std::optional<Vector> difference(const BranchPlace& from, const Corrected& to) const;
+  [[nodiscard]] std::optional<Vector> difference(const SecantPoint& from, const CorrectedPoint& to) const;
   /// The normalised difference; nullopt if both points coincide.
-  [[nodiscard]] std::optional<Vector> secant(const BranchPlace& from, const Corrected& to) const;
+  [[nodiscard]] std::optional<Vector> secant(const SecantPoint& from, const CorrectedPoint& to) const;
   /// Updates the noise of the map (shooting.hpp), which limits the following corrections.
-  void hear_noise(const OrbitPass& first, const OrbitPass& second);
+  void update_noise(const OrbitPass& first, const OrbitPass& second);
   [[nodiscard]] double noise() const { return noise_; }
   /// Residual up to which a stagnating correction is accepted.
-  [[nodiscard]] double closed_at_last() const;
+  [[nodiscard]] double accepted_residual() const;
   /// If dz/ds is along the motion: the time shift of the orbit at the section per unit of s.
-  [[nodiscard]] std::optional<double> shift(const Corrected& at, const Vector& t) const;
+  [[nodiscard]] std::optional<double> shift(const CorrectedPoint& at, const Vector& t) const;
 
  private:
-  [[nodiscard]] Vector without_families(Corrected& at, const Vector& t) const;
-  [[nodiscard]] double energy_missing(const Corrected& c) const;
-  void close_damped(Corrected& c, Eigen::Index unknowns) const;
-  [[nodiscard]] Vector tangent(Corrected& at, const Vector& before) const;
+  [[nodiscard]] Vector without_families(CorrectedPoint& at, const Vector& t) const;
+  [[nodiscard]] double energy_residual(const CorrectedPoint& c) const;
+  void close_damped(CorrectedPoint& c, Eigen::Index unknowns) const;
+  [[nodiscard]] Vector tangent(CorrectedPoint& at, const Vector& before) const;
   [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(const BranchState& state, const OrbitPass& pass,
                                          const Vector& by_s) const;
-  [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
+  [[nodiscard]] Vector parameter_derivative(const BranchState& state, const OrbitPass& pass) const;
 
   BranchMap& map_;
   Vector sizes_;           // units of x in the norm, in scales
@@ -134,7 +134,9 @@ class BranchNewton {
 
 /// The orbit in the middle, with its multipliers along t. nullopt: `here` is in the middle or in no such family, or
 /// Newton's method finds no better one.
-[[nodiscard]] std::optional<Corrected> representative_member(const BranchMap& map, const BranchNewton& newton,
-                                                             const Corrected& here, const Vector& t);
+[[nodiscard]] std::optional<CorrectedPoint> representative_member(const BranchMap& map,
+                                                                  const BranchNewton& newton,
+                                                                  const CorrectedPoint& here,
+                                                                  const Vector& t);
 
 }  // namespace signorini::orbit

@@ -8,8 +8,8 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/text.hpp"
-#include "model/machine_units.hpp"
-#include "orbit/branch_walk.hpp"
+#include "model/internal_units.hpp"
+#include "orbit/branch_continuation.hpp"
 #include "orbit/load_period.hpp"
 #include "orbit/multipliers.hpp"
 #include "orbit/orbit_engine.hpp"
@@ -21,12 +21,12 @@
 namespace signorini {
 namespace {
 
-constexpr int most_transients = 3;    // each twice as long as the previous one
+constexpr int max_transients = 3;     // each twice as long as the previous one
 constexpr double beside = 1e-6;       // relative to the amplitude: distance of neighbouring members of a
                                       // family. Chosen value.
 constexpr double seen_periods = 1.1;  // duration of the recorded events: an event at the beginning of a run
                                       // is not recorded
-constexpr int most_repeats = 6;       // number of periods after which a transient is checked for repetition
+constexpr int max_repeats = 6;        // number of periods after which a transient is checked for repetition
 constexpr double comes_back = 1e-3;   // relative to the amplitude; chosen value
 // Divisors of a period for which a self-excited motion may have closed already, because a search with an initial guess
 // finds any multiple. Larger primes are not checked. Chosen value.
@@ -71,17 +71,17 @@ class Search {
   double period_ = 0.0;  // of the loads times `times`, machine units
   double tolerance_, closed_ = 0.0;
   Orbit orbit_;
-  orbit::Shot shot_;
+  orbit::ShootingResult shot_;
   orbit::OrbitState initial_;
   Model first_;  // initial model of the scene, in the machine's units
   RunSpec run_;
-  std::shared_ptr<modal::ModalMemory> memory_ = std::make_shared<modal::ModalMemory>();
+  std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
 };
 
 /// Time over which periodic histories must be known.
 double long_enough(const orbit::LoadPeriod& loads, const OrbitOptions& options) {
   const double T = loads.period.value_or(0.0) * options.times;
-  return loads.settled + T * (4.0 * options.transient + 4.0);
+  return loads.periodic_from + T * (4.0 * options.transient + 4.0);
 }
 
 void check_options(const OrbitOptions& options) {
@@ -122,26 +122,26 @@ void Search::set_period(const Scene& scene) {
         {}, "loads",
         "an orbit needs a periodic load, a moving surface, or --period; the scene has none of them");
   const double t_end = std::max(scene.run.t_end, long_enough(loads, options_));
-  const Scene longer = read_({{"run.t_end", base::shortest(t_end)}});
+  const Scene longer = read_({{"run.t_end", base::format_number(t_end)}});
   given_ = build_model(longer);
   sensitivity::check_tangent_laws(longer, given_);
   if (conservative && given_.damping.norm() > 0.0)
     throw UsageError("--energy: the scene has damping, expected none: energy is not kept");
   run_ = longer.run;
   run_.engine = orbit::orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
-  if (!run::engine_row(run_.engine).can.follow_orbits)
+  if (!run::engine_row(run_.engine).capabilities.supports_orbits)
     throw SceneError(
         scene.run.place, "run.engine",
         fmt::format("found \"{}\", expected {}: orbits need the motion between events to "
                     "rounding, or its tangents",
-                    to_string(run_.engine), run::engines_that(&run::EngineAbilities::follow_orbits)));
+                    to_string(run_.engine), run::engines_that(&run::EngineCapabilities::supports_orbits)));
   run_.flow = orbit::orbit_flow(given_, run_);
   closed_ = orbit::orbit_state_error(run_);
-  const Factors to_machine = scene::inverse(given_.machine);
+  const Factors to_machine = scene::inverse(given_.internal_units);
   first_ = model::rescaled(given_, to_machine);
   run_ = scene::rescaled(run_, to_machine);
-  run_.t_end = scene.run.t_end / given_.machine.time;
-  unit_ = given_.machine.time;
+  run_.t_end = scene.run.t_end / given_.internal_units.time;
+  unit_ = given_.internal_units.time;
   for (const Contact& c : first_.contacts) {
     initial_.shears.push_back(c.initial_shear);
     initial_.slips.push_back(c.initial_slip);
@@ -150,7 +150,8 @@ void Search::set_period(const Scene& scene) {
   initial_.v = first_.v0;
   const double period = conservative ? options_.period.value_or(0.0) : loads.period.value_or(0.0);
   period_ = period * options_.times / unit_;
-  const double whole = period > 0.0 ? std::ceil(loads.settled / period - 1e-9) * period : loads.settled;
+  const double whole =
+      period > 0.0 ? std::ceil(loads.periodic_from / period - 1e-9) * period : loads.periodic_from;
   before_ = std::max(0.0, whole) / unit_;
   orbit_.phase = before_ * unit_;
 }
@@ -159,9 +160,9 @@ bool Search::forced() {
   const orbit::PeriodMap scene = map_of(first_);
   orbit::OrbitState state = initial_;
   double length = before_ + options_.transient * period_;
-  const Model base = orbit::driven_from(first_, before_);
+  const Model base = orbit::with_shifted_excitation(first_, before_);
   const orbit::PeriodMap at_phase = map_of(base);
-  for (int i = 0; i < most_transients; ++i) {
+  for (int i = 0; i < max_transients; ++i) {
     const orbit::OrbitPass transient =
         length > 0.0 ? (i == 0 ? scene : at_phase).pass({state, length, false}) : orbit::OrbitPass{};
     if (length > 0.0) {
@@ -179,11 +180,11 @@ bool Search::forced() {
       at_section = orbit::orbit_state(to_section.end);
     }
     std::shared_ptr<sensitivity::StateFlow> flow = map_ ? map_->flow() : nullptr;
-    map_ = map_of(orbit::driven_from(base, section));
+    map_ = map_of(orbit::with_shifted_excitation(base, section));
     map_->take_flow(std::move(flow));
     if (close(at_section, section, period_)) return true;
     if (shot_.interrupted) return false;
-    if (i + 1 == most_transients) orbit_.reason += repeated(at_section);
+    if (i + 1 == max_transients) orbit_.reason += repeated(at_section);
   }
   return false;
 }
@@ -192,7 +193,7 @@ bool Search::forced() {
 std::string Search::repeated(const orbit::OrbitState& state) const {
   orbit::OrbitState now = state;
   std::optional<orbit::OrbitPass> first;
-  for (int k = 1; k <= most_repeats; ++k) {
+  for (int k = 1; k <= max_repeats; ++k) {
     const orbit::OrbitPass pass = map_->pass({now, period_, false});
     if (!pass.done()) return {};
     now = orbit::orbit_state(pass.end);
@@ -225,7 +226,7 @@ bool Search::by_itself() {
         length * unit_));
   const orbit::OrbitPass to_section = scene.pass({initial_, found.section, false});
   if (!to_section.done()) return stop("the transient stopped: " + to_section.outcome.reason);
-  map_ = map_of(orbit::driven_from(first_, found.section));
+  map_ = map_of(orbit::with_shifted_excitation(first_, found.section));
   const double period = period_ > 0.0 ? period_ : found.period * options_.times;
   return close(orbit::orbit_state(to_section.end), 0.0, period);
 }
@@ -249,7 +250,8 @@ void Search::shorten() {
     for (double part = shot_.duration / n;; part = shot_.duration / n) {
       const orbit::OrbitPass pass = map_->pass({shot_.state, part, false});
       if (!pass.done() || orbit::orbit_residual(map_->model(), pass) > nearly_closed) break;
-      orbit::Shot shot = orbit::shoot(*map_, {shot_.state, part, true, closed_, options_.energy}, tolerance_);
+      orbit::ShootingResult shot =
+          orbit::shoot(*map_, {shot_.state, part, true, closed_, options_.energy}, tolerance_);
       if (!shot.closed || std::abs(shot.duration - part) > nearly_closed * part) break;
       shot_ = std::move(shot);
       orbit_.residual = shot_.residual;
@@ -273,10 +275,11 @@ void Search::stability() {
   // Along the motion, and for conservative orbits also from energy to energy.
   const std::size_t ones = orbit::count_ones(all), of_time = options_.energy ? 2 : orbit_.autonomous ? 1 : 0;
   std::size_t families = ones > of_time ? ones - of_time : 0;
-  for (std::size_t c = 0; c < pass.held.size(); ++c) {
+  for (std::size_t c = 0; c < pass.never_slips.size(); ++c) {
     const Contact& contact = model.contacts[c];
     const bool anchored = contact.tangential_stiffness || contact.sticks_rigidly();
-    if (families == 0 || !pass.held[c] || !anchored || pass.begin.mode[c].state != State::stick) continue;
+    if (families == 0 || !pass.never_slips[c] || !anchored || pass.begin.states[c].state != State::stick)
+      continue;
     orbit_.families.push_back("contact '" + contact.name + "' never slips");
     --families;
   }
@@ -292,15 +295,15 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
   const orbit::OrbitPass& pass = shot_.pass;
   const orbit::OrbitSection section(map_->model(), pass.begin);
   const Eigen::MatrixXd A = phi - Eigen::MatrixXd::Identity(phi.rows(), phi.cols());
-  const Eigen::MatrixXd ways =
-      base::least_stretched(A, std::min(A.cols(), static_cast<Eigen::Index>(orbit_.families.size())));
+  const Eigen::MatrixXd ways = base::smallest_singular_vectors(
+      A, std::min(A.cols(), static_cast<Eigen::Index>(orbit_.families.size())));
   for (Eigen::Index k = 0; k < ways.cols(); ++k)
     for (const double side : {-beside, beside}) {
       const Vector way = ways.col(k) / orbit::residual_of(section, pass, section.basis() * ways.col(k));
       const orbit::OrbitPass other =
           map_->pass({section.moved(orbit::orbit_state(pass.begin), side * way), shot_.duration, false});
-      for (std::size_t c = 0; c < pass.held.size() && other.done(); ++c)
-        if (pass.held[c] && !other.held[c])
+      for (std::size_t c = 0; c < pass.never_slips.size() && other.done(); ++c)
+        if (pass.never_slips[c] && !other.never_slips[c])
           orbit_.reason = fmt::format(
               "multipliers hold to one side of the orbit: contact '{}' comes to its limit, and slips in "
               "orbits "
@@ -328,18 +331,18 @@ std::vector<Event> since_time_0(std::vector<Event> events, double section, doubl
 
 /// Records the start, and the results of a period.
 void Search::report(const orbit::OrbitState& at_section, double section) {
-  const Model base = orbit_.autonomous ? map_->model() : orbit::driven_from(first_, before_);
+  const Model base = orbit_.autonomous ? map_->model() : orbit::with_shifted_excitation(first_, before_);
   const orbit::PeriodMap map = map_of(base, false), from_section = map_of(map_->model(), false);
   orbit::OrbitState start = at_section;
   if (section > 0.0)
     start = orbit::orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);
-  orbit_.start = last_state(orbit::driven_from(given_, orbit_.phase), rows);
-  orbit::OrbitLeg leg{at_section, shot_.duration, false};
-  leg.places = places_recorded;
+  orbit_.start = last_state(orbit::with_shifted_excitation(given_, orbit_.phase), rows);
+  orbit::PassOptions leg{at_section, shot_.duration, false};
+  leg.samples = places_recorded;
   const orbit::OrbitPass once = from_section.pass(leg);
   orbit_.sequence = since_time_0(once.events, orbit_.section, orbit_.period);
-  orbit_.cycle = once.cycle;
+  orbit_.cycle = once.cycle_energy;
   orbit_.amplitude = once.amplitude;
 }
 
@@ -360,9 +363,9 @@ Orbit find_orbit(const SceneReader& read, const OrbitOptions& options, Recorder*
 Scene orbit_scene(const SceneReader& read, const Orbit& orbit) {
   Scene scene = read({});
   if (orbit.phase > 0.0) {
-    std::vector<Override> changes = orbit::driven_earlier(scene, orbit.phase);
+    std::vector<Override> changes = orbit::shifted_excitation(scene, orbit.phase);
     changes.push_back(
-        {"run.t_end", base::shortest(std::max(scene.run.t_end, orbit.phase + 2.0 * orbit.period))});
+        {"run.t_end", base::format_number(std::max(scene.run.t_end, orbit.phase + 2.0 * orbit.period))});
     scene = read(changes);
   }
   constexpr double rows = 200.0;
@@ -389,23 +392,24 @@ Orbit first_orbit(const SceneReader& read, const BranchOptions& options, Recorde
 
 }  // namespace
 
-Branch follow(const SceneReader& read, const BranchOptions& options, Recorder* recorder,
-              const std::function<void(const BranchPoint&)>& seen) {
+Branch continue_branch(const SceneReader& read, const BranchOptions& options, Recorder* recorder,
+                       const std::function<void(const BranchPoint&)>& seen) {
   if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
     throw UsageError("--over: expected PATH=FROM:TO with two different numbers");
   if (options.path == orbit::over_energy && !(options.from > 0.0 && options.to > 0.0))
     throw UsageError("--over energy: expected two energies above 0; without energy nothing moves");
   if (options.path == orbit::over_energy && options.orbit.energy)
     throw UsageError("--energy: cannot be combined with --over energy, which sets it");
-  const Orbit orbit = options.resumed ? options.resumed->orbit : first_orbit(read, options, recorder);
+  const Orbit orbit = options.resume_from ? options.resume_from->orbit : first_orbit(read, options, recorder);
   if (!orbit.found) {
     Branch none;
     none.end = fmt::format("no orbit found at {} = {:.9g}: {}", options.path, options.from, orbit.reason);
     return none;
   }
   Branch branch;
-  if (options.resumed) branch.sequences = options.resumed->sequences;
-  orbit::BranchWalk main(options, orbit::BranchMap(read, options, orbit, recorder), branch, 1, 0, seen);
+  if (options.resume_from) branch.sequences = options.resume_from->sequences;
+  orbit::BranchContinuation main(options, orbit::BranchMap(read, options, orbit, recorder), branch, 1, 0,
+                                 seen);
   main.follow();
   branch.end = main.end();
   branch.complete = main.complete();
@@ -416,8 +420,8 @@ Branch follow(const SceneReader& read, const BranchOptions& options, Recorder* r
     const orbit::Junction junction = std::move(waiting.front());
     waiting.pop_front();
     const int number = static_cast<int>(branch.sides.size()) + 2;
-    orbit::BranchWalk walk(options, junction.map, branch, number, junction.generation, seen);
-    walk.leave(junction);
+    orbit::BranchContinuation walk(options, junction.map, branch, number, junction.generation, seen);
+    walk.follow_from(junction);
     branch.sides.push_back({number, junction.from, junction.kind, junction.map.parameter(junction.at.state.s),
                             walk.end(), walk.complete()});
     for (orbit::Junction& next : walk.junctions()) waiting.push_back(std::move(next));

@@ -15,7 +15,7 @@ namespace {
 // Relative difference up to which periods are equal, or in a ratio of integers. Periods are given with at least this
 // number of digits. Chosen value.
 constexpr double same_period = 1e-9;
-constexpr int most_multiples = 100;
+constexpr int max_multiples = 100;
 constexpr int compared_places = 41;  // comparison of a history with itself one period later; chosen value
 
 /// A history of the scene, and its key.
@@ -28,7 +28,7 @@ struct Driver {
 
 bool drives(const LoadSpec& load) { return load.amplitude != 0.0; }
 
-std::vector<Driver> drivers(const Scene& scene, const SilentLoads& count = {}) {
+std::vector<Driver> drivers(const Scene& scene, const CountedLoads& count = {}) {
   std::vector<Driver> all;
   const auto add = [&](const HistorySpec& spec, std::string key, bool surface = false,
                        bool acceleration = false) {
@@ -76,7 +76,7 @@ double settled_at(const HistorySpec& spec) {
 LoadPeriod settled(const std::vector<Driver>& all) {
   LoadPeriod found;
   for (const Driver& d : all) {
-    found.settled = std::max(found.settled, settled_at(*d.spec));
+    found.periodic_from = std::max(found.periodic_from, settled_at(*d.spec));
     if (d.surface) found.surfaces_move = true;
   }
   return found;
@@ -85,7 +85,7 @@ LoadPeriod settled(const std::vector<Driver>& all) {
 /// Smallest common multiple; nullopt: there is none.
 std::optional<double> common(double a, double b) {
   if (a < b) std::swap(a, b);
-  for (int k = 1; k <= most_multiples; ++k) {
+  for (int k = 1; k <= max_multiples; ++k) {
     const double ratio = k * a / b;
     if (std::abs(ratio - std::round(ratio)) <= same_period * ratio) return k * a;
   }
@@ -109,19 +109,19 @@ void check_drift(const Driver& d, const History& acceleration, double settled, d
       fmt::format("found an acceleration that leaves the support displaced by {:.6g} more after "
                   "each period of {} (the support starts at rest at zero displacement), expected "
                   "one without drift: no motion of this scene repeats itself",
-                  drift, base::shortest(period)));
+                  drift, base::format_number(period)));
 }
 
 }  // namespace
 
-SilentLoads driving_loads(const Scene& scene) {
-  SilentLoads count;
+CountedLoads driving_loads(const Scene& scene) {
+  CountedLoads count;
   for (const LoadSpec& load : scene.loads) count.push_back(drives(load));
   const bool none = std::find(count.begin(), count.end(), true) == count.end();
-  return none ? SilentLoads(count.size(), true) : count;
+  return none ? CountedLoads(count.size(), true) : count;
 }
 
-LoadPeriod load_period(const Scene& scene, const SilentLoads& count) {
+LoadPeriod load_period(const Scene& scene, const CountedLoads& count) {
   const std::vector<Driver> all = drivers(scene, count);
   LoadPeriod found = settled(all);
   for (const Driver& d : all) {
@@ -133,24 +133,24 @@ LoadPeriod load_period(const Scene& scene, const SilentLoads& count) {
           d.spec->place, d.key,
           fmt::format("found a period of {} beside one of {}, expected periods with a common multiple "
                       "(up to {} of the longer one)",
-                      base::shortest(own), base::shortest(*found.period), most_multiples));
+                      base::format_number(own), base::format_number(*found.period), max_multiples));
     found.period = both;
   }
   return found.period ? check_period(scene, *found.period, count) : found;
 }
 
-LoadPeriod check_period(const Scene& scene, double period, const SilentLoads& count) {
+LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& count) {
   const std::vector<Driver> all = drivers(scene, count);
   LoadPeriod found = settled(all);
   found.period = period;
   for (const Driver& d : all) {
     HistorySpec spec = *d.spec;
     if (spec.period > 0.0)
-      spec.rounds = static_cast<int>(std::ceil((found.settled + 3.0 * period) / spec.period)) + 1;
+      spec.rounds = static_cast<int>(std::ceil((found.periodic_from + 3.0 * period) / spec.period)) + 1;
     const History f = scene::make_history(spec, d.key);
     double size = 0.0, differ = 0.0;
     for (int i = 0; i < compared_places; ++i) {
-      const double t = found.settled + period * (i + 1.0 / std::numbers::sqrt2) / compared_places;
+      const double t = found.periodic_from + period * (i + 1.0 / std::numbers::sqrt2) / compared_places;
       const double now = f.value(t), then = f.value(t + period);
       size = std::max({size, std::abs(now), std::abs(then)});
       differ = std::max(differ, std::abs(now - then));
@@ -161,19 +161,19 @@ LoadPeriod check_period(const Scene& scene, double period, const SilentLoads& co
           fmt::format(
               "found a history that differs by {:.2g} of its greatest value after {}, expected one that "
               "repeats itself with the period of the orbit",
-              differ / size, base::shortest(period)));
-    if (d.acceleration) check_drift(d, f, found.settled, period);
+              differ / size, base::format_number(period)));
+    if (d.acceleration) check_drift(d, f, found.periodic_from, period);
   }
   return found;
 }
 
-std::vector<Override> driven_earlier(const Scene& scene, double time) {
+std::vector<Override> shifted_excitation(const Scene& scene, double time) {
   std::vector<Override> changes;
   for (const Driver& d : drivers(scene)) {
     const bool always =
         d.spec->type == HistoryType::constant && !d.spec->start_given && std::isinf(d.spec->end);
     if (!always && !d.spec->in_code)
-      changes.push_back({d.key + ".shift", base::shortest(d.spec->shift - time)});
+      changes.push_back({d.key + ".shift", base::format_number(d.spec->shift - time)});
   }
   return changes;
 }
@@ -187,7 +187,7 @@ constexpr double least_distance = 0.02;  // relative to the period, from the sec
                                          // value.
 
 bool same_states(const OrbitPoint& a, const OrbitPoint& b) {
-  return std::equal(a.mode.begin(), a.mode.end(), b.mode.begin(), b.mode.end(),
+  return std::equal(a.states.begin(), a.states.end(), b.states.begin(), b.states.end(),
                     [](const ContactState& x, const ContactState& y) { return x.state == y.state; });
 }
 

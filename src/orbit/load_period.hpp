@@ -19,24 +19,24 @@ namespace signorini::orbit {
 
 struct LoadPeriod {
   std::optional<double> period;  ///< nullopt: everything is constant from `settled` on
-  double settled = 0.0;          ///< end of the part that is not periodic
+  double periodic_from = 0.0;    ///< end of the part that is not periodic
   bool surfaces_move = false;    ///< there is a belt
 };
 
 /// Loads that count even with amplitude zero, one entry per load; empty: none.
-using SilentLoads = std::vector<bool>;
+using CountedLoads = std::vector<bool>;
 
 /// Loads with nonzero amplitude; all of them if there are none.
-[[nodiscard]] SilentLoads driving_loads(const Scene& scene);
+[[nodiscard]] CountedLoads driving_loads(const Scene& scene);
 
 /// Errors: SceneError at a history that has no period in common with the others.
-[[nodiscard]] LoadPeriod load_period(const Scene& scene, const SilentLoads& count = {});
+[[nodiscard]] LoadPeriod load_period(const Scene& scene, const CountedLoads& count = {});
 
 /// Errors: SceneError at a history without this period.
-[[nodiscard]] LoadPeriod check_period(const Scene& scene, double period, const SilentLoads& count = {});
+[[nodiscard]] LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& count = {});
 
 /// Overrides by which all excitations act earlier by `time`. Histories made in code are ignored.
-[[nodiscard]] std::vector<Override> driven_earlier(const Scene& scene, double time);
+[[nodiscard]] std::vector<Override> shifted_excitation(const Scene& scene, double time);
 
 // Initial guess of the period of a self-excited motion, and a section away from events.
 //

@@ -9,28 +9,29 @@ namespace signorini::orbit {
 namespace {
 
 // Chosen: a series takes a step for every 5 decay times, so some hundred steps per period.
-constexpr double most_decays = 2000.0;
+constexpr double max_decays = 2000.0;
 constexpr double of_tolerance = 100.0;  // chosen value: errors of steps accumulate over a period
 
 }  // namespace
 
 Engine orbit_engine(const Model& model, const RunSpec& run, double duration) {
   if (run.engine != Engine::automatic) return run.engine;
-  if (!run::exact_takes(model, run)) return run::engine_for(run::EngineRole::integrator);
-  if (model::fastest_decay(model) * duration <= most_decays)
+  if (!run::exact_accepts(model, run)) return run::engine_for(run::EngineRole::integrator);
+  if (model::fastest_decay(model) * duration <= max_decays)
     return run::engine_for(run::EngineRole::closed_form);
   return run::choose_engine(model, run).engine;
 }
 
 Flow orbit_flow(const Model& model, const RunSpec& run) {
-  if (run.flow != Flow::automatic || !run::engine_row(run.engine).can.closed_flow) return run.flow;
+  if (run.flow != Flow::automatic || !run::engine_row(run.engine).capabilities.closed_form_flow)
+    return run.flow;
   const run::ModalKind kind = run::modal_kind(model);
-  const bool can = kind.objection.empty() && kind.damped && !kind.crowded;
-  return can && run::damped_modes_gain(model) ? Flow::modal : run.flow;
+  const bool can = kind.objection.empty() && kind.damped && !kind.too_many_springs;
+  return can && run::damped_modes_are_faster(model) ? Flow::modal : run.flow;
 }
 
 double orbit_state_error(const RunSpec& run) {
-  return name_of(run.engine).accuracy == Accuracy::tolerance ? of_tolerance * run.rtol : 0.0;
+  return engine_info(run.engine).accuracy == Accuracy::tolerance ? of_tolerance * run.rtol : 0.0;
 }
 
 }  // namespace signorini::orbit

@@ -34,7 +34,7 @@ namespace signorini::orbit {
 /// value: in the unit of the key. Errors: those of `read`.
 [[nodiscard]] inline SceneReader reader_at(SceneReader read, std::string path, double value) {
   return [read = std::move(read), path = std::move(path), value](const std::vector<Override>& changes) {
-    std::vector<Override> all{{path, base::shortest(value)}};
+    std::vector<Override> all{{path, base::format_number(value)}};
     all.insert(all.end(), changes.begin(), changes.end());
     return read(all);
   };

@@ -26,7 +26,7 @@ void add_form(const Combination& form, const std::vector<Eigen::Index>& places, 
 
 OrbitPoint orbit_point(double t, const decide::Decision& after) {
   return {t,
-          after.mode,
+          after.states,
           after.u,
           after.v,
           after.jet.a(),
@@ -38,19 +38,19 @@ OrbitPoint orbit_point(double t, const decide::Decision& after) {
 
 OrbitState orbit_state(const OrbitPoint& point) {
   OrbitState state{point.u, point.v, {}, {}};
-  for (std::size_t c = 0; c < point.mode.size(); ++c) {
+  for (std::size_t c = 0; c < point.states.size(); ++c) {
     state.shears.push_back(point.forces[static_cast<Eigen::Index>(point.layout.tangent(c))]);
-    state.slips.push_back(slip_sign(point.mode[c].state));
+    state.slips.push_back(slip_sign(point.states[c].state));
   }
   return state;
 }
 
-Model begun_at(Model model, const OrbitState& state) {
+Model with_initial_state(Model model, const OrbitState& state) {
   model.u0 = state.u;
   model.v0 = state.v;
   model.static_start = false;
   model.statics = {};
-  model.continues.clear();
+  model.saved_contacts.clear();
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     Contact& contact = model.contacts[c];
     if (contact.tangential_stiffness) contact.initial_shear = state.shears[c];
@@ -59,7 +59,7 @@ Model begun_at(Model model, const OrbitState& state) {
   return model;
 }
 
-Model driven_from(Model model, double time) {
+Model with_shifted_excitation(Model model, double time) {
   if (time == 0.0) return model;
   for (Load& load : model.loads) load.history = from(load.history, time);
   for (Contact& contact : model.contacts) {
@@ -86,8 +86,8 @@ OrbitSection::OrbitSection(const Model& model, const OrbitPoint& at) : model_(mo
     v_.push_back(i);
     v.push_back(turns ? s.angular_velocity : s.velocity);
   }
-  for (std::size_t c = 0; c < at.mode.size(); ++c)
-    if (model.contacts[c].tangential_stiffness && at.mode[c].state == State::stick) {
+  for (std::size_t c = 0; c < at.states.size(); ++c)
+    if (model.contacts[c].tangential_stiffness && at.states[c].state == State::stick) {
       shears_.push_back(c);
       T.push_back(s.force);
     }
@@ -95,13 +95,13 @@ OrbitSection::OrbitSection(const Model& model, const OrbitPoint& at) : model_(mo
   u.insert(u.end(), T.begin(), T.end());
   scales_ = Eigen::Map<const Vector>(u.data(), static_cast<Eigen::Index>(u.size()));
   std::vector<Vector> rows;
-  for (std::size_t c = 0; c < at.mode.size(); ++c) {
+  for (std::size_t c = 0; c < at.states.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (contact.takes_impulses() && !at.mode[c].is_open()) {
+    if (contact.takes_impulses() && !at.states[c].is_open()) {
       add_form(contact.normal, u_, 0, scales_, rows);
       add_form(contact.normal, v_, u_.size(), scales_, rows);
     }
-    if (contact.sticks_rigidly() && at.mode[c].state == State::stick)
+    if (contact.sticks_rigidly() && at.states[c].state == State::stick)
       add_form(contact.tangent, v_, u_.size(), scales_, rows);
   }
   if (rows.empty()) {

@@ -25,7 +25,7 @@ struct OrbitState {
 /// The motion just after an instant.
 struct OrbitPoint {
   double t = 0.0;
-  contact::ContactStates mode;
+  contact::ContactStates states;
   Vector u, v, a, forces, force_rates;  ///< forces: in the order of `layout`
   std::vector<linear::DofKind> kinds;   ///< of this mode
   ForceLayout layout;
@@ -34,10 +34,10 @@ struct OrbitPoint {
 [[nodiscard]] OrbitState orbit_state(const OrbitPoint& point);
 
 /// The model with this state at t = 0.
-[[nodiscard]] Model begun_at(Model model, const OrbitState& state);
+[[nodiscard]] Model with_initial_state(Model model, const OrbitState& state);
 
 /// The model with loads, normal forces and surfaces shifted by `time`: those of t = time act at t = 0.
-[[nodiscard]] Model driven_from(Model model, double time);
+[[nodiscard]] Model with_shifted_excitation(Model model, double time);
 
 /// Coordinates at a section.
 class OrbitSection {

@@ -11,7 +11,7 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr int fewest_in_modes = 6;  // below this the series is as fast. Chosen value.
+constexpr int min_in_modes = 6;  // below this the series is as fast. Chosen value.
 
 /// Minimum of a sampled function: of the parabola through three samples around it.
 class Least {
@@ -138,7 +138,7 @@ class Bundle {
     sizes_.assign(columns_.size(), 1.0);
     tangents_.emplace(model, run, columns_, sizes_, listener_);
     tangents_->cross_smooth_grazes();
-    if (flow != nullptr) tangents_->cross_by(*flow);
+    if (flow != nullptr) tangents_->use_state_flow(*flow);
   }
 
   [[nodiscard]] sensitivity::TangentRun& run() { return *tangents_; }
@@ -146,7 +146,7 @@ class Bundle {
   void finish(OrbitPass& pass) const {
     const std::vector<sensitivity::TangentState>& states = tangents_->states();
     for (const sensitivity::TangentState& state : states)
-      if (!state.alive) {
+      if (!state.valid) {
         pass.reason = state.reason;
         return;
       }
@@ -173,8 +173,8 @@ class Bundle {
 /// Keeps what a pass is made of, and leads the tangents along.
 class Follower final : public run::RunListener {
  public:
-  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass,
-           sensitivity::StateFlow* flow, modal::ModalMemory& kept)
+  Follower(const Model& model, const RunSpec& run, const PassOptions& leg, OrbitPass& pass,
+           sensitivity::StateFlow* flow, modal::ModalCache& kept)
       : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), share_{&kept, nullptr} {}
 
   /// No peaks: extremes of outputs are sought for themselves.
@@ -183,10 +183,11 @@ class Follower final : public run::RunListener {
   void begin(const run::RunInstant& start) override {
     pass_.begin = pass_.end = orbit_point(start.t, start.after);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-      pass_.held.push_back(!pass_.begin.mode[c].is_open() && slip_sign(pass_.begin.mode[c].state) == 0);
+      pass_.never_slips.push_back(!pass_.begin.states[c].is_open() &&
+                                  slip_sign(pass_.begin.states[c].state) == 0);
     if (!leg_.tangents) return;
     bundle_.emplace(model_, run_, pass_.begin, flow_);
-    bundle_->run().listens_with(share_);
+    bundle_->run().use_shared_modes(share_);
     bundle_->run().begin(start);
   }
   void step(const run::RunStep& step) override {
@@ -196,10 +197,10 @@ class Follower final : public run::RunListener {
     if (bundle_) bundle_->run().instant(instant);
     pass_.end = orbit_point(instant.t, instant.after);
     bool changes = !instant.after.impulses.empty();
-    for (std::size_t c = 0; c < instant.mode_before.size(); ++c)
-      if (instant.mode_before[c].state != instant.after.mode[c].state) {
+    for (std::size_t c = 0; c < instant.states_before.size(); ++c)
+      if (instant.states_before[c].state != instant.after.states[c].state) {
         changes = true;
-        pass_.held[c] = false;
+        pass_.never_slips[c] = false;
       }
     if (changes) pass_.instants.push_back(pass_.end);
   }
@@ -213,10 +214,10 @@ class Follower final : public run::RunListener {
  private:
   const Model& model_;
   const RunSpec& run_;
-  const OrbitLeg& leg_;
+  const PassOptions& leg_;
   OrbitPass& pass_;
   sensitivity::StateFlow* flow_;
-  modal::ModalShare share_;
+  modal::SharedModalData share_;
   std::optional<Bundle> bundle_;
 };
 
@@ -230,7 +231,7 @@ Energy change(const Energy& from, const Energy& to) {
 
 PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder)
     : model_(std::move(model)), run_(run), recorder_(recorder) {
-  model_.machine = {};  // it is in machine units already
+  model_.internal_units = {};  // it is in machine units already
   model_.reaction_sums.clear();
   model_.warnings.clear();
   run_.certify = Certify::no;
@@ -238,17 +239,17 @@ PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder)
   run_.frames.clear();
 }
 
-OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
+OrbitPass PeriodMap::pass(const PassOptions& leg) const {
   OrbitPass pass;
-  Model model = begun_at(model_, leg.start);
+  Model model = with_initial_state(model_, leg.start);
   if (!leg.outputs) model.outputs.clear();
   RunSpec run = run_;
   run.t_end = leg.duration;
-  run.output_dt = leg.duration / leg.places;
+  run.output_dt = leg.duration / leg.samples;
   RunSpec bare = run;  // tangents need no rows
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);
-  if (leg.tangents && model_.size() >= fewest_in_modes && (!flow_ || !flow_->fits(model_)))
+  if (leg.tangents && model_.size() >= min_in_modes && (!flow_ || !flow_->matches(model_)))
     flow_ = sensitivity::modes_uncouple(model_) ? std::make_shared<sensitivity::StateFlow>(model_) : nullptr;
   Follower follower(model, bare, leg, pass, flow_.get(), *memory_);
   const Report report = run::simulate(model, run, recorder, follower, follower.needs());
@@ -256,7 +257,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   pass.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
   pass.response = report.response;
   pass.energy = report.audit.initial.stored();
-  pass.cycle = change(report.audit.initial, report.audit.final);
+  pass.cycle_energy = change(report.audit.initial, report.audit.final);
   recorder.finish();
   if (pass.done()) follower.finish();
   return pass;
@@ -266,7 +267,7 @@ Result PeriodMap::rows(const OrbitState& start, double duration) const {
   RunSpec run = run_;
   run.t_end = duration;
   run.output_dt = duration;
-  Model model = begun_at(model_, start);
+  Model model = with_initial_state(model_, start);
   model.outputs.clear();
   return simulate(model, run);
 }

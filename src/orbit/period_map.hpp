@@ -20,7 +20,7 @@ struct OrbitPass {
   OrbitPoint begin, end;
   std::vector<OrbitPoint> instants;  ///< just after each change of a state in between
   std::vector<Event> events;         ///< without jumps of loads
-  Energy cycle;
+  Energy cycle_energy;
   double energy = 0.0;  ///< stored at the beginning; the scene's units
   /// Half the largest range of displacements, velocities and shears, in scales of the model; 0: at rest. Includes
   /// rotations.
@@ -33,7 +33,7 @@ struct OrbitPass {
   std::vector<OutputExtremes> response;
   /// Minimum over the rows of f_s |N| - T and of f_s |N| + T, one per contact, in scales of the model.
   std::vector<std::array<double, 2>> margins;
-  std::vector<bool> held;  ///< contacts that stayed closed without slip all the time
+  std::vector<bool> never_slips;  ///< contacts that stayed closed without slip all the time
   bool interrupted = false;
 
   [[nodiscard]] bool done() const { return outcome.kind == Outcome::Kind::done; }
@@ -41,15 +41,15 @@ struct OrbitPass {
 
 /// Number of samples of a pass for margins; chosen value: a parabola through three of them has an error of 1e-7 of the
 /// range.
-inline constexpr int places_of_margins = 192;
+inline constexpr int margin_samples = 192;
 
 /// Options of one pass.
-struct OrbitLeg {
+struct PassOptions {
   const OrbitState& start;
   double duration;
   bool tangents = true;
   bool outputs = false;  ///< compute extremes of outputs
-  int places = 24;       ///< number of samples for amplitudes; chosen value: they only scale the residual
+  int samples = 24;      ///< number of samples for amplitudes; chosen value: they only scale the residual
 };
 
 class PeriodMap {
@@ -58,7 +58,7 @@ class PeriodMap {
   PeriodMap(Model model, const RunSpec& run, Recorder* recorder);
 
   [[nodiscard]] const Model& model() const { return model_; }
-  [[nodiscard]] OrbitPass pass(const OrbitLeg& leg) const;
+  [[nodiscard]] OrbitPass pass(const PassOptions& leg) const;
   /// The row at the end, with all previous rows: for last_state().
   [[nodiscard]] Result rows(const OrbitState& start, double duration) const;
   [[nodiscard]] const RunSpec& run() const { return run_; }
@@ -67,14 +67,14 @@ class PeriodMap {
   [[nodiscard]] const std::shared_ptr<sensitivity::StateFlow>& flow() const { return flow_; }
   void take_flow(std::shared_ptr<sensitivity::StateFlow> flow) { flow_ = std::move(flow); }
   /// Shares the mode shapes of contact states among all maps of one search.
-  void share(std::shared_ptr<modal::ModalMemory> memory) { memory_ = std::move(memory); }
+  void share(std::shared_ptr<modal::ModalCache> memory) { memory_ = std::move(memory); }
 
  private:
   Model model_;
   RunSpec run_;
   Recorder* recorder_;
   mutable std::shared_ptr<sensitivity::StateFlow> flow_;
-  std::shared_ptr<modal::ModalMemory> memory_ = std::make_shared<modal::ModalMemory>();
+  std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
 };
 
 }  // namespace signorini::orbit

@@ -49,12 +49,12 @@ std::vector<double> stretches_of(const std::vector<Event>& events, double period
 }
 
 SequenceSearch::SequenceSearch(std::vector<double> at_begin, std::vector<double> at_end, double enough)
-    : enough_(enough), doubt_(first_doubt) {
+    : enough_(enough), guess_error_(first_doubt) {
   sides_[0].push_back({0.0, std::move(at_begin)});
   sides_[1].push_back({1.0, std::move(at_end)});
 }
 
-void SequenceSearch::see(double x, bool as_at_begin, std::vector<double> stretches) {
+void SequenceSearch::update(double x, bool as_at_begin, std::vector<double> stretches) {
   const std::size_t side = as_at_begin ? 0 : 1;
   bounds_[side] = x;
   std::vector<Place>& places = sides_[side];
@@ -98,11 +98,11 @@ double SequenceSearch::next() {
   const std::optional<Guess> before = std::exchange(guess_, guess);
   if (!guess) return middle;
   // The error of the last guess relative to its distance; this one has a shorter distance.
-  if (!before) doubt_ = first_doubt;
+  if (!before) guess_error_ = first_doubt;
   if (before && before->x != guess->x)
-    doubt_ =
+    guess_error_ =
         std::clamp(std::abs((guess->x - before->x) / (guess->x - before->from)), least_doubt, greatest_doubt);
-  const double by = std::max(doubt_ * std::abs(guess->x - guess->from), 0.5 * enough_);
+  const double by = std::max(guess_error_ * std::abs(guess->x - guess->from), 0.5 * enough_);
   const double x = high() - guess->x > guess->x - low() ? guess->x + by : guess->x - by;
   return x > low() && x < high() ? x : middle;
 }

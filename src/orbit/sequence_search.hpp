@@ -34,7 +34,7 @@ class SequenceSearch {
   /// The place to try next.
   [[nodiscard]] double next();
   /// Enters the result at x: whether its sequence is that of the beginning, and its stretches; empty: unknown.
-  void see(double x, bool as_at_begin, std::vector<double> stretches);
+  void update(double x, bool as_at_begin, std::vector<double> stretches);
   [[nodiscard]] double low() const { return bounds_[0]; }
   [[nodiscard]] double high() const { return bounds_[1]; }
 
@@ -52,7 +52,7 @@ class SequenceSearch {
   std::array<std::vector<Place>, 2> sides_;  // as at the beginning; as at the end. The last one is the
                                              // nearest
   std::optional<Guess> guess_;               // the last guess
-  double enough_, doubt_;  // doubt: error of a guess, relative to its distance from the nearest place
+  double enough_, guess_error_;  // doubt: error of a guess, relative to its distance from the nearest place
 };
 
 }  // namespace signorini::orbit

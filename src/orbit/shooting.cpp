@@ -11,7 +11,7 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr int most_steps = 30, most_halvings = 6;
+constexpr int max_steps = 30, max_halvings = 6;
 // Number of successive steps that do not halve the residual after which Newton's method stagnates. Chosen value.
 constexpr std::size_t patience = 8;
 constexpr double reached = 1e-2;  // relative to the tolerance: no further step below it
@@ -59,18 +59,18 @@ Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStar
     A.row(all).head(n) = energy_slope(model, pass, section).transpose() / *start.energy;
     b[all] = (*start.energy - pass.energy) / *start.energy;
   }
-  return base::shortest_solution(A, b, least, phi.norm());
+  return base::min_norm_solution(A, b, least, phi.norm());
 }
 
 /// One step, halved until the residual decreases; trials are computed without tangents, which cost far more than a run.
 /// False: it does not decrease, or rounding is reached.
-bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot, double least) {
+bool damped_step(const PeriodMap& map, const ShootingStart& start, ShootingResult& shot, double least) {
   const Model& model = map.model();
   const OrbitSection section(model, shot.pass.begin);
   const Vector x = newton_step(model, shot.pass, start, least);
   const OrbitState from = orbit_state(shot.pass.begin);
   double part = 1.0;
-  for (int h = 0; h <= most_halvings; ++h, part *= 0.5) {
+  for (int h = 0; h <= max_halvings; ++h, part *= 0.5) {
     OrbitState state = section.moved(from, part * x.head(section.size()));
     const double duration = shot.duration + (start.free_period ? part * x[section.size()] : 0.0);
     if (!(duration > 0.1 * start.duration && duration < 10.0 * start.duration)) continue;
@@ -127,7 +127,7 @@ namespace {
 double shears_left_out(const Model& model, const OrbitPass& pass) {
   double worst = 0.0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    if (!model.contacts[c].tangential_stiffness || pass.end.mode[c].state != State::stick) continue;
+    if (!model.contacts[c].tangential_stiffness || pass.end.states[c].state != State::stick) continue;
     const auto T = static_cast<Eigen::Index>(model.layout.tangent(c));
     worst = std::max(worst, std::abs(pass.end.forces[T] - pass.begin.forces[T]));
   }
@@ -170,11 +170,11 @@ Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass) {
 namespace {
 
 /// True if the remaining residual is the noise of the map.
-bool is_noise(const PeriodMap& map, const Shot& shot) {
-  if (shot.residual > of_noise_at_last * greatest_noise || shot.pass.end_rates.size() == 0) return false;
+bool is_noise(const PeriodMap& map, const ShootingResult& shot) {
+  if (shot.residual > accepted_noise_factor * max_noise || shot.pass.end_rates.size() == 0) return false;
   const OrbitPass next = map.pass({orbit_state(shot.pass.end), shot.duration, false});
   const std::optional<double> noise = map_noise(map.model(), shot.pass, next);
-  return noise && shot.residual <= of_noise_at_last * std::min(*noise, greatest_noise);
+  return noise && shot.residual <= accepted_noise_factor * std::min(*noise, max_noise);
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ bool is_noise(const PeriodMap& map, const Shot& shot) {
 namespace {
 
 /// A pass from the final state, with tangents. False: it stops, or is interrupted.
-bool run_period(const PeriodMap& map, Shot& shot) {
+bool run_period(const PeriodMap& map, ShootingResult& shot) {
   shot.pass = map.pass({shot.state, shot.duration});
   if (shot.pass.done()) return true;
   shot.interrupted = shot.pass.interrupted;
@@ -192,13 +192,13 @@ bool run_period(const PeriodMap& map, Shot& shot) {
 
 }  // namespace
 
-Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
+ShootingResult shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
   const Model& model = map.model();
-  Shot shot{false, "", false, start.state, start.duration, 0.0, {}, {}};
+  ShootingResult shot{false, "", false, start.state, start.duration, 0.0, {}, {}};
   if (!run_period(map, shot)) return shot;
   shot.residual = residual_to(model, start, shot.pass);
   bool decreased = true;
-  while (decreased && static_cast<int>(shot.steps.size()) < most_steps) {
+  while (decreased && static_cast<int>(shot.steps.size()) < max_steps) {
     if (!shot.pass.reason.empty()) {
       shot.reason = "the state after one period has no derivative: " + shot.pass.reason;
       return shot;

@@ -26,7 +26,7 @@ struct ShootingStart {
 };
 
 /// Result of the iteration.
-struct Shot {
+struct ShootingResult {
   bool closed = false;
   std::string reason;  ///< reason for a failure
   bool interrupted = false;
@@ -49,7 +49,7 @@ struct Shot {
                                               const OrbitPass& second);
 /// An orbit is accepted if its residual is at most this multiple of the noise, since a residual is a difference of two
 /// states. No larger noise is accepted. Chosen values.
-inline constexpr double of_noise_at_last = 10.0, greatest_noise = 1e-6;
+inline constexpr double accepted_noise_factor = 10.0, max_noise = 1e-6;
 
 /// dE/dz B, in the scene's units.
 [[nodiscard]] Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section);
@@ -57,6 +57,6 @@ inline constexpr double of_noise_at_last = 10.0, greatest_noise = 1e-6;
 /// B^T Phi B of a pass with tangents.
 [[nodiscard]] Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass);
 
-[[nodiscard]] Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance);
+[[nodiscard]] ShootingResult shoot(const PeriodMap& map, const ShootingStart& start, double tolerance);
 
 }  // namespace signorini::orbit

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "orbit/branch_walk.hpp"
+#include "orbit/branch_continuation.hpp"
 #include "orbit/sequence_search.hpp"
 
 namespace signorini::orbit {
 namespace {
 
-constexpr int most_places = 20;         // limit for a search
+constexpr int max_places = 20;          // limit for a search
 constexpr double sharp_enough = 1e-10;  // limit for a test function; chosen value
 constexpr double real_enough = 1e-12;   // imaginary part of a real multiplier: rounding
 
@@ -41,7 +41,7 @@ std::optional<double> root_between(double a, double b,
                                    const std::function<std::optional<double>(double)>& f) {
   double lo = 0.0, hi = 1.0;
   int side = 0;
-  for (int i = 0; i < most_places; ++i) {
+  for (int i = 0; i < max_places; ++i) {
     const double x = lo + (hi - lo) * a / (a - b);
     const std::optional<double> y = f(x);
     if (!y) return std::nullopt;
@@ -80,10 +80,10 @@ constexpr double rounded = 1e-9;  // relative to the largest step: above the rou
 
 constexpr const char* other_branch = "other branch";
 
-BranchPlace place_of(const Corrected& at) { return {at.pass.begin, at.state.duration, at.state.s}; }
+SecantPoint place_of(const CorrectedPoint& at) { return {at.pass.begin, at.state.duration, at.state.s}; }
 
 /// An event at the section may be counted twice, or not at all.
-bool event_at_section(const Corrected& at) {
+bool event_at_section(const CorrectedPoint& at) {
   const double T = at.state.duration;
   return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
     return p.t < beside_section * T || p.t > (1.0 - beside_section) * T;
@@ -93,22 +93,25 @@ bool event_at_section(const Corrected& at) {
 }  // namespace
 
 /// Place where a test function is zero on the step from here to next.
-std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, const Corrected& here,
-                                                       const Corrected& next, const Vector& t,
-                                                       double ds) const {
+std::optional<BranchContinuation::LocatedPoint> BranchContinuation::zero_of(const SpecialKind& kind,
+                                                                            const CorrectedPoint& here,
+                                                                            const CorrectedPoint& next,
+                                                                            const Vector& t,
+                                                                            double ds) const {
   const double a = here.tests.*kind.value, b = next.tests.*kind.value;
   if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
   if (kind.value == &TestValues::branch && turns) return std::nullopt;  // a fold causes this
-  Located point{0.0, kind.name, {}, {}};
+  LocatedPoint point{0.0, kind.name, {}, {}};
   const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
-    Corrected c = newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.by_s);
+    CorrectedPoint c =
+        newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.derivative_by_s);
     if (!c.done) return std::nullopt;
     point.t = newton_.examine(c, t, here.ones);
     point.at = std::move(c);
     return point.at.tests.*kind.value;
   });
-  if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
+  if (!part || !(std::abs(point.at.tests.*kind.value) <= location_tolerance)) return std::nullopt;
   point.part = *part;
   // Where two branches cross, every direction in their plane is a tangent; the way from here to next is this branch's.
   if (kind.value == &TestValues::branch)
@@ -117,26 +120,27 @@ std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, 
 }
 
 /// The last point with the sequence of `here`; kind: other_branch if the next one is not connected to it.
-std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
-                                                               const Vector& t, double ds) const {
+std::optional<BranchContinuation::LocatedPoint> BranchContinuation::end_of_sequence(
+    const CorrectedPoint& here, const CorrectedPoint& next, const Vector& t, double ds) const {
   const std::string sequence = sequence_of(here.pass);
   if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
-  Located point{0.0, "sequence", {}, {}};
+  LocatedPoint point{0.0, "sequence", {}, {}};
   bool seen = true;  // a different sequence at the end of the interval, not a failure
-  const auto stretches = [&](const Corrected& c) {
+  const auto stretches = [&](const CorrectedPoint& c) {
     return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
   };
   const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
   SequenceSearch search(stretches(here), stretches(next), enough / ds);
   Vector way = ds * t;  // a step in x along the last direction found
   std::string beyond = sequence_of(next.pass);
-  BranchPlace other = place_of(next);  // the nearest orbit with a different sequence
+  SecantPoint other = place_of(next);  // the nearest orbit with a different sequence
   while (!search.done()) {
     const double x = search.next();
-    const Corrected& from = point.at.done ? point.at : here;
-    Corrected c = newton_.correct(newton_.moved(from.state, from.pass, (x - point.part) * way), t, from.by_s);
+    const CorrectedPoint& from = point.at.done ? point.at : here;
+    CorrectedPoint c = newton_.correct(newton_.moved(from.state, from.pass, (x - point.part) * way), t,
+                                       from.derivative_by_s);
     const bool same = c.done && sequence_of(c.pass) == sequence;
-    search.see(x, same, c.done ? stretches(c) : std::vector<double>());
+    search.update(x, same, c.done ? stretches(c) : std::vector<double>());
     if (!same) {
       seen = c.done;
       if (seen) other = place_of(c);
@@ -147,7 +151,8 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
       continue;
     }
     const auto secant = newton_.secant({from.pass.begin, from.state.duration, from.state.s}, c);
-    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > alike) way = ds / part * *secant;
+    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > same_direction_cosine)
+      way = ds / part * *secant;
     point.part = x;
     point.at = std::move(c);
   }
@@ -167,21 +172,22 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
 /// True if the parameter turns on a step without a located fold, or a multiplier passes 1 without a turn and without a
 /// place where it is 1. Both are continuous as long as the sequence of events does not change, so the next orbit then
 /// belongs to another branch, as behind a fold.
-bool BranchWalk::changes_unseen(const Corrected& here, const Corrected& next,
-                                const std::vector<Located>& points) const {
+bool BranchContinuation::changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
+                                        const std::vector<LocatedPoint>& points) const {
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
   if (!turns && (here.tests.branch < 0.0) == (next.tests.branch < 0.0)) return false;
-  const auto seen = [&](const Located& p) { return p.kind == (turns ? "fold" : "branch point"); };
+  const auto seen = [&](const LocatedPoint& p) { return p.kind == (turns ? "fold" : "branch point"); };
   return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
 }
 
 /// True if the way from one point to another differs from the branch's direction at the first one, `before`, or,
 /// onward, at the second one. Where fast mode shapes rotate the tangent, it is no direction of the branch.
-bool BranchWalk::bends(const BranchPlace& from, Corrected& to, const Vector* before, bool onward) const {
+bool BranchContinuation::bends(const SecantPoint& from, CorrectedPoint& to, const Vector* before,
+                               bool onward) const {
   const std::optional<Vector> secant = newton_.secant(from, to);
   if (!secant) return false;
   const auto differs = [&](const Vector& direction) {
-    return newton_.split(to, *secant).across.dot(newton_.split(to, direction).across) < alike;
+    return newton_.split(to, *secant).across.dot(newton_.split(to, direction).across) < same_direction_cosine;
   };
   if (before != nullptr && before->size() == secant->size() && differs(*before)) return true;
   return onward && !turning_ && differs(newton_.examine(to, *secant));
@@ -189,8 +195,8 @@ bool BranchWalk::bends(const BranchPlace& from, Corrected& to, const Vector* bef
 
 /// True if the branch turns on the step by more than its points show: another part of it, or another branch, could lie
 /// between. At a change of the sequence it may have a corner.
-bool BranchWalk::too_long(const Corrected& here, Corrected& next, const Vector& t, double length,
-                          std::vector<Located>& points) const {
+bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& next, const Vector& t,
+                                  double length, std::vector<LocatedPoint>& points) const {
   if (length <= shortest_doubted) return false;
   if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
   if (sequence_of(here.pass) == sequence_of(next.pass)) {
@@ -200,12 +206,12 @@ bool BranchWalk::too_long(const Corrected& here, Corrected& next, const Vector& 
     return bends(place_of(here), next, &t, true);
   }
   const auto change =
-      std::find_if(points.begin(), points.end(), [](const Located& p) { return p.kind == "sequence"; });
+      std::find_if(points.begin(), points.end(), [](const LocatedPoint& p) { return p.kind == "sequence"; });
   if (change == points.end()) return bends(place_of(here), next, &t, true);
   const auto doubted = [&](double part) { return part * length > shortest_doubted; };
   if (doubted(change->part) && bends(place_of(here), change->at, &t, false)) return true;
   if (!doubted(1.0 - change->part)) return false;
-  const auto folds = [](const Located& p) { return p.kind == "fold"; };
+  const auto folds = [](const LocatedPoint& p) { return p.kind == "fold"; };
   const double there = next.state.s - change->at.state.s;  // a fold just behind the corner, or at it?
   if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
   return bends(place_of(change->at), next, nullptr, true);
@@ -213,15 +219,16 @@ bool BranchWalk::too_long(const Corrected& here, Corrected& next, const Vector& 
 
 /// Special points of the step. If Newton's method has changed to another branch on the way, next becomes the last orbit
 /// of this one, and length is reduced.
-std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corrected& next, const Vector& t,
-                                                     double& length) {
-  std::vector<Located> all;
-  std::optional<Located> change = end_of_sequence(here, next, t, length);
+std::vector<BranchContinuation::LocatedPoint> BranchContinuation::located(const CorrectedPoint& here,
+                                                                          CorrectedPoint& next,
+                                                                          const Vector& t, double& length) {
+  std::vector<LocatedPoint> all;
+  std::optional<LocatedPoint> change = end_of_sequence(here, next, t, length);
   if (change && change->kind == other_branch) {
     const double part = change->part;
     next = std::move(change->at);
     change.reset();
-    next.done = next.done && ++jumps_ < most_jumps;
+    next.done = next.done && ++jumps_ < max_jumps;
     if (!next.done) {
       next.reason = "Newton's method ends at another branch";
       return all;
@@ -231,12 +238,12 @@ std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corr
   } else {
     jumps_ = 0;
   }
-  const auto take = [&](std::optional<Located> point) {
+  const auto take = [&](std::optional<LocatedPoint> point) {
     if (point) all.push_back(std::move(*point));
   };
   for (const SpecialKind& kind : special_kinds) {
     // Just before a graze a test function may pass zero and jump at the graze: the part before is searched separately.
-    std::optional<Located> zero =
+    std::optional<LocatedPoint> zero =
         change ? zero_of(kind, here, change->at, t, change->part * length) : std::nullopt;
     if (zero) zero->part *= change->part;
     take(zero ? std::move(zero) : zero_of(kind, here, next, t, length));
@@ -248,15 +255,17 @@ std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, Corr
     return {};
   }
   take(std::move(change));
-  std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
+  std::sort(all.begin(), all.end(),
+            [](const LocatedPoint& a, const LocatedPoint& b) { return a.part < b.part; });
   return all;
 }
 
 /// Same; next is rejected if the step is too long to know the points between.
-std::vector<BranchWalk::Located> BranchWalk::between(const Corrected& here, Corrected& next, const Vector& t,
-                                                     double& length) {
+std::vector<BranchContinuation::LocatedPoint> BranchContinuation::between(const CorrectedPoint& here,
+                                                                          CorrectedPoint& next,
+                                                                          const Vector& t, double& length) {
   newton_.examine(next, t);
-  std::vector<Located> points = located(here, next, t, length);
+  std::vector<LocatedPoint> points = located(here, next, t, length);
   if (next.done && too_long(here, next, t, length, points)) {
     next.done = false;
     next.reason = "the branch turns within a step";
@@ -267,11 +276,12 @@ std::vector<BranchWalk::Located> BranchWalk::between(const Corrected& here, Corr
 /// Adds the special points between here and next, in their order. A step crosses one change of the sequence; if more
 /// follow, next becomes a place before the second one. Returns the place that determines the direction at next, with
 /// the same sequence; nullopt: the caller wants to stop.
-std::optional<BranchPlace> BranchWalk::cross(std::vector<Located> points, const Corrected& here,
-                                             Corrected& next, const Vector& t, double& length) {
-  BranchPlace place = place_of(here);
+std::optional<SecantPoint> BranchContinuation::cross(std::vector<LocatedPoint> points,
+                                                     const CorrectedPoint& here, CorrectedPoint& next,
+                                                     const Vector& t, double& length) {
+  SecantPoint place = place_of(here);
   const auto change =
-      std::find_if(points.begin(), points.end(), [](const Located& p) { return p.kind == "sequence"; });
+      std::find_if(points.begin(), points.end(), [](const LocatedPoint& p) { return p.kind == "sequence"; });
   double end = 1.0;
   if (change != points.end()) {
     if (change->behind) {
@@ -282,7 +292,7 @@ std::optional<BranchPlace> BranchWalk::cross(std::vector<Located> points, const 
     if ((end - change->part) * length >= parts_apart * shortest_part) place = place_of(change->at);
   }
   folds_ = true;
-  for (const Located& point : points) {
+  for (const LocatedPoint& point : points) {
     if (point.part > end) break;
     if (point.kind == "fold") folds_ = false;
     if (!add(point.at, point.kind)) return std::nullopt;
@@ -292,7 +302,7 @@ std::optional<BranchPlace> BranchWalk::cross(std::vector<Located> points, const 
   return place;
 }
 
-void BranchWalk::keep_junction(const Located& point) {
+void BranchContinuation::keep_junction(const LocatedPoint& point) {
   if (generation_ >= options_.switches) return;
   const auto keep = [&](BranchMap map, const Vector& away) {
     junctions_.push_back({std::move(map), point.at, away, point.kind, number_, generation_ + 1});

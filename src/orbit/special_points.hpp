@@ -31,7 +31,7 @@ inline constexpr std::array special_kinds{SpecialKind{"fold", &TestValues::fold}
 
 /// Limit of a multiplier's distance from the unit circle, or of |t_s|, for a located zero of a test function. A
 /// function that jumps over zero, as where a pair meets on the real axis, has no zero.
-inline constexpr double located_to = 1e-6;
+inline constexpr double location_tolerance = 1e-6;
 
 /// ones: number of structural multipliers 1; along: t_s; error: of a multiplier's distance from the unit circle.
 /// Multipliers within this error count as inside, so that rounding alone changes no sign.

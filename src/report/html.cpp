@@ -111,7 +111,7 @@ std::string csv_table(const fs::path& file, std::size_t most, const std::vector<
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto value = base::parse_number(cells[i]);
       // Rounding relative to the other values of its column is shown as 0.
-      if (value && std::abs(*value) <= rounding::of_elimination * greatest[i]) cells[i] = "0";
+      if (value && std::abs(*value) <= rounding::elimination * greatest[i]) cells[i] = "0";
       cells[i] = short_number(cells[i], header[i] == "t" ? 11 : 6);
     }
     rows += table_row(cells, "td");
@@ -135,7 +135,7 @@ std::string section(const std::string& id, const std::string& heading, const std
                      body);
 }
 
-std::string fill_in(std::string_view page, const std::vector<Insertion>& values) {
+std::string fill_template(std::string_view page, const std::vector<Insertion>& values) {
   std::string result;
   for (std::size_t at = 0; at < page.size();) {
     const auto here = std::find_if(values.begin(), values.end(), [&](const Insertion& value) {

@@ -36,6 +36,6 @@ namespace signorini::report {
 struct Insertion {
   std::string name, value;
 };
-[[nodiscard]] std::string fill_in(std::string_view page, const std::vector<Insertion>& values);
+[[nodiscard]] std::string fill_template(std::string_view page, const std::vector<Insertion>& values);
 
 }  // namespace signorini::report

@@ -52,7 +52,8 @@ void clear_rounding(std::vector<Figure>& figures, const std::string& unit) {
   for (const Figure& f : figures)
     if (f.unit == unit && f.value) greatest = std::max(greatest, std::abs(*f.value));
   for (Figure& f : figures)
-    if (f.unit == unit && f.value && std::abs(*f.value) <= rounding::of_many * greatest) f.value = 0.0;
+    if (f.unit == unit && f.value && std::abs(*f.value) <= rounding::many_operations * greatest)
+      f.value = 0.0;
 }
 
 std::vector<Figure> support_figures(const base::Json& summary) {
@@ -127,7 +128,7 @@ std::string cell(const std::optional<double>& value) {
 
 /// Cell with a time that the player can jump to.
 std::string time_cell(const std::optional<double>& t) {
-  return t ? fmt::format("<td class=n data-t=\"{}\">{:.5g}</td>", base::shortest(*t), *t) : "<td></td>";
+  return t ? fmt::format("<td class=n data-t=\"{}\">{:.5g}</td>", base::format_number(*t), *t) : "<td></td>";
 }
 
 std::string table(const std::string& head, const std::string& rows) {
@@ -345,8 +346,8 @@ std::string load_cases_csv(const std::vector<LoadCase>& cases) {
   for (const CaseRow& row : case_rows(cases)) {
     std::vector<std::string> cells{row.of.item, row.of.quantity, row.of.unit};
     for (const auto& figure : row.values) {
-      cells.push_back(figure && figure->value ? base::shortest(*figure->value) : "");
-      cells.push_back(figure && figure->t ? base::shortest(*figure->t) : "");
+      cells.push_back(figure && figure->value ? base::format_number(*figure->value) : "");
+      cells.push_back(figure && figure->t ? base::format_number(*figure->t) : "");
     }
     const int best = governing(cases, row);
     cells.push_back(best < 0 ? "" : cases[static_cast<std::size_t>(best)].name);

@@ -17,13 +17,15 @@ namespace {
 
 constexpr int parts = 10;  // segments of a bent line
 
-base::Json row_of(double s, const element::LineShapes& h) { return {s, h.a, h.turn_a, h.b, h.turn_b}; }
+base::Json row_of(double s, const element::LineShapes& h) {
+  return {s, h.a, h.rotation_a, h.b, h.rotation_b};
+}
 
 base::Json rows_of(int count, bool hinged_a, bool hinged_b) {
   base::Json rows = base::Json::array();
   for (int i = 0; i <= count; ++i) {
     const double s = static_cast<double>(i) / count;
-    rows.push_back(row_of(s, element::cubic_at(s, hinged_a, hinged_b)));
+    rows.push_back(row_of(s, element::hermite_shapes(s, hinged_a, hinged_b)));
   }
   return rows;
 }
@@ -67,7 +69,7 @@ namespace {
 
 constexpr double accuracy =
     1e-3;  // relative to the largest displacement: a quarter of a pixel if that is an eighth of 2000 pixels
-constexpr std::size_t most_on_page = 120'000;  // numbers: about 0.8 MB
+constexpr std::size_t max_on_page = 120'000;  // numbers: about 0.8 MB
 
 base::Json digits(double value, int count) {
   return std::isfinite(value) ? base::Json(std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr))
@@ -76,7 +78,7 @@ base::Json digits(double value, int count) {
 
 }  // namespace
 
-void split_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMotion& motion) {
+void decompose_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMotion& motion) {
   motion.greatest = displacements.size() > 0 ? displacements.cwiseAbs().maxCoeff() : 0.0;
   const Eigen::Index n = displacements.rows(), times = displacements.cols();
   motion.shapes.resize(n, 0);
@@ -119,9 +121,10 @@ MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& director
     for (const std::size_t column : columns)
       for (const std::size_t axis : {0U, 1U}) values.push_back(reader.number(column + axis));
   }
-  split_motion(Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(2 * columns.size()),
-                                                 static_cast<Eigen::Index>(motion.times.size())),
-               most_on_page, motion);
+  decompose_motion(
+      Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(2 * columns.size()),
+                                        static_cast<Eigen::Index>(motion.times.size())),
+      max_on_page, motion);
   return motion;
 }
 

@@ -18,7 +18,7 @@ namespace signorini::report {
 
 // Data for drawing members between named nodes, for the page and ParaView.
 //
-//   shapes[k]  rows s, a, turn_a, b, turn_b:  v(s) = a v_a + b v_b + L (turn_a rz_a + turn_b rz_b) across, linear along
+//   shapes[k]  rows s, a, rotation_a, b, rotation_b:  v(s) = a v_a + b v_b + L (rotation_a rz_a + rotation_b rz_b) across, linear along
 //
 // k: 0 straight, 1 bent, 2 bent and hinged at a, 3 hinged at b. Page and ParaView know the shape functions only from
 // these rows.
@@ -45,7 +45,7 @@ struct MeshMotion {
 };
 
 /// Decomposes displacements (2 nodes x times); most: limit for the entries of shapes and parts together.
-void split_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMotion& motion);
+void decompose_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMotion& motion);
 
 /// Result without nodes if the directory has no body_motion.csv. Errors: FileError.
 [[nodiscard]] MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& directory);

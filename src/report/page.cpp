@@ -13,8 +13,8 @@
 #include "base/version.hpp"
 #include "report/html.hpp"
 #include "report/load_cases.hpp"
-#include "report/picture.hpp"
 #include "report/run_data.hpp"
+#include "report/svg_figures.hpp"
 #include "result/csv.hpp"
 #include "result/summary_parts.hpp"
 #include "signorini/error.hpp"
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_rows = 2000;  // limit for a table on the page
+constexpr std::size_t max_rows = 2000;  // limit for a table on the page
 
 struct Kind {
   const char *marker, *name;
@@ -85,14 +85,14 @@ std::string preformatted(const std::string& text) {
 
 std::string page(const std::string& title, const std::string& kind, const std::string& body,
                  const std::string& data) {
-  return fill_in(part("page.html"),
-                 {{"title", html_text(title)},
-                  {"kind", html_text(kind)},
-                  {"style", part("style.css")},
-                  {"body", body},
-                  {"data", data},
-                  {"script", part("stage.js") + part("player.js") + part("charts.js") + part("filters.js")},
-                  {"version", html_text(version)}});
+  return fill_template(part("page.html"), {{"title", html_text(title)},
+                                           {"kind", html_text(kind)},
+                                           {"style", part("style.css")},
+                                           {"body", body},
+                                           {"data", data},
+                                           {"script", part("stage.js") + part("player.js") +
+                                                          part("charts.js") + part("filters.js")},
+                                           {"version", html_text(version)}});
 }
 
 std::string outcome_text(const base::Json& summary) {
@@ -146,7 +146,7 @@ std::string event_table(const fs::path& file, const Units& units) {
   for (const EventColumn& column : event_columns)
     of_columns[column.name] = result::unit_in_words(column.unit, units);
   of_columns["t_error"] = result::unit_in_words("time", units);
-  const std::string table = csv_table(file, most_rows, columns, of_columns);
+  const std::string table = csv_table(file, max_rows, columns, of_columns);
   return table.empty() ? ""
                        : table +
                              "<p class=hint>N and T are those just before the event. events.csv has rates, "
@@ -252,7 +252,7 @@ std::string kind_of_results(const fs::path& directory) {
   for (const Kind& kind : kinds) {
     const fs::path marker = directory / kind.marker;
     if (fs::is_regular_file(marker, error)) return kind.name;
-    if (const std::string why = base::why_no_input_file(marker); !why.empty())
+    if (const std::string why = base::input_file_error(marker); !why.empty())
       throw FileError(marker.string(), why + ", expected a file");
   }
   throw FileError(
@@ -303,7 +303,7 @@ std::string results_page(const fs::path& directory) {
   for (const char* table :
        {"runs.csv", "differences.csv", "columns.csv", "figures.csv", "sensitivities.csv", "spread.csv",
         "residuals.csv", "events.csv", "study.csv", "sweep.csv", "branch.csv"})
-    body += section(fs::path(table).stem().string(), table, csv_table(directory / table, most_rows));
+    body += section(fs::path(table).stem().string(), table, csv_table(directory / table, max_rows));
   body += section("pictures", "Pictures",
                   pictures(directory, "running the command again with gnuplot on PATH", body.size()));
   body += section("facts", marker, preformatted(base::json_text(json)));

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 #include "report/mesh_motion.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_values = 60'000;  // limit for displacements on a page: a megabyte with their times
-constexpr std::size_t most_motion = 16'000;  // limit for rows of contacts
-constexpr std::size_t most_events = 5'000;
+constexpr std::size_t max_motion = 16'000;   // limit for rows of contacts
+constexpr std::size_t max_events = 5'000;
 
 double rounded(double value, int digits) {
   return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
@@ -105,7 +105,7 @@ Displacements each(const fs::path& file, const std::vector<std::string>& names, 
   for (const std::string& column : names) {
     const auto found = points.find(column);
     if (found == points.end()) return {};
-    base::Downsampled<CurvePoint, 1, ValueOf> thinned(t_end, {.most = most, .crowded = true});
+    base::Downsampled<CurvePoint, 1, ValueOf> thinned(t_end, {.max_rows = most, .crowded = true});
     for (const CurvePoint& point : found->second) thinned.add(point);
     all.names.push_back(column);
     all.curves.push_back({all.times.size(), {}});
@@ -323,7 +323,7 @@ std::map<std::string, std::vector<ContactRow>> read_motion(const fs::path& direc
 }
 
 base::Json motion_json(const std::vector<ContactRow>& rows, std::size_t most, double t_end) {
-  base::Downsampled<ContactRow, 4, DrawnOf, 3> thinned(t_end, {.most = most, .crowded = true});
+  base::Downsampled<ContactRow, 4, DrawnOf, 3> thinned(t_end, {.max_rows = most, .crowded = true});
   for (const ContactRow& row : rows) thinned.add(row);
   base::Json t = base::Json::array(), state = base::Json::array(), N = base::Json::array(),
              T = base::Json::array(), gap = base::Json::array();
@@ -350,7 +350,7 @@ base::Json contacts_json(const Scene& scene, const Places& places, const fs::pat
     base::Json json = contact_json(contact, scene, places);
     const auto found = motions.find(contact.name);
     const std::vector<ContactRow> motion = found == motions.end() ? std::vector<ContactRow>{} : found->second;
-    const std::size_t share = rows <= most_motion ? motion.size() : motion.size() * most_motion / rows;
+    const std::size_t share = rows <= max_motion ? motion.size() : motion.size() * max_motion / rows;
     json["motion"] = motion_json(motion, std::max<std::size_t>(share, 200), scene.run.t_end);
     contacts.push_back(std::move(json));
   }
@@ -365,7 +365,7 @@ base::Json events_json(const Scene& scene, const fs::path& directory) {
   const std::size_t t = reader.column("t"), contact_column = reader.column("contact"),
                     event = reader.column("event"), from = reader.column("from"), to = reader.column("to");
   base::Json events = base::Json::array();
-  while (reader.next() && events.size() < most_events) {
+  while (reader.next() && events.size() < max_events) {
     const auto found = index.find(reader.cell(contact_column));
     events.push_back({reader.number(t), found == index.end() ? -1 : found->second, reader.cell(event),
                       reader.cell(from), reader.cell(to)});

@@ -100,7 +100,7 @@ void BodyFrameWriter::write(const Sample& sample) {
     if (beta_ != 0.0) strained += beta_ * of_body(body, sample, 1);
     const Vector stresses = stresses_[i] * strained;
     const double strain = strains_[i].value(sample.t);
-    const Eigen::Vector3d heat = strain * element::stress_of_heat(body);
+    const Eigen::Vector3d heat = strain * element::thermal_stress(body);
     for (std::size_t k = 0; k < body.node_count; ++k) {
       const auto at = static_cast<Eigen::Index>(k);
       const Eigen::Vector3d stress = stresses.segment<3>(3 * at) + heat;
@@ -109,7 +109,7 @@ void BodyFrameWriter::write(const Sample& sample) {
                    scene_.nodes[body.first_node + k],
                    {u[2 * at], u[2 * at + 1]},
                    stress,
-                   element::mises(body, stress, strain)});
+                   element::von_mises_stress(body, stress, strain)});
     }
   }
   bodies_.flush();
@@ -122,7 +122,7 @@ BodyMotionFile::BodyMotionFile(const Scene& scene, const Model& model)
     : scene_(scene), nodes_(scene::drawn_mesh_nodes(scene)), movers_(scene, model) {
   if (nodes_.empty()) return;
   const std::size_t times = scene.run.grid().size();
-  const std::size_t wanted = std::clamp(most_values / (2 * nodes_.size()), fewest_times, most_times);
+  const std::size_t wanted = std::clamp(max_values / (2 * nodes_.size()), min_times, max_times);
   every_ = std::max<std::size_t>(1, (times + wanted - 2) / wanted);
 }
 

@@ -57,7 +57,7 @@ class BodyFrameWriter {
 
   const Scene& scene_;
   double beta_;
-  NodeMovers movers_;
+  NodeDisplacements movers_;
   std::vector<History> strains_;  ///< per body: alpha T
   std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> stresses_;
   TableFile<BodyFrameRow> bodies_;
@@ -69,12 +69,12 @@ class BodyFrameWriter {
 //   t, NODE.ux, NODE.uy, ...     every k-th output time, the first and the last; drawn nodes only
 // (scene/outlines.hpp)
 //
-// k is the smallest value for which the table has at most most_values numbers, but it has at least fewest_times rows if
+// k is the smallest value for which the table has at most most_values numbers, but it has at least min_times rows if
 // there are as many output times. Numbers have six digits.
 
 class BodyMotionFile {
  public:
-  static constexpr std::size_t most_values = 400'000, fewest_times = 25, most_times = 250;
+  static constexpr std::size_t max_values = 400'000, min_times = 25, max_times = 250;
 
   /// Stores nothing for a scene without bodies.
   BodyMotionFile(const Scene& scene, const Model& model);
@@ -88,7 +88,7 @@ class BodyMotionFile {
 
   const Scene& scene_;
   std::vector<int> nodes_;
-  NodeMovers movers_;
+  NodeDisplacements movers_;
   std::size_t every_ = 1, count_ = 0;
   std::vector<std::vector<double>> rows_;  ///< t, then displacements
   std::vector<double> last_;               ///< the last row, not yet in rows_

@@ -27,7 +27,7 @@ void CsvBlock::separate() {
 
 CsvBlock& CsvBlock::number(double value) {
   separate();
-  text_ += base::shortest(value + 0.0);  // no negative zero
+  text_ += base::format_number(value + 0.0);  // no negative zero
   return *this;
 }
 
@@ -116,11 +116,11 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 }
 
 CsvReader::CsvReader(const std::filesystem::path& path, LastLine last) : path_(path), last_(last) {
-  if (const std::string why = base::why_no_input_file(path); !why.empty())
+  if (const std::string why = base::input_file_error(path); !why.empty())
     throw FileError(path.string(), why + ", expected a file");
   errno = 0;
   file_.open(path, std::ios::binary);
-  if (!file_) throw FileError(path.string(), "cannot be read" + base::because(errno));
+  if (!file_) throw FileError(path.string(), "cannot be read" + base::system_error_text(errno));
   if (!base::read_csv_row(file_, header_) && (header_.empty() || last_ == LastLine::cut))
     throw FileError(path.string(), header_.empty() ? "is empty; expected a header row"
                                                    : "line 1: found no line break, expected a header row");
@@ -138,7 +138,8 @@ std::size_t CsvReader::column(const std::string& name) const {
 
 bool CsvReader::next() {
   if (!next_of_any_length()) return false;
-  if (const std::string why = misfit(); !why.empty()) refuse(fmt::format("line {}: {}", line_, why));
+  if (const std::string why = row_length_error(); !why.empty())
+    refuse(fmt::format("line {}: {}", line_, why));
   return true;
 }
 
@@ -149,7 +150,7 @@ bool CsvReader::next_of_any_length() {
   return false;
 }
 
-std::string CsvReader::misfit() const {
+std::string CsvReader::row_length_error() const {
   if (cells_.size() == header_.size()) return {};
   const bool blank = cells_.size() == 1 && cells_[0].empty();
   return fmt::format("found {}, expected {} as in the header",

@@ -96,7 +96,7 @@ class CsvReader {
   /// Same for a row of any length.
   bool next_of_any_length();
   /// Error message for the row's length; empty: the length is right.
-  [[nodiscard]] std::string misfit() const;
+  [[nodiscard]] std::string row_length_error() const;
   [[nodiscard]] const std::string& cell(std::size_t index) const { return cells_[index]; }
   [[nodiscard]] double number(std::size_t index) const;
 

@@ -7,7 +7,7 @@
 
 namespace signorini::result {
 
-NodeMovers::NodeMovers(const Scene& scene, const Model& model) : movers_(scene.nodes.size()) {
+NodeDisplacements::NodeDisplacements(const Scene& scene, const Model& model) : movers_(scene.nodes.size()) {
   for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // they are the first drawn nodes, in the same order
     for (const std::size_t c : {0U, 1U}) movers_[n][c].dof = model.drawn_nodes[n].dofs[c];
   for (const Support& support : scene.supports) {
@@ -18,8 +18,8 @@ NodeMovers::NodeMovers(const Scene& scene, const Model& model) : movers_(scene.n
   }
 }
 
-double NodeMovers::value(std::size_t node, std::size_t axis, const Sample& sample, int order) const {
-  const Mover& mover = movers_[node][axis];
+double NodeDisplacements::value(std::size_t node, std::size_t axis, const Sample& sample, int order) const {
+  const NodeComponent& mover = movers_[node][axis];
   if (mover.given) return mover.given->piece(sample.t).value(sample.t, order);
   return mover.dof >= 0 ? (order == 0 ? *sample.u : *sample.v)[mover.dof] : 0.0;
 }
@@ -188,7 +188,7 @@ FrameEnd straight_between(const FrameEnd& a, const FrameEnd& b, double s) {
 }  // namespace
 
 FrameEnd between(const Frame::Element& e, double s) {
-  return e.kind == "beam" ? between(e.a, e.b, s, element::cubic_at(s)) : straight_between(e.a, e.b, s);
+  return e.kind == "beam" ? between(e.a, e.b, s, element::hermite_shapes(s)) : straight_between(e.a, e.b, s);
 }
 
 FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const element::LineShapes& h) {
@@ -197,7 +197,7 @@ FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const element::
   if (!(length > 0.0)) return p;
   const double c = (b.x - a.x) / length, d = (b.y - a.y) / length;
   const double va = -d * a.ux + c * a.uy, vb = -d * b.ux + c * b.uy;
-  const double v = h.a * va + h.b * vb + length * (h.turn_a * a.rz + h.turn_b * b.rz);
+  const double v = h.a * va + h.b * vb + length * (h.rotation_a * a.rz + h.rotation_b * b.rz);
   const double more = v - (va + s * (vb - va));  // deviation from the straight line
   p.ux += -d * more;
   p.uy += c * more;
@@ -215,7 +215,7 @@ void shift(FrameEnd& end, double x, double y) {
 
 }  // namespace
 
-void take_out_slides(std::vector<Frame>& frames) {
+void subtract_translations(std::vector<Frame>& frames) {
   double greatest = 0.0, left = 0.0;
   for (Frame& frame : frames) {
     for (const auto& p : frame.points) {

@@ -24,18 +24,18 @@ namespace signorini::result {
 
 // Displacement of the nodes of a scene: by a degree of freedom, a support, or none.
 
-class NodeMovers {
+class NodeDisplacements {
  public:
-  NodeMovers(const Scene& scene, const Model& model);
+  NodeDisplacements(const Scene& scene, const Model& model);
   /// Displacement (order 0) or velocity (1) of a node of the scene along an axis (0: x).
   [[nodiscard]] double value(std::size_t node, std::size_t axis, const Sample& sample, int order = 0) const;
 
  private:
-  struct Mover {
+  struct NodeComponent {
     int dof = -1;
     std::optional<History> given = {};
   };
-  std::vector<std::array<Mover, 2>> movers_;
+  std::vector<std::array<NodeComponent, 2>> movers_;
 };
 
 class FrameWriter {
@@ -99,7 +99,7 @@ struct FrameScales {
 [[nodiscard]] std::vector<Frame> read_frames(const TableFolder& tables, double from, double to);
 /// A structure that slides far would show no deformation: if the shapes differ from a translation by less than half of
 /// their largest displacement, each frame's mean translation is drawn in true scale.
-void take_out_slides(std::vector<Frame>& frames);
+void subtract_translations(std::vector<Frame>& frames);
 /// greatest_force: largest force of the run; at least that of the frames is used.
 [[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force = 0.0);
 /// Scales of one frame among others whose scales are `shared`.

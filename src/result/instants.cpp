@@ -53,7 +53,7 @@ std::vector<std::string> columns_of(const Model& model) {
 }
 
 std::string text_of(State state) {
-  if (is_own(state)) return std::to_string(signorini::number_of(state));
+  if (is_user_law_state(state)) return std::to_string(signorini::user_law_state_number(state));
   return state == State::inside               ? "inside"
          : state == State::static_limit_plus  ? "held+"
          : state == State::static_limit_minus ? "held-"
@@ -80,7 +80,7 @@ void InstantWriter::side(const InstantRow& row, bool after) {
   block_.number(row.t).text(after ? "after" : "before").number(row.resolution);
   for (const bool flag : {row.start, row.breakpoint, row.load_jumps, row.located})
     block_.text(flag ? "1" : "0");
-  block_.number(row.forgiven).number(row.eigenvector_condition);
+  block_.number(row.tolerated_violation).number(row.eigenvector_condition);
   const auto numbers = [&](const Vector& x) {
     for (Eigen::Index i = 0; i < x.size(); ++i) block_.number(x[i]);
     for (Eigen::Index i = x.size(); i < model_.size(); ++i) block_.empty();
@@ -100,14 +100,14 @@ void InstantWriter::side(const InstantRow& row, bool after) {
       continue;
     }
     std::string blows;
-    for (const InstantBlow& blow : row.blows)
+    for (const InstantImpact& blow : row.impacts)
       if (blow.contact == static_cast<int>(k))
-        blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", blow.turn, base::shortest(blow.normal),
-                             base::shortest(blow.tangent));
+        blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", blow.turn,
+                             base::format_number(blow.normal), base::format_number(blow.tangent));
     block_.text(blows);
     for (const Eigen::Index i : {in_N, in_T})
-      if (row.captures.size() > 0)
-        block_.number(row.captures[i]);
+      if (row.capture_impulses.size() > 0)
+        block_.number(row.capture_impulses[i]);
       else
         block_.empty();
     bool released = false;
@@ -154,7 +154,7 @@ Vector InstantReader::vector(std::size_t column) const {
 
 ContactState InstantReader::state(std::size_t contact, std::size_t column) const {
   const std::string& text = reader_.cell(column);
-  const std::vector<State> own = model_.contacts[contact].law->own_states();
+  const std::vector<State> own = model_.contacts[contact].law->user_law_states();
   ContactState result;
   result.anchor = number(column + of_p);
   if (!own.empty()) {
@@ -204,12 +204,12 @@ void InstantReader::take_impulses(std::size_t contact, std::size_t column, Insta
                t = base::parse_number(word.substr(second + 1));
     if (!turn || !n || !t || !(*turn >= 1.0 && *turn < 1e6) || !std::isfinite(*n) || !std::isfinite(*t))
       fail(column + of_blows, "turn:Pn:Pt between blanks");
-    row.blows.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
+    row.impacts.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
   }
   if (!reader_.cell(column + of_capture_n).empty()) {
-    if (row.captures.size() == 0) row.captures = Vector::Zero(model_.force_count());
-    row.captures.data()[model_.layout.normal(contact)] = number(column + of_capture_n);
-    row.captures.data()[model_.layout.tangent(contact)] = number(column + of_capture_t);
+    if (row.capture_impulses.size() == 0) row.capture_impulses = Vector::Zero(model_.force_count());
+    row.capture_impulses.data()[model_.layout.normal(contact)] = number(column + of_capture_n);
+    row.capture_impulses.data()[model_.layout.tangent(contact)] = number(column + of_capture_t);
   }
   if (flag(column + of_released)) row.released.push_back(static_cast<int>(contact));
 }
@@ -224,7 +224,7 @@ std::optional<InstantRow> InstantReader::next() {
   row.breakpoint = flag(at_breakpoint);
   row.load_jumps = flag(at_load);
   row.located = flag(at_located);
-  row.forgiven = number(at_forgiven);
+  row.tolerated_violation = number(at_forgiven);
   row.eigenvector_condition = number(at_dependence);
   take_side(row.before, false);
   if (!reader_.next())
@@ -234,7 +234,7 @@ std::optional<InstantRow> InstantReader::next() {
                     reader_.line(), row.t));
   if (reader_.cell(at_side) != "after") fail(at_side, "after");
   if (number(at_t) != row.t)
-    fail(at_t, fmt::format("{}, the time of the side before", base::shortest(row.t)));
+    fail(at_t, fmt::format("{}, the time of the side before", base::format_number(row.t)));
   take_side(row.after, true);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) take_impulses(k, of_contact(k), row);
   return row;
@@ -257,14 +257,14 @@ TraceWriter::TraceWriter(const std::filesystem::path& path, const Model& model) 
   base::check_output_file(path, "trace", R"(,"round":1,"fired":[)");
   errno = 0;
   file_.open(path);
-  if (!file_) throw FileError(path.string(), "cannot be created" + base::because(errno));
+  if (!file_) throw FileError(path.string(), "cannot be created" + base::system_error_text(errno));
 }
 
-void TraceWriter::write(const Round& round) {
+void TraceWriter::write(const DecisionRound& round) {
   base::Json touching = base::Json::array(), tried = base::Json::object();
   for (const std::size_t c : round.touching) touching.push_back(model_.contacts[c].name);
-  for (std::size_t c = 0; c < round.tried.size(); ++c)
-    tried[model_.contacts[c].name] = signorini::to_string(round.tried[c].state);
+  for (std::size_t c = 0; c < round.states.size(); ++c)
+    tried[model_.contacts[c].name] = signorini::to_string(round.states[c].state);
   const base::Json line = {{"t", round.t},
                            {"round", round.number},
                            {"fired", names(round.triggered, model_, false)},

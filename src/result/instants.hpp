@@ -74,7 +74,7 @@ class InstantReader {
 class TraceWriter {
  public:
   TraceWriter(const std::filesystem::path& path, const Model& model);
-  void write(const Round& round);
+  void write(const DecisionRound& round);
 
  private:
   const Model& model_;

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/text.hpp"
-#include "result/picture_look.hpp"
+#include "result/picture_style.hpp"
 
 namespace signorini::result {
 
@@ -45,20 +45,20 @@ std::string named_tics(char axis, const std::vector<std::pair<std::string, std::
 }
 
 std::string range_of(char axis, double from, double to) {
-  return fmt::format("set {}range [{}:{}]\n", axis, base::shortest(from), base::shortest(to));
+  return fmt::format("set {}range [{}:{}]\n", axis, base::format_number(from), base::format_number(to));
 }
 
-std::string upright(std::size_t number, double x, const std::string& look) {
+std::string vertical_line(std::size_t number, double x, const std::string& look) {
   return fmt::format("set arrow {0} from first {1}, graph 0 to first {1}, graph 1 nohead {2}\n", number,
-                     base::shortest(x), look);
+                     base::format_number(x), look);
 }
 
-std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas& canvas, double space) {
+std::vector<PanelEdges> panel_edges(const std::vector<double>& weights, const Canvas& canvas, double space) {
   const double all =
-      canvas.height - room_above - room_below - space * static_cast<double>(weights.size() - 1);
+      canvas.height - margin_above - margin_below - space * static_cast<double>(weights.size() - 1);
   const double each = all / std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<PanelEdges> panels;
-  double top = canvas.height - room_above;
+  double top = canvas.height - margin_above;
   for (const double weight : weights) {
     panels.push_back({(top - each * weight) / canvas.height, top / canvas.height});
     top -= each * weight + space;
@@ -84,7 +84,7 @@ std::string legend_name(const std::string& name) {
   return name.substr(0, end) + "..." + name.substr(begin);
 }
 
-double room_for(const std::vector<std::string>& names) {
+double legend_width(const std::vector<std::string>& names) {
   std::size_t longest = 0;
   for (const std::string& name : names) longest = std::max(longest, legend_name(name).size());
   return std::max(Canvas::usual_legend, line_of_legend + letter * static_cast<double>(longest));
@@ -103,18 +103,20 @@ double heading(const Canvas& canvas, const std::string& text, double size) {
 
 std::string beginning(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
-  std::string note = run.facts.outcome == "done" ? "" : say(run, " (run {})", say(run, run.facts.outcome));
+  std::string note =
+      run.facts.outcome == "done" ? "" : translate(run, " (run {})", translate(run, run.facts.outcome));
   const bool shaded = picture.over_time && run.facts.certain_until && *run.facts.certain_until < run.to;
   if (shaded)
     note += " (" +
-            say(run, "shaded: not certain, from t = {} on", fmt::format("{:.6g}", *run.facts.certain_until)) +
+            translate(run, "shaded: not certain, from t = {} on",
+                      fmt::format("{:.6g}", *run.facts.certain_until)) +
             ")";
   std::string s = "# Draws " + picture.name +
                   ".svg and the like from the tables of the run. In this folder: gnuplot " + picture.name +
                   ".gp\n";
   if (picture.over_time) {
-    s += fmt::format("from = {}; to = {}   # the time shown\n", base::shortest(run.from),
-                     base::shortest(run.to));
+    s += fmt::format("from = {}; to = {}   # the time shown\n", base::format_number(run.from),
+                     base::format_number(run.to));
   }
   s += "reset\nset datafile separator ','\nset encoding utf8\n";
   std::string formats;
@@ -140,7 +142,7 @@ std::string beginning(const PlottedRun& run, const Picture& picture) {
     s += fmt::format(
         "set object 1 rectangle from {},graph 0 to {},graph 1 front fillstyle "
         "transparent solid 0.25 noborder fillcolor '#505050'\n",
-        base::shortest(std::max(*run.facts.certain_until, run.from)), base::shortest(run.to));
+        base::format_number(std::max(*run.facts.certain_until, run.from)), base::format_number(run.to));
   s += "set y2range [0:1]\nunset y2tics\n";
   return s + picture.setup;
 }
@@ -158,8 +160,8 @@ std::string axes_of(const PlottedRun& run, const Canvas& canvas, const PanelEdge
       "noautotitle noenhanced font ',{:.4g}'\n",
       canvas.right(run.legend) + 13.0 / canvas.width, edges.top + 8.0 / canvas.height, canvas.legend_font());
   if (last) {
-    s += "set format x '%g'\nset xlabel " + quoted(say(run, "time t") + " [" + run.facts.units.time + "]") +
-         "\n";
+    s += "set format x '%g'\nset xlabel " +
+         quoted(translate(run, "time t") + " [" + run.facts.units.time + "]") + "\n";
   } else {
     s += "set format x ''\nunset xlabel\n";
   }
@@ -184,7 +186,7 @@ std::string plot_command(const std::vector<Curve>& curves) {
 std::string script_of(const PlottedRun& run, const Picture& picture) {
   std::vector<double> weights;
   for (const Panel& panel : picture.panels) weights.push_back(panel.weight);
-  const std::vector<PanelEdges> edges = stacked(weights, picture.canvas, picture.space);
+  const std::vector<PanelEdges> edges = panel_edges(weights, picture.canvas, picture.space);
   std::string s = beginning(run, picture);
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     const Panel& panel = picture.panels[i];

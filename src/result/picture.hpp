@@ -15,13 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "result/picture_look.hpp"
+#include "result/picture_style.hpp"
 #include "result/plotted_run.hpp"
 
 namespace signorini::result {
 
 /// Pixels of a canvas above the panels, for title and subtitle, and below them, for the axis and its label.
-inline constexpr double room_above = 62.0, room_below = 70.0;
+inline constexpr double margin_above = 62.0, margin_below = 70.0;
 
 /// A curve, marks, bands or an entry of the legend.
 struct Curve {
@@ -59,7 +59,7 @@ struct Picture {
 [[nodiscard]] std::string script_of(const PlottedRun& run, const Picture& picture);
 
 /// Width in pixels of a legend with these names, which legend_name() has limited.
-[[nodiscard]] double room_for(const std::vector<std::string>& names);
+[[nodiscard]] double legend_width(const std::vector<std::string>& names);
 /// The name with its middle replaced if it is too long for a legend.
 [[nodiscard]] std::string legend_name(const std::string& name);
 
@@ -70,11 +70,11 @@ struct Picture {
                                      const std::vector<std::pair<std::string, std::size_t>>& names);
 
 /// Edges of stacked panels with these relative heights; `space` between them in pixels.
-[[nodiscard]] std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas& canvas,
-                                              double space);
+[[nodiscard]] std::vector<PanelEdges> panel_edges(const std::vector<double>& weights, const Canvas& canvas,
+                                                  double space);
 /// "set xrange [a:b]".
 [[nodiscard]] std::string range_of(char axis, double from, double to);
 /// A vertical line across the panel at x.
-[[nodiscard]] std::string upright(std::size_t number, double x, const std::string& look);
+[[nodiscard]] std::string vertical_line(std::size_t number, double x, const std::string& look);
 
 }  // namespace signorini::result

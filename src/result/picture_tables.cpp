@@ -23,8 +23,8 @@ void PictureTables::curves(const Curves& curves) {
 
 namespace {
 
-constexpr int pieces = 1200;                     // about one per pixel
-constexpr std::size_t most_breakpoints = 10000;  // more than a picture can show
+constexpr int pieces = 1200;                    // about one per pixel
+constexpr std::size_t max_breakpoints = 10000;  // more than a picture can show
 
 /// The base's acceleration acts as -M r a.
 double sign_of(const Load& load) { return load.kind == LoadKind::base ? -1.0 : 1.0; }
@@ -38,7 +38,7 @@ std::string load_table(const Model& model, double t_end) {
     if (load.history.is_constant()) continue;
     loads.push_back(&load);
     for (const Breakpoint& b : load.history.breakpoints())
-      if (b.time > 0.0 && b.time < t_end && breaks.size() < most_breakpoints) breaks.push_back(b.time);
+      if (b.time > 0.0 && b.time < t_end && breaks.size() < max_breakpoints) breaks.push_back(b.time);
   }
   if (loads.empty() || !(t_end > 0.0)) return "";
   times = breaks;

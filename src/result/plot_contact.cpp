@@ -11,11 +11,11 @@ namespace signorini::result {
 namespace {
 
 std::string friction_text(const PlottedRun& run, const RunFacts::Contact& contact) {
-  if (contact.static_friction == 0.0) return say(run, "no friction");
+  if (contact.static_friction == 0.0) return translate(run, "no friction");
   if (contact.static_friction == contact.kinetic_friction) {
-    return say(run, "friction {}", contact.static_friction);
+    return translate(run, "friction {}", contact.static_friction);
   }
-  return say(run, "friction {} static, {} kinetic", contact.static_friction, contact.kinetic_friction);
+  return translate(run, "friction {} static, {} kinetic", contact.static_friction, contact.kinetic_friction);
 }
 
 /// Picture of one contact, panel by panel.
@@ -32,7 +32,7 @@ class ContactPicture {
   /// From the top: states, N, T (only with friction), gap (not for sliders), tangential motion.
   [[nodiscard]] Picture picture() const {
     Picture p{"contact-" + run_.slugs[k_] + run_.suffix,
-              say(run_, "Contact '{}'", contact_.name) + ", " + friction_text(run_, contact_),
+              translate(run_, "Contact '{}'", contact_.name) + ", " + friction_text(run_, contact_),
               {}};
     p.space = 21.0;
     const bool rubs = contact_.static_friction > 0.0;
@@ -40,11 +40,11 @@ class ContactPicture {
     if (rubs) p.panels.push_back(friction_force());
     // on its own scale: a lift-off is small compared with the sliding
     if (!contact_.slider)
-      p.panels.push_back(panel(192.0, "g " + length(), {curve("gap", "#2166ac", say(run_, "gap g"))},
-                               steady(ranges_.gap, scales_.length)));
+      p.panels.push_back(panel(192.0, "g " + length(), {curve("gap", "#2166ac", translate(run_, "gap g"))},
+                               constant_axis(ranges_.gap, scales_.length)));
     // A wheel or a guide also moves along its tangent; a motion of rounding size is not drawn.
     if (rubs || !is_rounding(ranges_.ut, scales_.length)) p.panels.push_back(sliding());
-    double height = room_above + room_below - p.space;
+    double height = margin_above + margin_below - p.space;
     for (const Panel& panel : p.panels) height += panel.weight + p.space;
     p.canvas = canvas_of(run_.look, height, true);
     return p;
@@ -73,7 +73,7 @@ class ContactPicture {
     // N <= 0; a constant N is drawn below zero
     const bool none = is_rounding(ranges_.N, scales_.force);
     return panel(177.0, "N" + force(), curves,
-                 none ? steady(ranges_.N, scales_.force) : "set yrange [*:0] noextend\n");
+                 none ? constant_axis(ranges_.N, scales_.force) : "set yrange [*:0] noextend\n");
   }
 
   [[nodiscard]] Panel friction_force() const {
@@ -86,24 +86,24 @@ class ContactPicture {
       curves.push_back({rows_, at + "(-" + limit + ")", look});
     };
     const bool one = contact_.static_friction == contact_.kinetic_friction;
-    limits(contact_.static_friction, say(run_, one ? "limits" : "static"), "");
-    if (!one) limits(contact_.kinetic_friction, say(run_, "kinetic limit"), " dashtype 2");
+    limits(contact_.static_friction, translate(run_, one ? "limits" : "static"), "");
+    if (!one) limits(contact_.kinetic_friction, translate(run_, "kinetic limit"), " dashtype 2");
     curves.push_back(curve("T", "#1a1a1a", "T"));
     Range range = ranges_.T;
     const double limit = contact_.static_friction * ranges_.N.size();
     range.take(limit);
     range.take(-limit);
-    return panel(213.0, "T" + force(), curves, steady(range, scales_.force));
+    return panel(213.0, "T" + force(), curves, constant_axis(range, scales_.force));
   }
 
   [[nodiscard]] Panel sliding() const {
-    std::vector<Curve> curves = {curve("ut", "#1a1a1a", say(run_, "motion ut"))};
+    std::vector<Curve> curves = {curve("ut", "#1a1a1a", translate(run_, "motion ut"))};
     Range range = ranges_.ut;
     if (contact_.static_friction > 0.0) {
-      curves.push_back(curve("slip", "#b35806", say(run_, "slip p"), " dashtype 2"));
+      curves.push_back(curve("slip", "#b35806", translate(run_, "slip p"), " dashtype 2"));
       range.take(ranges_.slip);
     }
-    return panel(208.0, length(), curves, steady(range, scales_.length));
+    return panel(208.0, length(), curves, constant_axis(range, scales_.length));
   }
 
   /// Curve of a column of the contact's table.
@@ -133,7 +133,7 @@ Picture states_picture(const PlottedRun& run) {
                            count - 1) +
                row_tics(run.facts.contacts, row);
   for (const std::string& state : state_names()) {
-    std::optional<std::string> name = say(run, state);
+    std::optional<std::string> name = translate(run, state);
     for (std::size_t k = 0; k < count; ++k) {
       const double y = static_cast<double>(k);
       std::optional<Curve> curve = band_curve(run, k, state, y - 0.38, y + 0.38, 1.0);
@@ -142,16 +142,17 @@ Picture states_picture(const PlottedRun& run) {
       panel.curves.push_back(*curve);
     }
   }
-  return {"states",
-          say(run, "States of the contacts"),
-          canvas_of(run.look, room_above + room_below + 24.0 + row * static_cast<double>(count), true, true),
-          true,
-          {panel}};
+  return {
+      "states",
+      translate(run, "States of the contacts"),
+      canvas_of(run.look, margin_above + margin_below + 24.0 + row * static_cast<double>(count), true, true),
+      true,
+      {panel}};
 }
 
 namespace {
 
-constexpr std::size_t most_panels = 20;
+constexpr std::size_t max_panels = 20;
 constexpr double least_panel = 130.0, small_panel = 300.0;  // pixels, including text beside the panel
 
 struct Grid {
@@ -208,11 +209,11 @@ std::vector<Curve> curves_of(const PlottedRun& run, std::size_t k, bool small) {
   curves.push_back({data, inside + ":(state_colour(" + rows.word("state") + "))",
                     std::string("with points pointtype 7 pointsize ") + (small ? "0.2" : "0.35") +
                         " linecolor rgb variable"});
-  for (const EventLook& look : event_looks) {
+  for (const EventStyle& look : event_styles) {
     const PlottedRun::Rows events = marks_of(run, signorini::to_string(look.type), static_cast<int>(k));
     if (events.count == 0) continue;
     curves.push_back(
-        {recorded("'marks.csv'", events), fmt::format("(-{}):{}", marks.value("N"), marks.number("T")),
+        {table_rows("'marks.csv'", events), fmt::format("(-{}):{}", marks.value("N"), marks.number("T")),
          fmt::format("with points pointtype 6 pointsize {} linecolor '{}'", small ? 0.4 : 0.7, look.colour)});
   }
   return curves;
@@ -241,22 +242,23 @@ Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   entry("lines linecolor '#c0182b' linewidth 1.2", "±f|N|");
   const auto two = [](const auto& c) { return c.kinetic_friction != c.static_friction; };
   if (std::any_of(run.facts.contacts.begin(), run.facts.contacts.end(), two))
-    entry("lines linecolor '#c0182b' linewidth 1.2 dashtype 2", say(run, "kinetic limit") + " ±f|N|");
+    entry("lines linecolor '#c0182b' linewidth 1.2 dashtype 2", translate(run, "kinetic limit") + " ±f|N|");
   for (const std::string& state : state_names()) {
     bool occurs = false;
     for (std::size_t k = 0; k < run.bands.size(); ++k)
       occurs = occurs || (rubs(run, k) && std::any_of(run.bands[k].begin(), run.bands[k].end(),
                                                       [&](const auto& b) { return b.state == state; }));
     if (occurs && state != "open" && state != "closed")
-      entry("points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) + "'", say(run, state));
+      entry("points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) + "'",
+            translate(run, state));
   }
-  for (const EventLook& look : event_looks) {
+  for (const EventStyle& look : event_styles) {
     const auto drawn = [&](const auto& e) {
       return e.second == signorini::to_string(look.type) && rubs(run, e.first);
     };
     if (std::any_of(run.occurring.begin(), run.occurring.end(), drawn))
       entry(fmt::format("points pointtype 6 pointsize 0.9 linecolor '{}'", look.colour),
-            say(run, "event") + ": " + say(run, signorini::to_string(look.type)));
+            translate(run, "event") + ": " + translate(run, signorini::to_string(look.type)));
   }
   panel.after = "set border 3\nset tics\nset grid\n";
   return panel;
@@ -274,9 +276,9 @@ std::string heading_and_ranges(const PlottedRun& run, std::size_t k, const Canva
                               canvas.font(small ? 10.0 : 13.0));
   const double greatest = run.greatest_compression[k];
   const double most = greatest > 0.0 ? 1.08 * greatest : 1.0;
-  s += fmt::format("set xrange [0:{0}]\nset yrange [-{1}:{1}]\n", base::shortest(most),
-                   base::shortest(1.05 * most * contact.static_friction));
-  return small ? s + "set xtics " + base::shortest(tic_step(most)) + "\n" : s;
+  s += fmt::format("set xrange [0:{0}]\nset yrange [-{1}:{1}]\n", base::format_number(most),
+                   base::format_number(1.05 * most * contact.static_friction));
+  return small ? s + "set xtics " + base::format_number(tic_step(most)) + "\n" : s;
 }
 
 }  // namespace
@@ -286,7 +288,7 @@ Picture cone_picture(const PlottedRun& run) {
   std::size_t rubbing = 0;
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
     if (!rubs(run, k)) continue;
-    if (++rubbing <= most_panels) shown.push_back(k);
+    if (++rubbing <= max_panels) shown.push_back(k);
   }
   if (shown.empty()) return {};
   Canvas canvas = canvas_of(run.look, 0.0, false);
@@ -302,10 +304,10 @@ Picture cone_picture(const PlottedRun& run) {
   constexpr double between = 70.0, above = 92.0;
   canvas.height = std::round(above - 2.0 + static_cast<double>(grid.rows) * (panel_height + between));
   const std::string part =
-      rubbing > shown.size() ? " (" + say(run, "first {} of {}", shown.size(), rubbing) + ")" : "";
+      rubbing > shown.size() ? " (" + translate(run, "first {} of {}", shown.size(), rubbing) + ")" : "";
   Picture picture{"cone",
-                  say(run, "Contact forces and friction cones") + part + ": " +
-                      say(run, "inside sticks, on its edge slips"),
+                  translate(run, "Contact forces and friction cones") + part + ": " +
+                      translate(run, "inside sticks, on its edge slips"),
                   canvas};
   picture.setup = colour_function() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
   if (small) picture.setup += fmt::format("set tics font ',{:.4g}'\n", canvas.font(10.0));
@@ -324,15 +326,15 @@ Picture cone_picture(const PlottedRun& run) {
     s += heading_and_ranges(run, shown[i], canvas, small);
     // Labels on the outer panels only.
     const bool lowest = i + grid.columns >= shown.size();
-    s +=
-        lowest
-            ? "set xlabel " +
-                  quoted((small ? "-N [" : say(run, "compression") + " -N [") + run.facts.units.force + "]") +
-                  "\n"
-            : "unset xlabel\n";
-    s += column == 0 ? "set ylabel " + quoted(say(run, "shear") + " T [" + run.facts.units.force + "]") +
-                           " offset character 0.5,0\n"
-                     : "unset ylabel\n";
+    s += lowest ? "set xlabel " +
+                      quoted((small ? "-N [" : translate(run, "compression") + " -N [") +
+                             run.facts.units.force + "]") +
+                      "\n"
+                : "unset xlabel\n";
+    s += column == 0
+             ? "set ylabel " + quoted(translate(run, "shear") + " T [" + run.facts.units.force + "]") +
+                   " offset character 0.5,0\n"
+             : "unset ylabel\n";
     picture.panels.push_back(panel);
   }
   picture.panels.push_back(legend(run, canvas, 1.0 - above * line));
@@ -347,9 +349,9 @@ bool occurs(const PlottedRun& run, EventType type) {
 }
 
 /// Lanes of a row, from the top.
-std::vector<EventLook> lanes_of(const PlottedRun& run) {
-  std::vector<EventLook> lanes;
-  for (const EventLook& look : event_looks)
+std::vector<EventStyle> lanes_of(const PlottedRun& run) {
+  std::vector<EventStyle> lanes;
+  for (const EventStyle& look : event_styles)
     if (occurs(run, look.type)) lanes.push_back(look);
   return lanes;
 }
@@ -363,7 +365,7 @@ const CsvTable<Mark>& mark_table() {
 }
 
 Picture raster_picture(const PlottedRun& run) {
-  const std::vector<EventLook> lanes = lanes_of(run);
+  const std::vector<EventStyle> lanes = lanes_of(run);
   if (lanes.empty()) return {};
   const std::size_t count = run.facts.contacts.size();
   const double row = row_height(count <= 2    ? 120.0
@@ -382,10 +384,10 @@ Picture raster_picture(const PlottedRun& run) {
                        const std::optional<std::string>& name) {
     const PlottedRun::Rows rows = marks_of(run, signorini::to_string(type));
     if (rows.count > 0)
-      panel.curves.push_back({recorded("'marks" + run.suffix + ".csv'", rows), columns, look, name});
+      panel.curves.push_back({table_rows("'marks" + run.suffix + ".csv'", rows), columns, look, name});
   };
   add(EventType::time, fmt::format("{}:(-0.5):(0):({})", at, count),
-      "with vectors nohead linecolor '#aaaaaa' dashtype 3", say(run, "load changes"));
+      "with vectors nohead linecolor '#aaaaaa' dashtype 3", translate(run, "load changes"));
   const double lane = 0.84 / static_cast<double>(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
     add(lanes[i].type,
@@ -393,15 +395,16 @@ Picture raster_picture(const PlottedRun& run) {
                     -0.42 + lane * static_cast<double>(i), 0.86 * lane),
         fmt::format("with vectors nohead linewidth 1.6 linecolor '{}'", lanes[i].colour), std::nullopt);
   if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot needs a plot
-  for (const EventLook& look : lanes)
+  for (const EventStyle& look : lanes)
     panel.curves.push_back({"keyentry", "", fmt::format("with lines linewidth 4 linecolor '{}'", look.colour),
-                            say(run, signorini::to_string(look.type))});
+                            translate(run, signorini::to_string(look.type))});
   panel.after = "unset arrow\n";
-  return {"raster" + run.suffix,
-          say(run, "Events of the contacts, a mark each"),
-          canvas_of(run.look, room_above + room_below + 16.0 + row * static_cast<double>(count), true, true),
-          true,
-          {panel}};
+  return {
+      "raster" + run.suffix,
+      translate(run, "Events of the contacts, a mark each"),
+      canvas_of(run.look, margin_above + margin_below + 16.0 + row * static_cast<double>(count), true, true),
+      true,
+      {panel}};
 }
 
 }  // namespace signorini::result

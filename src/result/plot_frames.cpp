@@ -13,10 +13,10 @@ namespace signorini::result {
 
 namespace {
 
-constexpr std::size_t most_pictures = 40;  // evenly selected from more
-constexpr std::size_t most_labelled = 6;   // contacts with numbers at their forces; further ones only have
-                                           // names
-constexpr std::size_t most_names = 30;
+constexpr std::size_t max_pictures = 40;  // evenly selected from more
+constexpr std::size_t max_labelled = 6;   // contacts with numbers at their forces; further ones only have
+                                          // names
+constexpr std::size_t max_names = 30;
 
 struct ShapePoint {
   std::string kind;
@@ -88,15 +88,15 @@ Layout layout_of(const FrameScales& scales, const PlottedRun& run) {
   const double dx = std::max(0.0, wider - (l.x1 - l.x0)), dy = std::max(0.0, higher - (l.y1 - l.y0));
   l.x0 -= 0.5 * dx, l.x1 += 0.5 * dx;
   l.y0 -= 0.5 * dy, l.y1 += 0.5 * dy;
-  l.canvas.height = std::round(panel + room_above + room_below);
+  l.canvas.height = std::round(panel + margin_above + margin_below);
   return l;
 }
 
 /// Labels of contacts, at the tails of their arrows.
 std::string labels(const Frame& frame, const FrameScales& scales, const Layout& l, const PlottedRun& run) {
   std::string s;
-  const bool figures = frame.forces.size() <= most_labelled;
-  if (frame.forces.size() > most_names) return s;
+  const bool figures = frame.forces.size() <= max_labelled;
+  if (frame.forces.size() > max_names) return s;
   for (const Frame::Force& f : frame.forces) {
     const double length = std::hypot(f.fx, f.fy);
     // Without a force the label is where the arrow of a compressive force would be.
@@ -104,7 +104,7 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
     const double x = f.x + scales.magnification * f.ux - scales.force_scale * f.fx;
     const double y = f.y + scales.magnification * f.uy - scales.force_scale * f.fy;
     std::string text = f.contact;
-    if (figures && f.state == "open") text += ": " + say(run, "open");
+    if (figures && f.state == "open") text += ": " + translate(run, "open");
     if (figures && f.state != "open") {
       text += fmt::format(": N = {:.4g}", f.N);
       if (f.T != 0.0) text += fmt::format(", T = {:.4g}", f.T);
@@ -119,8 +119,8 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
                        : part < 0.2  ? "left"
                                      : "center";
     s += fmt::format("set label {} at {},{} {} offset character {:.2f},{:.2f} front font ',{:.4g}'\n",
-                     signorini::result::quoted(text), base::shortest(x), base::shortest(y), side, 0.8 * dx,
-                     0.9 * dy, l.canvas.font(figures ? 11.0 : 9.0));
+                     signorini::result::quoted(text), base::format_number(x), base::format_number(y), side,
+                     0.8 * dx, 0.9 * dy, l.canvas.font(figures ? 11.0 : 9.0));
   }
   return s;
 }
@@ -130,16 +130,16 @@ std::string subtitle(const Frame& frame, const FrameScales& scales, const Plotte
   const bool slid = frame.slid_x != 0.0 || frame.slid_y != 0.0;
   const auto number = [](double x, int digits) { return fmt::format("{:.{}g}", x, digits); };
   const Units& units = run.facts.units;
-  std::string about = say(run, "Shape at t = {} {}", number(frame.t, 9), units.time) + ", ";
-  about += slid ? say(run, "slid by ({}, {}) {}, deformation", number(frame.slid_x, 4),
-                      number(frame.slid_y, 4), units.length)
-                : say(run, "displacements");
-  about +=
-      " " + (scales.magnification == 1.0 ? say(run, "in true scale")
-                                         : say(run, "magnified {} times", number(scales.magnification, 6)));
+  std::string about = translate(run, "Shape at t = {} {}", number(frame.t, 9), units.time) + ", ";
+  about += slid ? translate(run, "slid by ({}, {}) {}, deformation", number(frame.slid_x, 4),
+                            number(frame.slid_y, 4), units.length)
+                : translate(run, "displacements");
+  about += " " + (scales.magnification == 1.0
+                      ? translate(run, "in true scale")
+                      : translate(run, "magnified {} times", number(scales.magnification, 6)));
   if (scales.greatest_force > 0.0)
-    about +=
-        "; " + say(run, "longest arrow of the run: {} {}", number(scales.greatest_force, 4), units.force);
+    about += "; " +
+             translate(run, "longest arrow of the run: {} {}", number(scales.greatest_force, 4), units.force);
   return about;
 }
 
@@ -163,18 +163,19 @@ std::vector<Curve> shape_curves(const Frame& frame, const std::string& name, con
   const auto line = [&](const char* kind, const char* look, const char* title) {
     if (!has(kind)) return;
     add(kind, "x", "y", thin);
-    add(kind, "X", "Y", std::string("lines ") + look, say(run, title));
+    add(kind, "X", "Y", std::string("lines ") + look, translate(run, title));
   };
   line("mesh", "linewidth 0.8 linecolor '#1f5f8b'", "mesh");
   line("spring", "linewidth 1 linecolor '#7a9a7a' dashtype 2", "springs");
   line("bar", "linewidth 1.6 linecolor '#1f5f8b'", "bars");
   line("rigid", "linewidth 1.6 linecolor '#8a5a2b'", "rigid bodies");
   line("beam", "linewidth 2.2 linecolor '#1a1a1a'", "beams");
-  if (!curves.empty()) curves.push_back({"keyentry", "", "with " + thin, say(run, "undeformed")});
+  if (!curves.empty()) curves.push_back({"keyentry", "", "with " + thin, translate(run, "undeformed")});
   add("node", "x", "y", "points pointtype 6 pointsize 0.5 linecolor '#b0b0b0'");
-  add("node", "X", "Y", "points pointtype 7 pointsize 0.6 linecolor '#1a1a1a'", say(run, "nodes"));
+  add("node", "X", "Y", "points pointtype 7 pointsize 0.6 linecolor '#1a1a1a'", translate(run, "nodes"));
   if (std::any_of(frame.points.begin(), frame.points.end(), [](const auto& p) { return p.support; }))
-    add("support", "X", "Y", "points pointtype 5 pointsize 1 linecolor '#555555'", say(run, "supports"));
+    add("support", "X", "Y", "points pointtype 5 pointsize 1 linecolor '#555555'",
+        translate(run, "supports"));
   return curves;
 }
 
@@ -188,7 +189,7 @@ void add_forces(const Frame& frame, const std::string& name, const PlottedRun& r
                     fmt::format("({}-{}):({}-{}):{}:{}", table.value("x"), table.value("dx"),
                                 table.value("y"), table.value("dy"), table.number("dx"), table.number("dy")),
                     "with vectors head filled size screen 0.009,18 linewidth 1.8 linecolor '#c0182b'",
-                    say(run, "contact force")});
+                    translate(run, "contact force")});
   for (const std::string& state : state_names()) {
     const bool occurs = std::any_of(frame.forces.begin(), frame.forces.end(),
                                     [&](const auto& f) { return f.state == state; });
@@ -197,7 +198,7 @@ void add_forces(const Frame& frame, const std::string& name, const PlottedRun& r
                         "(" + table.word("state") + " eq " + quoted(state) +
                             fmt::format(" ? {} : NaN):{}", table.value("x"), table.number("y")),
                         "with points pointtype 7 pointsize 1.1 linecolor '" + state_colour(state) + "'",
-                        say(run, state)});
+                        translate(run, state)});
   }
 }
 
@@ -218,9 +219,9 @@ Picture picture_of(const Frame& frame, const FrameScales& scales, const PlottedR
 void add_frame_pictures(const PlottedRun& run, PictureFiles& pictures) {
   std::vector<Frame> frames = run.frames;
   if (frames.empty()) return;
-  take_out_slides(frames);
+  subtract_translations(frames);
   const FrameScales shared = scales_of(frames, run.greatest_force);
-  const std::size_t count = std::min(frames.size(), most_pictures);
+  const std::size_t count = std::min(frames.size(), max_pictures);
   for (std::size_t i = 0; i < count; ++i) {
     const Frame& frame = frames[count == 1 ? 0 : i * (frames.size() - 1) / (count - 1)];
     const FrameScales scales = scales_of(frame, shared);

@@ -33,7 +33,7 @@ PlottedRun::Rows bands_in(const PlottedRun& run, std::size_t k, const std::strin
 
 }  // namespace
 
-std::string recorded(const std::string& table, const PlottedRun::Rows& rows) {
+std::string table_rows(const std::string& table, const PlottedRun::Rows& rows) {
   return fmt::format("{} skip 1 every ::{}::{}", table, rows.first, rows.first + rows.count - 1);
 }
 
@@ -43,20 +43,20 @@ std::string rows_over_time(const std::string& table, std::size_t times) {
 
 std::string contact_rows(const PlottedRun& run, std::size_t k, const std::string& run_directory) {
   if (k < run.motion.size() && run.motion[k].count > 1)
-    return recorded(quoted(run_directory + "/motion.csv"), run.motion[k]);
+    return table_rows(quoted(run_directory + "/motion.csv"), run.motion[k]);
   return quoted(run_directory + "/contacts.csv") + " skip 1" + every(run.times, run.facts.contacts.size(), k);
 }
 
 TableColumn curve_of(const PlottedRun& run, const std::string& name, const TableColumn& otherwise) {
   const auto found = run.curves.find(name);
   if (found == run.curves.end() || found->second.count < 2) return otherwise;
-  return {recorded("'../curves.csv'", found->second), curve_table().number("t"),
+  return {table_rows("'../curves.csv'", found->second), curve_table().number("t"),
           curve_table().number("value")};
 }
 
-double row_height(double usual, std::size_t count, const PictureLook& look) {
-  const double around = room_above + room_below + 24.0;
-  return std::min(usual, (tallest(look) - around) / static_cast<double>(count));
+double row_height(double usual, std::size_t count, const PictureStyle& look) {
+  const double around = margin_above + margin_below + 24.0;
+  return std::min(usual, (max_canvas_height(look) - around) / static_cast<double>(count));
 }
 
 std::string row_tics(const std::vector<RunFacts::Contact>& contacts, double height) {
@@ -103,9 +103,9 @@ std::optional<Curve> band_curve(const PlottedRun& run, std::size_t k, const std:
   if (rows.count == 0) return std::nullopt;
   const std::size_t from = band_columns().number("from");
   return Curve{
-      recorded("'states-" + run.slugs[k] + ".csv'", rows),
-      fmt::format("{0}:({1}):{0}:{2}:({3}):({4})", from, base::shortest(0.5 * (low + high)),
-                  band_columns().number("to"), base::shortest(low), base::shortest(high)),
+      table_rows("'states-" + run.slugs[k] + ".csv'", rows),
+      fmt::format("{0}:({1}):{0}:{2}:({3}):({4})", from, base::format_number(0.5 * (low + high)),
+                  band_columns().number("to"), base::format_number(low), base::format_number(high)),
       fmt::format("with boxxy fillstyle solid {} noborder linecolor '{}'", opacity, state_colour(state))};
 }
 
@@ -126,7 +126,7 @@ std::vector<Curve> band_legend(const PlottedRun& run, std::size_t k) {
       curves.push_back(
           {"keyentry", "",
            fmt::format("with boxes fillstyle solid 1.0 noborder linecolor '{}'", state_colour(state)),
-           say(run, state)});
+           translate(run, state)});
   return curves;
 }
 
@@ -145,11 +145,9 @@ ContactScales scales_of(const std::vector<ContactRanges>& ranges) {
   return scales;
 }
 
-bool is_rounding(const Range& range, double scale) {
-  return range.size() <= rounding::of_elimination * scale;
-}
+bool is_rounding(const Range& range, double scale) { return range.size() <= rounding::elimination * scale; }
 
-std::string steady(const Range& range, double scale) {
+std::string constant_axis(const Range& range, double scale) {
   if (range.empty()) return "";
   const auto axis = [](double middle, double half) {
     return fmt::format("set yrange [{:.8g}:{:.8g}]\n", middle - half, middle + half);

@@ -28,7 +28,7 @@ struct ContactScales {
 [[nodiscard]] ContactScales scales_of(const std::vector<ContactRanges>& ranges);
 
 /// "set yrange [a:b]" and a line break, or "" for gnuplot's automatic axis.
-[[nodiscard]] std::string steady(const Range& range, double scale);
+[[nodiscard]] std::string constant_axis(const Range& range, double scale);
 /// True if the range is no more than rounding.
 [[nodiscard]] bool is_rounding(const Range& range, double scale);
 
@@ -47,13 +47,13 @@ struct TableColumn {
   [[nodiscard]] std::string columns() const { return fmt::format("{}:{}", time, number); }
 };
 /// The given rows of one of the tables, for gnuplot.
-[[nodiscard]] std::string recorded(const std::string& table, const PlottedRun::Rows& rows);
+[[nodiscard]] std::string table_rows(const std::string& table, const PlottedRun::Rows& rows);
 /// A curve by name, from curves.csv if it is there.
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& name,
                                    const TableColumn& otherwise);
 
 /// Height in pixels of one of `count` stacked rows: less than usual if the picture would be too tall.
-[[nodiscard]] double row_height(double usual, std::size_t count, const PictureLook& look);
+[[nodiscard]] double row_height(double usual, std::size_t count, const PictureStyle& look);
 /// Names of contacts beside rows of this height, without those that would overlap.
 [[nodiscard]] std::string row_tics(const std::vector<RunFacts::Contact>& contacts, double height);
 
@@ -72,16 +72,16 @@ struct TableColumn {
 [[nodiscard]] std::vector<Curve> band_legend(const PlottedRun& run, std::size_t k);
 
 /// Event types shown in pictures, from the top of a lane to its bottom, with their colours "#rrggbb".
-struct EventLook {
+struct EventStyle {
   EventType type;
   const char* colour;
 };
-inline constexpr std::array event_looks = {
-    EventLook{EventType::separation, "#2166ac"}, EventLook{EventType::contact, "#17a2a2"},
-    EventLook{EventType::impact, "#c0182b"},     EventLook{EventType::slip, "#e08214"},
-    EventLook{EventType::reversal, "#7b3294"},   EventLook{EventType::stick, "#2e8b3d"},
+inline constexpr std::array event_styles = {
+    EventStyle{EventType::separation, "#2166ac"}, EventStyle{EventType::contact, "#17a2a2"},
+    EventStyle{EventType::impact, "#c0182b"},     EventStyle{EventType::slip, "#e08214"},
+    EventStyle{EventType::reversal, "#7b3294"},   EventStyle{EventType::stick, "#2e8b3d"},
 };
-static_assert(event_looks.size() + 1 == all_event_types.size(),
+static_assert(event_styles.size() + 1 == all_event_types.size(),
               "every type but the jump of a load has a colour");
 /// marks.csv.
 [[nodiscard]] const CsvTable<Mark>& mark_table();

@@ -31,13 +31,14 @@ bool is_picture_of_run(const fs::path& file) {
 
 }  // namespace
 
-PictureFiles run_pictures(const fs::path& directory, const PlotWindow& window, const PictureLook& look) {
+PictureFiles run_pictures(const fs::path& directory, const PlotWindow& window, const PictureStyle& look) {
   PictureFiles pictures(is_picture_of_run);
   const TableFolder tables(directory);
   PlottedRun run = read_plotted_run(tables, read_run_facts(directory), window);
   run.look = look;
   if (run.times < 2) return pictures;
-  const std::optional<PlottedRun> zoomed = window.from || window.to ? std::nullopt : closer(tables, run);
+  const std::optional<PlottedRun> zoomed =
+      window.from || window.to ? std::nullopt : event_window(tables, run);
   pictures.add(run, displacement_picture(run));
   pictures.add(run, response_picture(run));
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
@@ -62,7 +63,7 @@ PictureFiles run_pictures(const fs::path& directory, const PlotWindow& window, c
 }
 
 std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window,
-                                  const PictureLook& look) {
+                                  const PictureStyle& look) {
   return run_pictures(directory, window, look).write(directory);
 }
 
@@ -70,8 +71,8 @@ void remove_plots(const fs::path& directory) { clear_plot_folder(directory / "pl
 
 namespace {
 
-constexpr std::size_t most_curves = 24;  // number of names in a legend beside the panel; curves.csv has all
-                                         // curves
+constexpr std::size_t max_curves = 24;  // number of names in a legend beside the panel; curves.csv has all
+                                        // curves
 
 constexpr double unit_rotation = 1e-3;  // rad; relative to this, rotations of 1e-15 are rounding
 
@@ -94,7 +95,7 @@ struct PlottedLine {
 };
 
 /// In a panel with more than eight curves, only the six with the largest motion are drawn.
-constexpr std::size_t most_displacements = 8, chosen_displacements = 6;
+constexpr std::size_t max_displacements = 8, chosen_displacements = 6;
 
 struct PanelOfLines {
   std::string key, label;  ///< key: common name of its lines
@@ -106,7 +107,7 @@ struct PanelOfLines {
 
 /// Keeps the lines with the largest motion, in the order of the nodes: twenty curves would be illegible.
 void choose_lines(const PlottedRun& run, PanelOfLines& p) {
-  if (p.lines.size() <= most_displacements) return;
+  if (p.lines.size() <= max_displacements) return;
   const auto size_of = [&](const PlottedLine& line) {
     const auto found = run.moves.find(line.title + p.key);
     return found == run.moves.end() ? 0.0 : found->second.size();
@@ -124,10 +125,10 @@ void choose_lines(const PlottedRun& run, PanelOfLines& p) {
 
 std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
   const std::string& length = run.facts.units.length;
-  std::vector<PanelOfLines> panels = {{".ux", say(run, "horizontal ux") + " [" + length + "]", {}},
-                                      {".uy", say(run, "vertical uy") + " [" + length + "]", {}},
-                                      {".rz", say(run, "rotation rz") + " [rad]", {}},
-                                      {".u", say(run, "displacement u"), {}}};
+  std::vector<PanelOfLines> panels = {{".ux", translate(run, "horizontal ux") + " [" + length + "]", {}},
+                                      {".uy", translate(run, "vertical uy") + " [" + length + "]", {}},
+                                      {".rz", translate(run, "rotation rz") + " [rad]", {}},
+                                      {".u", translate(run, "displacement u"), {}}};
   for (PanelOfLines& p : panels)
     for (std::size_t i = 1; i < run.columns.size(); ++i) {
       const std::string& name = run.columns[i];
@@ -143,7 +144,7 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
     for (const PlottedLine& line : p.lines)
       if (const auto found = run.moves.find(line.title + p.key); found != run.moves.end())
         all.take(found->second);
-    p.axis = steady(all, p.key == ".rz" ? unit_rotation : greatest);
+    p.axis = constant_axis(all, p.key == ".rz" ? unit_rotation : greatest);
   }
   for (PanelOfLines& p : panels) choose_lines(run, p);
   panels.erase(
@@ -171,7 +172,7 @@ std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
 
 Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canvas) {
   Panel panel{p.label, {}, p.axis};
-  const std::size_t shown = std::min(p.lines.size(), most_curves);
+  const std::size_t shown = std::min(p.lines.size(), max_curves);
   if (shown > 12) panel.axes += fmt::format("set key spacing 0.9 font ',{:.4g}'\n", canvas.font(10.0));
   for (std::size_t j = 0; j < shown; ++j)
     // Coinciding curves stay visible: every other one is thinner and dashed, on top.
@@ -181,10 +182,10 @@ Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canva
                             p.lines[j].title});
   if (shown < p.lines.size())
     panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
-                            "(" + say(run, "first {} of {}", shown, p.lines.size()) + ")"});
+                            "(" + translate(run, "first {} of {}", shown, p.lines.size()) + ")"});
   if (p.chosen_of > 0)
     panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
-                            "(" + say(run, "the {} of {} that move most", shown, p.chosen_of) + ")"});
+                            "(" + translate(run, "the {} of {} that move most", shown, p.chosen_of) + ")"});
   return panel;
 }
 
@@ -202,12 +203,12 @@ Picture picture_of_lines(const PlottedRun& run, const char* name, const std::str
 }  // namespace
 
 Picture displacement_picture(const PlottedRun& run) {
-  return picture_of_lines(run, "displacement", say(run, "Displacements from the undeformed state"),
+  return picture_of_lines(run, "displacement", translate(run, "Displacements from the undeformed state"),
                           displacement_panels(run));
 }
 
 Picture response_picture(const PlottedRun& run) {
-  return picture_of_lines(run, "response", say(run, "Response quantities"), response_panels(run));
+  return picture_of_lines(run, "response", translate(run, "Response quantities"), response_panels(run));
 }
 
 Picture energy_picture(const PlottedRun& run) {
@@ -231,25 +232,26 @@ Picture energy_picture(const PlottedRun& run) {
                      energy_table().number(column)});
   };
   const TableColumn balance = curve_in(balance_column);
-  Panel energies{say(run, "energy") + unit, {}, "", 0.72};
+  Panel energies{translate(run, "energy") + unit, {}, "", 0.72};
   for (const Look& part : parts) {
     if (!run.energies.used.contains(part.column)) continue;
     const TableColumn curve = curve_in(part.column);
     energies.curves.push_back(
-        {curve.rows, curve.columns(), std::string("with lines ") + part.line, say(run, part.words)});
+        {curve.rows, curve.columns(), std::string("with lines ") + part.line, translate(run, part.words)});
   }
   if (energies.curves.empty())
     energies.curves.push_back(
-        {balance.rows, fmt::format("{}:(0)", balance.time), "with lines", say(run, "kinetic")});
-  Panel off{say(run, "balance off by") + unit,
-            {{balance.rows,
-              fmt::format("{}:(${}-({}))", balance.time, balance.number, base::shortest(run.energies.start)),
-              "with lines linewidth 1.2 linecolor '#1a1a1a'", say(run, "drift")}},
-            "set format y '%.1e'\n",
-            0.28,
-            "set format y '%g'\n"};
+        {balance.rows, fmt::format("{}:(0)", balance.time), "with lines", translate(run, "kinetic")});
+  Panel off{
+      translate(run, "balance off by") + unit,
+      {{balance.rows,
+        fmt::format("{}:(${}-({}))", balance.time, balance.number, base::format_number(run.energies.start)),
+        "with lines linewidth 1.2 linecolor '#1a1a1a'", translate(run, "drift")}},
+      "set format y '%.1e'\n",
+      0.28,
+      "set format y '%g'\n"};
   return {"energy",
-          say(run, "Where the energy is, where it went, and the balance"),
+          translate(run, "Where the energy is, where it went, and the balance"),
           canvas_of(run.look, 768, true),
           true,
           {energies, off},
@@ -259,18 +261,18 @@ Picture energy_picture(const PlottedRun& run) {
 Picture loads_picture(const PlottedRun& run) {
   static constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                          "#e7298a", "#666666", "#a6761d", "#17becf"};
-  constexpr std::size_t most_curves = 24;
+  constexpr std::size_t max_curves = 24;
   const Units& units = run.facts.units;
   Panel forces{"[" + units.force + "]", {}};
-  Panel base{say(run, "acceleration") + " [" + units.length + "/" + units.time + "²]", {}};
-  for (std::size_t i = 1; i < run.loads.size() && i <= most_curves; ++i) {
+  Panel base{translate(run, "acceleration") + " [" + units.length + "/" + units.time + "²]", {}};
+  for (std::size_t i = 1; i < run.loads.size() && i <= max_curves; ++i) {
     const bool moves = run.loads[i].starts_with("base motion");
     std::vector<Curve>& curves = (moves ? base : forces).curves;
     const char* colour = moves ? "#1a1a1a" : colours[curves.size() % colours.size()];
     curves.push_back({"'../loads.csv' skip 1", fmt::format("1:{}", i + 1),
                       fmt::format("with lines linewidth 1.6 linecolor '{}'", colour), run.loads[i]});
   }
-  Picture picture{"loads", say(run, "Loads and motion of the base"), canvas_of(run.look, 568, true)};
+  Picture picture{"loads", translate(run, "Loads and motion of the base"), canvas_of(run.look, 568, true)};
   for (const Panel& panel : {forces, base})
     if (!panel.curves.empty()) picture.panels.push_back(panel);
   return picture;

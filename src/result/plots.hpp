@@ -26,11 +26,11 @@ namespace signorini::result {
 /// Pictures of the run in `directory`; none if there are fewer than two output times. Errors: FileError; UsageError if
 /// the time window contains nothing of the run.
 [[nodiscard]] PictureFiles run_pictures(const std::filesystem::path& directory, const PlotWindow& window = {},
-                                        const PictureLook& look = {});
+                                        const PictureStyle& look = {});
 /// Writes scripts and bands for the run in `directory`; returns the scripts, none if there are fewer than two output
 /// times. Errors: FileError; UsageError if the time window contains nothing of the run, before anything is removed.
 std::vector<std::filesystem::path> write_plots(const std::filesystem::path& directory,
-                                               const PlotWindow& window = {}, const PictureLook& look = {});
+                                               const PlotWindow& window = {}, const PictureStyle& look = {});
 
 /// Removes from DIR/plots the files of write_plots and its scripts, and the folder if it is empty then.
 void remove_plots(const std::filesystem::path& directory);

@@ -8,7 +8,7 @@
 
 #include "base/files.hpp"
 #include "base/text.hpp"
-#include "result/picture_look.hpp"
+#include "result/picture_style.hpp"
 #include "scene/components.hpp"
 #include "signorini/error.hpp"
 
@@ -16,9 +16,9 @@ namespace signorini::result {
 
 namespace {
 
-constexpr std::size_t most_bands = 5000;     // per contact; shorter ones are below the resolution of a
+constexpr std::size_t max_bands = 5000;      // per contact; shorter ones are below the resolution of a
                                              // picture
-constexpr double most_marks = 3000;          // per contact and type, over the picture's width
+constexpr double max_marks = 3000;           // per contact and type, over the picture's width
 constexpr const char* close_up = "-events";  // suffix of pictures from the first event to the last
 
 std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
@@ -107,7 +107,7 @@ void read_events(const TableFolder& tables, const ContactNumbers& index, Plotted
   CsvReader events = tables.open("events.csv");
   const std::size_t contact_column = events.column("contact"), to = events.column("to");
   const std::size_t normal = events.column("N"), type = events.column("event");
-  const double shortest_band = (run.t_last - run.t_first) / static_cast<double>(most_bands);
+  const double shortest_band = (run.t_last - run.t_first) / static_cast<double>(max_bands);
   while (events.next()) {
     const double t = events.t();
     if (std::find(run.event_types.begin(), run.event_types.end(), events.cell(type)) == run.event_types.end())
@@ -120,7 +120,7 @@ void read_events(const TableFolder& tables, const ContactNumbers& index, Plotted
     auto& bands = run.bands[k];
     if (bands.empty() || bands.back().state == events.cell(to)) continue;
     bands.back().to = t;
-    if (bands.size() >= most_bands && t - bands.back().from < shortest_band) {
+    if (bands.size() >= max_bands && t - bands.back().from < shortest_band) {
       bands.back().state = events.cell(to);
     } else {
       bands.push_back({t, t, events.cell(to)});
@@ -191,7 +191,7 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
   CsvReader events = tables.open("events.csv");
   const std::size_t contact_column = events.column("contact"), type = events.column("event");
   const std::size_t n = events.column("N"), friction = events.column("T");
-  const double least = (run.to - run.from) / most_marks;
+  const double least = (run.to - run.from) / max_marks;
   std::map<std::pair<std::string, std::string>, double> last;
   while (events.next()) {
     const double t = events.t();
@@ -232,15 +232,15 @@ void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun&
   const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
     if (!t || (std::isfinite(*t) && shows)) return;
     throw UsageError(fmt::format("{} {}: nothing to draw, the run covers t = {} to {}", option,
-                                 base::shortest(*t), base::shortest(run.t_first),
-                                 base::shortest(run.t_last)));
+                                 base::format_number(*t), base::format_number(run.t_first),
+                                 base::format_number(run.t_last)));
   };
   check("--from", window.from, window.from < run.t_last);
   check("--to", window.to, window.to > run.t_first);
   if (shown == 0)
     throw UsageError(fmt::format("--from {} --to {}: nothing to draw, no output time lies between",
-                                 base::shortest(window.from.value_or(run.t_first)),
-                                 base::shortest(window.to.value_or(run.t_last))));
+                                 base::format_number(window.from.value_or(run.t_first)),
+                                 base::format_number(window.to.value_or(run.t_last))));
 }
 
 }  // namespace
@@ -254,7 +254,7 @@ PlottedRun::Rows marks_of(const PlottedRun& run, const std::string& type, std::o
   return {static_cast<std::size_t>(begin - run.marks.begin()), static_cast<std::size_t>(end - begin)};
 }
 
-PlottedRun unreported_run(const std::string& title, const Units& units, const PictureLook& look) {
+PlottedRun empty_plotted_run(const std::string& title, const Units& units, const PictureStyle& look) {
   PlottedRun run;
   run.look = look;
   run.facts.title = title;
@@ -288,7 +288,7 @@ PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts, co
   return run;
 }
 
-std::optional<PlottedRun> closer(const TableFolder& tables, const PlottedRun& run) {
+std::optional<PlottedRun> event_window(const TableFolder& tables, const PlottedRun& run) {
   constexpr std::size_t most_contacts = 6;  // limit for pictures of single contacts
   double first = run.t_last, last = run.t_first;
   std::size_t changes = 0;
@@ -337,6 +337,8 @@ void Range::take(const Range& other) {
 
 double Range::size() const { return empty() ? 0.0 : std::max(std::abs(least), std::abs(greatest)); }
 
-std::string say(const PlottedRun& run, std::string_view english) { return say(run.look.language, english); }
+std::string translate(const PlottedRun& run, std::string_view english) {
+  return translate(run.look.language, english);
+}
 
 }  // namespace signorini::result

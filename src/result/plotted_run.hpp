@@ -17,7 +17,7 @@
 
 #include "result/csv.hpp"
 #include "result/frames.hpp"
-#include "result/picture_look.hpp"
+#include "result/picture_style.hpp"
 #include "result/summary.hpp"
 #include "result/table.hpp"
 
@@ -57,7 +57,7 @@ struct PlottedRun {
   double t_first = 0.0, t_last = 0.0;
   double from = 0.0, to = 0.0;  ///< time window
   std::string suffix;           ///< suffix of the pictures' names
-  PictureLook look;
+  PictureStyle look;
   /// Intervals of constant state, one list per contact, in the order of time.
   struct Band {
     double from, to;
@@ -93,8 +93,8 @@ struct PlottedRun {
                                         std::optional<int> row = std::nullopt);
 
 /// A run without data from files: the frame for pictures of several runs, or of none.
-[[nodiscard]] PlottedRun unreported_run(const std::string& title, const Units& units,
-                                        const PictureLook& look = {});
+[[nodiscard]] PlottedRun empty_plotted_run(const std::string& title, const Units& units,
+                                           const PictureStyle& look = {});
 
 /// Time window; absent ends are those of the run.
 struct PlotWindow {
@@ -106,16 +106,16 @@ struct PlotWindow {
 [[nodiscard]] PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts,
                                           const PlotWindow& window);
 /// The same run from its first event to its last, with a margin. nullopt if that is not a short part of the run.
-[[nodiscard]] std::optional<PlottedRun> closer(const TableFolder& tables, const PlottedRun& run);
+[[nodiscard]] std::optional<PlottedRun> event_window(const TableFolder& tables, const PlottedRun& run);
 /// Data for overlays of several runs: times, forces and ranges. t_end: of the longest run.
 [[nodiscard]] PlottedRun read_compared(const TableFolder& tables, const RunFacts& facts, double t_end);
 
 /// A word or a phrase of pictures in the run's language.
-[[nodiscard]] std::string say(const PlottedRun& run, std::string_view english);
+[[nodiscard]] std::string translate(const PlottedRun& run, std::string_view english);
 /// Same with numbers and names inserted, one for each "{}".
 template <class... Parts>
-[[nodiscard]] std::string say(const PlottedRun& run, std::string_view english, const Parts&... parts) {
-  return fmt::format(fmt::runtime(say(run, english)), parts...);
+[[nodiscard]] std::string translate(const PlottedRun& run, std::string_view english, const Parts&... parts) {
+  return fmt::format(fmt::runtime(translate(run, english)), parts...);
 }
 
 }  // namespace signorini::result

@@ -125,12 +125,12 @@ RunDirectory::Writers& RunDirectory::writers() {
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
     if (options_.force) remove_run(path_, false);
     write_file(path_ / "run.toml", scene_.resolved);
-    if (model_.geometric) write_file(path_ / scene::frozen_file, frozen_text(model_.geometric->forces));
+    if (model_.geometric) write_file(path_ / scene::prestress_file, prestress_csv(model_.geometric->forces));
     writers_ = std::make_unique<Writers>(path_, scene_, model_, options_.pictures);
   } catch (const FileError&) {
     std::error_code ignored;
     for (const std::string_view name : run_files()) fs::remove(path_ / name, ignored);
-    base::unmake_directory(path_, created);
+    base::remove_created_directories(path_, created);
     throw;
   }
   return *writers_;
@@ -153,10 +153,10 @@ void RunDirectory::sample(const Sample& sample) {
   if (w.body_motion) w.body_motion->add(sample);
   w.energy.add(sample);
   w.energy.flush();
-  if (sample.t == scene_.run.t_end) keep_state(sample);
+  if (sample.t == scene_.run.t_end) write_state(sample);
 }
 
-void RunDirectory::keep_state(const Sample& sample) {
+void RunDirectory::write_state(const Sample& sample) {
   Writers& w = writers();
   if (!w.states) w.states = std::make_unique<StateWriter>(path_, model_);
   w.states->write(sample);
@@ -170,7 +170,7 @@ void RunDirectory::frame(const Sample& sample) {
     if (!w.body_frames) w.body_frames = std::make_unique<BodyFrameWriter>(path_, scene_, model_);
     w.body_frames->write(sample);
   }
-  keep_state(sample);
+  write_state(sample);
 }
 
 PictureTables& RunDirectory::pictures() {
@@ -206,7 +206,7 @@ void RunDirectory::abandon(double t, const std::string& reason) {
   if (!started()) return;
   try {
     write_file(path_ / "summary.json", abandoned_json(scene_, model_, options_.command_line, t, reason));
-    vouch(Outcome::Kind::stopped);
+    write_manifest(Outcome::Kind::stopped);
   } catch (const FileError&) {  // the disk may be full: it still says "running"
   }
 }
@@ -220,11 +220,11 @@ std::string RunDirectory::finish(const CertifiedReport& run) {
     write_file(path_ / "loads.csv", loads);
   std::string text = summary_json(scene_, model_, run, options_.command_line);
   write_file(path_ / "summary.json", text);
-  vouch(run.report.outcome.kind);
+  write_manifest(run.report.outcome.kind);
   return text;
 }
 
-void RunDirectory::vouch(Outcome::Kind outcome) const {
+void RunDirectory::write_manifest(Outcome::Kind outcome) const {
   write_file(path_ / base::manifest_file, base::manifest_of(path_, to_string(outcome)).text());
 }
 

@@ -82,11 +82,11 @@ class RunDirectory : public Recorder {
  private:
   struct Writers;
   /// Writes the complete state, from which another run may continue.
-  void keep_state(const Sample& sample);
+  void write_state(const Sample& sample);
   Writers& writers();
   PictureTables& pictures();
   /// The manifest, after all other files.
-  void vouch(Outcome::Kind outcome) const;
+  void write_manifest(Outcome::Kind outcome) const;
 
   std::filesystem::path path_;
   const Scene& scene_;

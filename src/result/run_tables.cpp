@@ -45,7 +45,7 @@ const CsvTable<ContactRow>& contact_table() {
       {"t", &R::t},
       {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
       {"state", [](const R& r) { return signorini::to_string(r.sample.state); }},
-      {"gap", [](const R& r) { return r.contact.gap_if_any(r.sample.gap); }},
+      {"gap", [](const R& r) { return r.contact.optional_gap(r.sample.gap); }},
       {"ut", [](const R& r) { return r.sample.ut; }},
       {"vt", [](const R& r) { return r.sample.vt; }},
       {"slip", [](const R& r) { return r.sample.slip; }},
@@ -59,7 +59,7 @@ const CsvTable<ContactRow>& contact_table() {
 CsvTable<Sample> history_table(const Model& model) {
   CsvTable<Sample> table = {{"t", &Sample::t}};
   for (const Column& column : model.columns)
-    table.add(column.name, [&column](const Sample& s) { return column.of(*s.u, *s.v); });
+    table.add(column.name, [&column](const Sample& s) { return column.value(*s.u, *s.v); });
   return table;
 }
 

@@ -12,17 +12,17 @@ StateWriter::StateWriter(const std::filesystem::path& directory, const Model& mo
     const Contact& c = model.contacts[k];
     if (c.sliding_point()) sliding_.push_back(k);
     if (!c.surface_motion.is_constant()) surfaces_.push_back(k);
-    if (c.has_friction()) rubbing_.push_back(k);
-    if (!c.obeys_coulomb()) own_.push_back(k);
+    if (c.has_friction()) frictional_.push_back(k);
+    if (!c.obeys_coulomb()) user_laws_.push_back(k);
   }
   // Sliding points are the last degrees of freedom. They have separate columns, which reduced models need, too.
   structural_ = model.physical_dofs().size() - (model.reduction ? 0 : sliding_.size());
   for (const Load& load : model.loads)
     if (load.kind == LoadKind::support) supports_.push_back(&load);
-  head();
+  write_header();
 }
 
-void StateWriter::head() {
+void StateWriter::write_header() {
   block_.text("t");
   for (std::size_t i = 0; i < structural_; ++i) block_.text(model_.physical_dofs()[i].displacement);
   for (std::size_t i = 0; i < structural_; ++i) block_.text(model_.physical_dofs()[i].velocity);
@@ -33,10 +33,10 @@ void StateWriter::head() {
   };
   name(sliding_, ".slip");
   name(surfaces_, ".surface");
-  name(rubbing_, ".T");
-  name(rubbing_, ".state");
-  name(own_, ".own");
-  name(own_, ".memory");
+  name(frictional_, ".T");
+  name(frictional_, ".state");
+  name(user_laws_, ".own");
+  name(user_laws_, ".memory");
   block_.end_row();
   file_.write(block_);
 }
@@ -53,19 +53,19 @@ void StateWriter::write(const Sample& sample) {
   const auto surface = [&](std::size_t k) { return model_.contacts[k].surface_motion.value(sample.t); };
   for (const std::size_t k : sliding_) block_.number(sample.contacts[k].slip + surface(k));
   for (const std::size_t k : surfaces_) block_.number(surface(k));
-  for (const std::size_t k : rubbing_) block_.number(sample.contacts[k].T);
-  for (const std::size_t k : rubbing_)
+  for (const std::size_t k : frictional_) block_.number(sample.contacts[k].T);
+  for (const std::size_t k : frictional_)
     block_.text(std::string(signorini::to_string(sample.contacts[k].state)));
-  for (const std::size_t k : own_)
-    block_.number(static_cast<double>(signorini::number_of(sample.contacts[k].state)));
-  for (const std::size_t k : own_) block_.number(sample.contacts[k].memory);
+  for (const std::size_t k : user_laws_)
+    block_.number(static_cast<double>(signorini::user_law_state_number(sample.contacts[k].state)));
+  for (const std::size_t k : user_laws_) block_.number(sample.contacts[k].memory);
   block_.end_row();
   file_.write(block_);
 }
 
-std::string frozen_text(const Prestress& forces) {
+std::string prestress_csv(const Prestress& forces) {
   CsvBlock block;
-  for (const std::string& name : scene::frozen_heading()) block.text(name);
+  for (const std::string& name : scene::prestress_columns()) block.text(name);
   block.end_row();
   for (const Prestress::Element& e : forces.elements) {
     block.text("member").text(e.from).text(e.to).number(e.at_from).number(e.at_to).empty();

@@ -23,12 +23,12 @@ class StateWriter {
   void write(const Sample& sample);
 
  private:
-  void head();
+  void write_header();
 
   const Model& model_;
-  std::size_t structural_ = 0;                                   // number of degrees of freedom without
-                                                                 // sliding points
-  std::vector<std::size_t> sliding_, surfaces_, rubbing_, own_;  // indices of contacts
+  std::size_t structural_ = 0;  // number of degrees of freedom without
+                                // sliding points
+  std::vector<std::size_t> sliding_, surfaces_, frictional_, user_laws_;  // indices of contacts
   CsvBlock block_;
   CsvFile file_;
   std::vector<const Load*> supports_;  // loads of moving supports
@@ -37,6 +37,6 @@ class StateWriter {
 
 // Writes geometric.csv (scene/saved_state.hpp).
 
-[[nodiscard]] std::string frozen_text(const Prestress& forces);
+[[nodiscard]] std::string prestress_csv(const Prestress& forces);
 
 }  // namespace signorini::result

@@ -62,7 +62,7 @@ base::Json frictional_json(const Model& model) {
   const auto name = [&](int k) { return model.contacts[static_cast<std::size_t>(k)].name; };
   for (const StageEvent& e : model.statics.events)
     events.push_back({{"stage", e.stage},
-                      {"part", e.part},
+                      {"part", e.fraction},
                       {"contact", name(e.contact)},
                       {"from", signorini::to_string(e.from)},
                       {"to", signorini::to_string(e.to)}});
@@ -73,7 +73,7 @@ base::Json frictional_json(const Model& model) {
                           {"state", signorini::to_string(end.states[k])},
                           {"N", end.N[k]},
                           {"T", end.T[k]}});
-    stages.push_back({{"stage", end.stage}, {"part", end.part}, {"contacts", contacts}});
+    stages.push_back({{"stage", end.stage}, {"part", end.fraction}, {"contacts", contacts}});
   }
   return {{"events", events}, {"stages", stages}};
 }
@@ -92,7 +92,7 @@ base::Json model_json(const Model& model) {
   if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
   for (const Contact& contact : model.contacts)
     if (const CurvedSurface* surface = contact.curved_surface())
-      json["pendulums"][contact.name] = surface->carried;
+      json["pendulums"][contact.name] = surface->nominal_force;
   if (model.geometric) json["load_factors"] = model.geometric->load_factors;
   if (model.statics.frictional) json["frictional_start"] = frictional_json(model);
   json["scales"] = {{"displacement", model.scales.displacement},
@@ -103,11 +103,11 @@ base::Json model_json(const Model& model) {
   return json;
 }
 
-base::Json turn_json(const Turn& turn) { return {{"value", turn.value}, {"t", turn.t}}; }
+base::Json turn_json(const TimedExtreme& turn) { return {{"value", turn.value}, {"t", turn.t}}; }
 
 base::Json support_json(const SupportLoad& load) {
-  return {{"N", {{"least", turn_json(load.least_N)}, {"greatest", turn_json(load.greatest_N)}}},
-          {"T", {{"least", turn_json(load.least_T)}, {"greatest", turn_json(load.greatest_T)}}},
+  return {{"N", {{"least", turn_json(load.min_N)}, {"greatest", turn_json(load.max_N)}}},
+          {"T", {{"least", turn_json(load.min_T)}, {"greatest", turn_json(load.max_T)}}},
           {"residual_slip", load.residual_slip()}};
 }
 
@@ -120,7 +120,7 @@ base::Json contact_json(const Model& model, std::size_t k, double capture_veloci
                      {"law", contact.law->name()},
                      {"static_friction", contact.friction.static_},
                      {"kinetic_friction", contact.friction.kinetic}};
-  if (const auto gap = contact.gap_if_any(contact.gap)) {
+  if (const auto gap = contact.optional_gap(contact.gap)) {
     json["gap"] = *gap;
     if (contact.takes_impulses())
       json["restitution"] = contact.restitution;
@@ -173,7 +173,7 @@ base::Json settings_json(const RunSpec& run, const engine::Tolerance& tolerance,
                      {"max_order", method.max_order},
                      {"max_order_reason", method.max_order_reason},
                      {"max_events_at_once", run.max_events_at_once}};
-  const EngineName& engine = signorini::name_of(method.engine);
+  const EngineInfo& engine = signorini::engine_info(method.engine);
   if (engine.accuracy == Accuracy::step) json["dt"] = method.accuracy;
   const std::pair<const char*, base::Json> own[] = {
       {"refine", run.refine == Refine::linear ? "linear" : "root"},
@@ -221,8 +221,8 @@ base::Json extreme_json(const Model& model, const Extreme& extreme, double scale
 
 base::Json output_extreme_json(const Output& output, double value, double t, const OutputPlace& place) {
   base::Json json = {{"value", value}, {"t", t}};
-  if (place.stretch < 0) return json;
-  const Output::Stretch& stretch = output.stretches[static_cast<std::size_t>(place.stretch)];
+  if (place.segment < 0) return json;
+  const Output::Segment& stretch = output.segments[static_cast<std::size_t>(place.segment)];
   json["at"] = {stretch.from, stretch.to};
   json["station"] = place.station;
   if (stretch.fibre != Fibre::both) json["fibre"] = stretch.fibre == Fibre::left ? "left" : "right";
@@ -312,10 +312,10 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   for (const auto& [type, count] : report.events_by_type) total += count;
   json["events"] = {{"total", total}, {"by_type", report.events_by_type}};
   json["certified"] = certificate_json(run);
-  if (!run.certificate && !run.why_not.empty()) json["not_certified"] = run.why_not;
+  if (!run.certificate && !run.reason.empty()) json["not_certified"] = run.reason;
   json["counters"] = counter_json(report.counters);
   if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &report);
-  json["witness"] = witness_json(model, report.witness);
+  json["witness"] = law_check_json(model, report.law_checks);
   json["audit"] = audit_json(model, report.audit);
   json["energy"] = {{"initial", energy_json(report.audit.initial)},
                     {"final", energy_json(report.audit.final)},
@@ -363,13 +363,13 @@ std::string abandoned_json(const Scene& scene, const Model& model,
 
 RunFacts read_run_facts(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
-  if (const std::string why = base::why_no_input_file(path); !why.empty())
+  if (const std::string why = base::input_file_error(path); !why.empty())
     throw FileError(path.string(), why + ", expected the summary of a run");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw FileError(path.string(),
-                    "cannot be read" + base::because(errno) + "; expected the directory of a run");
+                    "cannot be read" + base::system_error_text(errno) + "; expected the directory of a run");
   try {
     const base::Json json = base::parse_json(file);
     RunFacts facts;

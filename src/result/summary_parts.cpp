@@ -12,9 +12,9 @@ base::Json reduction_json(const Reduction& r, const Report* report) {
   base::Json json = {{"cutoff_omega", r.cutoff},
                      {"modes_kept", r.modes},
                      {"free_motions", r.free_modes},
-                     {"modes_left_out", r.left_out},
+                     {"modes_left_out", r.truncated_modes},
                      {"highest_kept", r.highest_kept},
-                     {"first_left_out", r.first_left_out},
+                     {"first_left_out", r.first_truncated},
                      {"static_shapes", r.massless_shapes},
                      {"static_shapes_with_mass", r.massive_shapes},
                      {"highest_with_mass", r.highest_massive},
@@ -24,10 +24,10 @@ base::Json reduction_json(const Reduction& r, const Report* report) {
                      {"initial_velocity_lost", r.initial_velocity_lost}};
   if (r.tolerance) {
     json["tolerance"] = *r.tolerance;
-    json["missed"] = r.tried.empty() ? base::Json() : base::Json(r.tried.back().missed);
-    json["error"] = r.tried.empty() ? base::Json() : base::Json(r.tried.back().error);
+    json["missed"] = r.trials.empty() ? base::Json() : base::Json(r.trials.back().missed);
+    json["error"] = r.trials.empty() ? base::Json() : base::Json(r.trials.back().error);
     json["tried"] = base::Json::array();
-    for (const CutoffTrial& trial : r.tried)
+    for (const CutoffTrial& trial : r.trials)
       json["tried"].push_back({{"cutoff_omega", trial.cutoff_omega},
                                {"modes_kept", trial.modes},
                                {"missed", trial.missed},
@@ -55,7 +55,7 @@ Units units_from(const base::Json& json) {
   return {json.at("force"), json.at("mass"), json.at("length"), json.at("time")};
 }
 
-base::Json witness_json(const Model& model, const Testimony& witness) {
+base::Json law_check_json(const Model& model, const LawCheckSummary& witness) {
   base::Json list = base::Json::array();
   for (const Violation& v : witness.violations)
     list.push_back(

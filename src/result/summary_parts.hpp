@@ -38,7 +38,7 @@ inline base::Json hangers_json(const Model& model) {
 // Results of a witness, for summary.json and `signorini witness --json`.
 
 /// {"checked", "violated", "violations": [{"t", "event", "contact", "law", "value", "limit"}, ...]}
-[[nodiscard]] base::Json witness_json(const Model& model, const Testimony& witness);
+[[nodiscard]] base::Json law_check_json(const Model& model, const LawCheckSummary& witness);
 
 // Units of tables with the unit names of a scene.
 //

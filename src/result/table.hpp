@@ -115,13 +115,13 @@ class TableFile {
   /// Buffers the row until there are enough of them, or until flush().
   void add(const Row& row) {
     table_.put_row(block_, row);
-    if (block_.str().size() > much) flush();
+    if (block_.str().size() > flush_bytes) flush();
   }
   /// Passes all rows to the system.
   void flush() { file_.write(block_); }
 
  private:
-  static constexpr std::size_t much = 1 << 16;  // bytes
+  static constexpr std::size_t flush_bytes = 1 << 16;  // bytes
 
   CsvTable<Row> table_;
   CsvBlock block_;

@@ -33,8 +33,8 @@ Drops drops_of(const Model& model, const decide::Decision& decision) {
     if (!decision.jumped[k] || !(std::abs(to) < std::abs(from))) continue;
     const Contact& contact = model.contacts[k];
     drops.own[k] = contact::shear_energy(contact, from) - contact::shear_energy(contact, to);
-    const bool holds = decision.mode[k].state == State::stick && !decision.visited[k];
-    drops.any[k] = drops.own[k] > 0.0 || (contact::slides_at_once(contact) && !holds);
+    const bool holds = decision.states[k].state == State::stick && !decision.visited[k];
+    drops.any[k] = drops.own[k] > 0.0 || (contact::slides_instantaneously(contact) && !holds);
     drops.sum += drops.own[k];
     drops.count += drops.any[k] ? 1 : 0;
   }
@@ -43,7 +43,7 @@ Drops drops_of(const Model& model, const decide::Decision& decision) {
 
 }  // namespace
 
-bool moves_at_once(const Model& model) {
+bool has_instantaneous_parts(const Model& model) {
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless && model.damping.coeff(i, i) == 0.0) return true;
   return false;
@@ -56,7 +56,7 @@ Auditor::Auditor(const Model& model, const linear::SystemMatrices& structure)
       peaks_(model.contacts.size()),
       supports_(model.contacts.size()),
       landings_(model),
-      massless_(moves_at_once(model)) {}
+      massless_(has_instantaneous_parts(model)) {}
 
 void Auditor::add(const motion::WorkIntegrals& works) {
   landings_.add(works);
@@ -72,34 +72,34 @@ void Auditor::add(const motion::WorkIntegrals& works) {
 void Auditor::begin(const decide::Decision& decision, const contact::ContactStates& first,
                     const motion::Forcing& forcing, const motion::Point& point) {
   for (std::size_t k = 0; k < peaks_.size(); ++k)
-    at_start_.push_back(place_of(k, forcing, decision.jet.t, decision.mode[k].state, point));
+    at_start_.push_back(place_of(k, forcing, decision.jet.t, decision.states[k].state, point));
   for (std::size_t k = 0; k < supports_.size(); ++k) {
     const ContactMotion m = motion(k, forcing, decision.jet.t, point);
     SupportLoad& load = supports_[k];
-    load.least_N = load.greatest_N = {m.N, decision.jet.t};
-    load.least_T = load.greatest_T = {m.T, decision.jet.t};
-    load.slip_at_start = load.slip_at_end = slip(k, decision.mode[k], m);
+    load.min_N = load.max_N = {m.N, decision.jet.t};
+    load.min_T = load.max_T = {m.T, decision.jet.t};
+    load.slip_at_start = load.slip_at_end = slip(k, decision.states[k], m);
   }
   landings_.begin(decision.jet.t, first);
   landings_.instant(decision.jet.t, decision, first);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
-  seen_at_start_ = model_.seen_energy(decision.jet.t);
-  audit_.initial = energy(decision.jet.t, decision.mode, point);
+  seen_at_start_ = model_.correction_energy(decision.jet.t);
+  audit_.initial = energy(decision.jet.t, decision.states, point);
   begun_ = true;
 }
 
-void Auditor::bears(std::size_t contact, double t, double N, double T) {
+void Auditor::update_peak_forces(std::size_t contact, double t, double N, double T) {
   Peak& peak = peaks_[contact];
   peak.N = std::max(peak.N, std::abs(N));
   peak.T = std::max(peak.T, std::abs(T));
   SupportLoad& load = supports_[contact];
   // If values are equal up to rounding, the first one counts.
-  const double same = rounding::of_elimination * std::max(peak.N, peak.T);
-  if (N < load.least_N.value - same) load.least_N = {N, t};
-  if (N > load.greatest_N.value + same) load.greatest_N = {N, t};
-  if (T < load.least_T.value - same) load.least_T = {T, t};
-  if (T > load.greatest_T.value + same) load.greatest_T = {T, t};
+  const double same = rounding::elimination * std::max(peak.N, peak.T);
+  if (N < load.min_N.value - same) load.min_N = {N, t};
+  if (N > load.max_N.value + same) load.max_N = {N, t};
+  if (T < load.min_T.value - same) load.min_T = {T, t};
+  if (T > load.max_T.value + same) load.max_T = {T, t};
 }
 
 double Auditor::slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const {
@@ -111,33 +111,33 @@ Auditor::Place Auditor::place_of(std::size_t k, const motion::Forcing& forcing, 
                                  const motion::Point& point) const {
   const Contact& contact = model_.contacts[k];
   if (!contact.compliance_split())
-    return {contact.normal.dot(point.u), motion::slide_of(contact, k, forcing, t, point.u, point.v).ut};
+    return {contact.normal.dot(point.u), motion::body_slide(contact, k, forcing, t, point.u, point.v).ut};
   ContactMotion m = motion(k, forcing, t, point);
-  contact::leave_out_borrowed(contact, state, m);
+  contact::remove_split_compliance(contact, state, m);
   return {m.gap - contact.gap, m.ut};
 }
 
-void Auditor::observe(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+void Auditor::observe(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                       const motion::Point& point) {
-  for (std::size_t k = 0; k < mode.size(); ++k) observe(k, forcing, t, mode, point);
+  for (std::size_t k = 0; k < states.size(); ++k) observe(k, forcing, t, states, point);
 }
 
 void Auditor::observe(std::size_t k, const motion::Forcing& forcing, double t,
-                      const contact::ContactStates& mode, const motion::Point& point) {
+                      const contact::ContactStates& states, const motion::Point& point) {
   const Contact& contact = model_.contacts[k];
   const ContactMotion m = motion(k, forcing, t, point);
   const int index = static_cast<int>(k);
   Peak& peak = peaks_[k];
   const Place place = contact.compliance_split() || contact.sliding_point()
-                          ? place_of(k, forcing, t, mode[k].state, point)
+                          ? place_of(k, forcing, t, states[k].state, point)
                           : Place{contact.normal.dot(point.u), m.ut};
   peak.tangential = std::max(peak.tangential, std::abs(place.ut - at_start_[k].ut));
   peak.normal = std::max(peak.normal, std::abs(place.normal - at_start_[k].normal));
-  bears(k, t, m.N, m.T);
-  supports_[k].slip_at_end = slip(k, mode[k], m);
+  update_peak_forces(k, t, m.N, m.T);
+  supports_[k].slip_at_end = slip(k, states[k], m);
   landings_.observe(k, m.N);
 
-  const Violations off = contact::violations(contact, mode[k].state, m);
+  const Violations off = contact::violations(contact, states[k].state, m);
   raise(audit_.tension, off.tension, t, index);
   raise(audit_.gap, off.gap, t, index);
   raise(audit_.penetration, off.penetration, t, index);
@@ -158,9 +158,9 @@ double Auditor::work_of_jump(const motion::Forcing& forcing, double t, const mot
   return work;
 }
 
-void Auditor::instant(double t, const decide::Decision& decision, const contact::ContactStates& old_mode,
+void Auditor::instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states,
                       const motion::Point& before, const motion::Forcing& forcing, bool load_jumps) {
-  landings_.instant(t, decision, old_mode);
+  landings_.instant(t, decision, old_states);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
   for (const decide::Impulse& impulse : decision.impulses)
@@ -171,8 +171,8 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
       std::find(decision.jumped.begin(), decision.jumped.end(), true) != decision.jumped.end();
   const double driven =
       massless_ && any_jumps && !load_jumps ? work_of_jump(forcing, t, before, decision) : 0.0;
-  const double released = massless_ ? driven + stored(old_mode, before).stored() -
-                                          stored(decision.mode, after).stored() -
+  const double released = massless_ ? driven + stored(old_states, before).stored() -
+                                          stored(decision.states, after).stored() -
                                           (decision.impact_loss - decision.impact_surface_work)
                                     : 0.0;
   work_.loads += driven;
@@ -180,7 +180,7 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];
-    bears(k, t, b.N, b.T);
+    update_peak_forces(k, t, b.N, b.T);
     const Contact& contact = model_.contacts[k];
     if (!decision.jumped[k] && !(massless_ && load_jumps)) continue;
     double loss = 0.0;
@@ -202,7 +202,7 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
   work_.friction += lost;
 }
 
-Energy Auditor::stored(const contact::ContactStates& mode, const motion::Point& point) const {
+Energy Auditor::stored(const contact::ContactStates& states, const motion::Point& point) const {
   Energy e;
   e.kinetic = point.energy ? point.energy->kinetic : 0.5 * structure_.quadratic(structure_.m, point.v.data());
   e.elastic = point.energy ? point.energy->elastic : 0.5 * structure_.quadratic(structure_.k, point.u.data());
@@ -213,7 +213,7 @@ Energy Auditor::stored(const contact::ContactStates& mode, const motion::Point& 
     m.T = point.T(model_.layout, k);
     m.gap = contact.gap_at(point.u);
     m.vn = contact::gap_rate(contact, point.v);
-    const double springs = contact::stored_energy(contact, mode[k].state, m);
+    const double springs = contact::stored_energy(contact, states[k].state, m);
     (contact.compliance_split() ? e.elastic : e.contact) += springs;
     if (const ShearElement* element =
             contact.sliding_point()) {  // its spring is part of the structure's stiffness
@@ -226,22 +226,22 @@ Energy Auditor::stored(const contact::ContactStates& mode, const motion::Point& 
   return e;
 }
 
-Energy Auditor::energy(double t, const contact::ContactStates& mode, const motion::Point& point) {
-  const Energy now = stored(mode, point);
+Energy Auditor::energy(double t, const contact::ContactStates& states, const motion::Point& point) {
+  const Energy now = stored(states, point);
   Energy e = work_;
   e.kinetic = now.kinetic;
   e.elastic = now.elastic;
   e.contact = now.contact;
-  return audited(t, e);
+  return audit_balance(t, e);
 }
 
-Energy Auditor::energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& mode,
+Energy Auditor::energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& states,
                        const motion::Point& point) {
-  return audited(t, energy_before(ahead, mode, point));
+  return audit_balance(t, energy_before(ahead, states, point));
 }
 
-Energy Auditor::audited(double t, Energy e) {
-  const double unseen = model_.seen_energy(t);
+Energy Auditor::audit_balance(double t, Energy e) {
+  const double unseen = model_.correction_energy(t);
   e.elastic -= unseen;
   e.loads -= unseen - seen_at_start_;
   audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));
@@ -252,9 +252,9 @@ Energy Auditor::audited(double t, Energy e) {
   return e;
 }
 
-Energy Auditor::energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& mode,
+Energy Auditor::energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& states,
                               const motion::Point& point) const {
-  Energy e = stored(mode, point);
+  Energy e = stored(states, point);
   e.impact = work_.impact;
   e.loads = work_.loads - works.loads;
   e.damping = work_.damping - works.damping;
@@ -267,9 +267,9 @@ ContactSample Auditor::sample(std::size_t k, const motion::Forcing& forcing, dou
                               const ContactState& state, const motion::Point& point) const {
   const ContactMotion m = motion(k, forcing, t, point);
   ContactSample s;
-  s.state = contact::state_of_rows(state.state);
+  s.state = contact::representative_state(state.state);
   s.gap = m.gap;
-  const motion::BodySlide slide = motion::slide_of(model_.contacts[k], k, forcing, t, point.u, point.v);
+  const motion::BodySlide slide = motion::body_slide(model_.contacts[k], k, forcing, t, point.u, point.v);
   s.ut = slide.ut;
   s.vt = slide.vt;
   s.N = m.N;
@@ -277,7 +277,7 @@ ContactSample Auditor::sample(std::size_t k, const motion::Forcing& forcing, dou
   s.slip = slip(k, state, m);
   if (model_.contacts[k].compliance_split()) {
     ContactMotion touching = m;
-    contact::leave_out_borrowed(model_.contacts[k], state.state, touching);
+    contact::remove_split_compliance(model_.contacts[k], state.state, touching);
     s.gap = touching.gap;
     s.ut = touching.ut;
     s.vt = touching.vt;
@@ -286,8 +286,9 @@ ContactSample Auditor::sample(std::size_t k, const motion::Forcing& forcing, dou
   return s;
 }
 
-void Auditor::finish(Report& report, const Energy& last, double t, const contact::ContactStates& mode) const {
-  report.landings = landings_.finish(t, mode);
+void Auditor::finish(Report& report, const Energy& last, double t,
+                     const contact::ContactStates& states) const {
+  report.landings = landings_.finish(t, states);
   report.audit = audit_;
   report.audit.final = last;
   report.audit.friction_work = friction_;

@@ -13,7 +13,7 @@
 namespace signorini::run {
 
 /// True if there are degrees of freedom with neither mass nor damping.
-[[nodiscard]] bool moves_at_once(const Model& model);
+[[nodiscard]] bool has_instantaneous_parts(const Model& model);
 
 class Auditor {
  public:
@@ -26,29 +26,29 @@ class Auditor {
   void begin(const decide::Decision& decision, const contact::ContactStates& first,
              const motion::Forcing& forcing, const motion::Point& point);
   /// Checks contacts at the end of a step or after an event.
-  void observe(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+  void observe(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                const motion::Point& point);
   /// Checks one contact; only the entries of the point that it depends on are read.
   void observe(std::size_t contact, const motion::Forcing& forcing, double t,
-               const contact::ContactStates& mode, const motion::Point& point);
+               const contact::ContactStates& states, const motion::Point& point);
   void equilibrium(double t, double residual);
   /// Adds the dissipation of an instant: friction forces that drop, loads that jump on massless parts.
-  void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_mode,
+  void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states,
                const motion::Point& before, const motion::Forcing& forcing, bool load_jumps);
   /// Energies at t; also audits the balance. ahead: works that have been added and belong to times after t.
-  Energy energy(double t, const contact::ContactStates& mode, const motion::Point& point);
-  Energy energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& mode,
+  Energy energy(double t, const contact::ContactStates& states, const motion::Point& point);
+  Energy energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& states,
                 const motion::Point& point);
   /// Energies at a point before these works, which have been added; without an audit.
-  [[nodiscard]] Energy energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& mode,
+  [[nodiscard]] Energy energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& states,
                                      const motion::Point& point) const;
   [[nodiscard]] ContactSample sample(std::size_t contact, const motion::Forcing& forcing, double t,
                                      const ContactState& state, const motion::Point& point) const;
 
   /// Energy dissipated by friction so far, by contact.
-  [[nodiscard]] const std::vector<double>& losses() const { return friction_; }
+  [[nodiscard]] const std::vector<double>& friction_losses() const { return friction_; }
 
-  void finish(Report& report, const Energy& last, double t, const contact::ContactStates& mode) const;
+  void finish(Report& report, const Energy& last, double t, const contact::ContactStates& states) const;
 
  private:
   [[nodiscard]] ContactMotion motion(std::size_t k, const motion::Forcing& forcing, double t,
@@ -57,7 +57,7 @@ class Auditor {
   }
 
   /// Updates the extreme forces of a contact at t.
-  void bears(std::size_t contact, double t, double N, double T);
+  void update_peak_forces(std::size_t contact, double t, double N, double T);
   /// Slip p; for rigid stick the anchor.
   [[nodiscard]] double slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const;
 
@@ -65,9 +65,9 @@ class Auditor {
   [[nodiscard]] double work_of_jump(const motion::Forcing& forcing, double t, const motion::Point& before,
                                     const decide::Decision& decision) const;
   /// Audits the balance of these energies.
-  Energy audited(double t, Energy e);
+  Energy audit_balance(double t, Energy e);
   /// Kinetic, elastic and contact energies.
-  [[nodiscard]] Energy stored(const contact::ContactStates& mode, const motion::Point& point) const;
+  [[nodiscard]] Energy stored(const contact::ContactStates& states, const motion::Point& point) const;
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
@@ -80,10 +80,10 @@ class Auditor {
   [[nodiscard]] Place place_of(std::size_t contact, const motion::Forcing& forcing, double t, State state,
                                const motion::Point& point) const;
   std::vector<Place> at_start_;
-  double seen_at_start_ = 0.0;  ///< Model::seen_energy
+  double seen_at_start_ = 0.0;  ///< Model::correction_energy
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
-  Landings landings_;
+  LandingTracker landings_;
   bool massless_;  // there are degrees of freedom that move instantaneously
   bool begun_ = false;
 };

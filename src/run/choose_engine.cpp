@@ -22,7 +22,7 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   if (run.engine != Engine::automatic) return {run.engine, false, "as given"};
   const Engine closed_form = engine_for(EngineRole::closed_form),
                integrator = engine_for(EngineRole::integrator);
-  if (!exact_takes(model, run))
+  if (!exact_accepts(model, run))
     return {integrator, true, "a law or a load of the scene has no motion in closed form"};
   const double decay = model::fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
@@ -35,13 +35,13 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
 
 namespace {
 
-constexpr int most_unknowns = 4000;  // shapes and their inverse take 16 n^2 bytes
-constexpr int fewest_unknowns =
+constexpr int max_unknowns = 4000;  // shapes and their inverse take 16 n^2 bytes
+constexpr int min_unknowns =
     16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
-constexpr int fewest_damped_unknowns = 40;  // complex modes gain from here on (validation/exact); chosen
-constexpr double worth = 2.0;               // required cost ratio of the series and the states' modes
-constexpr int most_damped_unknowns = 500;   // a state's complex modes take 120 n^2 bytes and about 5 s there
+constexpr int min_damped_unknowns = 40;   // complex modes gain from here on (validation/exact); chosen
+constexpr double worth = 2.0;             // required cost ratio of the series and the states' modes
+constexpr int max_damped_unknowns = 500;  // a state's complex modes take 120 n^2 bytes and about 5 s there
 
 bool has_rigid_rows(const Model& model) {
   return std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
@@ -51,25 +51,25 @@ bool has_rigid_rows(const Model& model) {
 
 }  // namespace
 
-bool damped_modes_gain(const Model& model) {
-  return model.size() >= fewest_damped_unknowns && !has_rigid_rows(model);
+bool damped_modes_are_faster(const Model& model) {
+  return model.size() >= min_damped_unknowns && !has_rigid_rows(model);
 }
 
 ModalKind modal_kind(const Model& model) {
   const std::string why = modal::proportional_refusal(model);
-  if (model.size() > most_unknowns) return {false, false, "so many unknowns that their modes are not stored"};
-  if (why.empty()) return {false, modal::most_state_springs(model) > modal::most_rank, ""};
+  if (model.size() > max_unknowns) return {false, false, "so many unknowns that their modes are not stored"};
+  if (why.empty()) return {false, modal::max_state_springs(model) > modal::max_rank, ""};
   if (std::string other = modal::damped_refusal(model); !other.empty()) return {true, false, other};
-  return {true, modal::most_state_terms(model) > modal::most_damped_terms,
-          model.size() > most_damped_unknowns ? why + ", with so many unknowns" : ""};
+  return {true, modal::max_state_terms(model) > modal::max_damped_terms,
+          model.size() > max_damped_unknowns ? why + ", with so many unknowns" : ""};
 }
 
 namespace {
 
 /// Choice for a scene whose motion can be computed with modes.
 FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind& kind) {
-  if (model.size() < fewest_unknowns) return {false, "auto: with so few unknowns the series is as fast"};
-  if (kind.crowded)
+  if (model.size() < min_unknowns) return {false, "auto: with so few unknowns the series is as fast"};
+  if (kind.too_many_springs)
     return {
         false,
         "auto: with this many contacts, computing the modes of each contact state costs more than it saves"};
@@ -77,7 +77,8 @@ FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind&
   // In complex modes a symmetric trestle on rigid feet loses its symmetry: its feet land at slightly different times.
   if (has_rigid_rows(model))
     return {false, "auto: hits of rigid contacts excite the whole mesh, so complex modes save no time"};
-  if (!damped_modes_gain(model) || worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
+  if (!damped_modes_are_faster(model) ||
+      worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
     return {false, "auto: the complex modes of the contact states would cost as much as the series"};
   return {true, "auto: complex modes can follow the whole scene"};
 }

@@ -42,14 +42,15 @@ struct FlowChoice {
 
 /// Kind of modes that a scene needs, and the reason if modes cannot compute it.
 struct ModalKind {
-  bool damped = false;    ///< complex modes are needed
-  bool crowded = false;   ///< states may have too many springs for modes, and are then left to the series
+  bool damped = false;  ///< complex modes are needed
+  bool too_many_springs =
+      false;              ///< states may have too many springs for modes, and are then left to the series
   std::string objection;  ///< empty: modes can compute the scene
 };
 [[nodiscard]] ModalKind modal_kind(const Model& model);
 /// True if complex modes, once they are computed, cost less than the series: there are enough unknowns, and no rigid
 /// contact, whose hits excite the whole mesh.
-[[nodiscard]] bool damped_modes_gain(const Model& model);
+[[nodiscard]] bool damped_modes_are_faster(const Model& model);
 
 /// Errors: SceneError if run.flow = "modal" and modes cannot compute the scene.
 [[nodiscard]] FlowChoice choose_flow(const Model& model, const RunSpec& run);

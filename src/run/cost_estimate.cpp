@@ -38,11 +38,11 @@ constexpr double gain_of_modes = 2e-3, time_of_modes = 4e-5, order_of_modes = 1.
 constexpr double usual_states = 16.0, time_of_damped_state = 4.5e-8;
 constexpr StepTime time_of_proof = {1e-5, 1e-7}, time_of_damped_proof = {3e-5, 1e-6};
 
-Effort effort(double steps_per_period, double steps, const StepTime& time, long unknowns) {
+CostEstimate effort(double steps_per_period, double steps, const StepTime& time, long unknowns) {
   return {steps_per_period, steps, steps * (time.own + time.unknown * static_cast<double>(unknowns))};
 }
 
-Effort effort_of_series(const Model& model, const RunSpec& run, double omega_max) {
+CostEstimate effort_of_series(const Model& model, const RunSpec& run, double omega_max) {
   const double fastest = std::max(omega_max, model::fastest_decay(model));
   return effort(2.0 * std::numbers::pi / radians_of_series * fastest / omega_max,
                 run.t_end * fastest / radians_of_series, time_of_series, model.size());
@@ -65,11 +65,11 @@ double seconds_of_damped_states(const Model& model) {
   return states * time_of_damped_state * std::pow(static_cast<double>(model.size()), 3.0);
 }
 
-Effort effort_of_exact(const EffortParts& parts) {
-  Effort result = effort_of_series(parts.model, parts.run, parts.omega_max);
+CostEstimate cost_of_exact(const CostInputs& parts) {
+  CostEstimate result = effort_of_series(parts.model, parts.run, parts.omega_max);
   result.by_series = result.seconds;
   const ModalKind kind = modal_kind(parts.model);
-  if (kind.crowded || !kind.objection.empty()) return result;
+  if (kind.too_many_springs || !kind.objection.empty()) return result;
   const double n = parts.model.size(), gain = std::max(1.0, gain_of_modes * n * n);
   const StepTime& step = kind.damped ? time_of_damped_proof : time_of_proof;
   const double modes =
@@ -83,7 +83,7 @@ Effort effort_of_exact(const EffortParts& parts) {
   return result;
 }
 
-Effort effort_of_bdf(const EffortParts& parts) {
+CostEstimate cost_of_bdf(const CostInputs& parts) {
   if (parts.method.max_order < 5) return {};
   const double steps_per_period =
       std::max(steps_at_stability, steps_at_unit_tolerance * std::pow(parts.run.rtol, -1.0 / 6.0));
@@ -92,7 +92,7 @@ Effort effort_of_bdf(const EffortParts& parts) {
                 parts.unknowns);
 }
 
-Effort effort_of_fixed_steps(const EffortParts& parts) {
+CostEstimate cost_of_fixed_steps(const CostInputs& parts) {
   const double dt = parts.method.accuracy;
   return effort(2.0 * std::numbers::pi / (parts.omega_max * dt), parts.run.t_end / dt, time_of_fixed_steps,
                 parts.unknowns);
@@ -109,7 +109,7 @@ constexpr double least_steps = 10.0;  // in steps of the rule: least progress of
 /// Ends the run after a given time. It stores no motion: memory of a trial is needed in addition to that of the run.
 class Stopwatch : public Recorder {
  public:
-  explicit Stopwatch(double patience) : patience_(patience) {}
+  explicit Stopwatch(double seconds_limit) : patience_(seconds_limit) {}
   void event(const Event& /*event*/) override {}
   void sample(const Sample& /*sample*/) override {}
   bool progress(double t) override {
@@ -139,40 +139,40 @@ std::string about(double seconds) {
 
 }  // namespace
 
-double seconds_of_all(double t_end, const TrialTime& early, const TrialTime& late) {
+double extrapolated_seconds(double t_end, const TrialTime& early, const TrialTime& late) {
   const double moved = late.t - early.t;
   if (moved > 0.0) return late.seconds + (t_end - late.t) * (late.seconds - early.seconds) / moved;
   return late.t > 0.0 ? late.seconds * t_end / late.t : 0.0;
 }
 
-double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double patience) {
+double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double seconds_limit) {
   run.engine = engine;
   run.certify = Certify::no;
   try {
     // A trial that cannot be stopped for a long time is not started.
-    const Effort effort = expected(model, run).effort;
+    const CostEstimate effort = expected_cost(model, run).estimate;
     if (effort.first > longest_first) return effort.seconds;
-    Stopwatch watch(patience);
+    Stopwatch watch(seconds_limit);
     const Report report = signorini::simulate(model, run, watch);
     if (report.outcome.kind == Outcome::Kind::done) return watch.now();
     if (report.outcome.kind != Outcome::Kind::interrupted) return 0.0;
     const double moved = watch.t_reached - watch.t_1;
     // Small steps at the start alone give no estimate: use the rule.
     if (effort.steps > 0.0 && moved < least_steps * run.t_end / effort.steps) return effort.seconds;
-    return seconds_of_all(run.t_end, {watch.t_1, watch.s_1}, {watch.t_reached, watch.s});
+    return extrapolated_seconds(run.t_end, {watch.t_1, watch.s_1}, {watch.t_reached, watch.s});
   } catch (const SceneError&) {
     return 0.0;
   }
 }
 
 std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
-                          const std::vector<double>& cutoffs, double patience) {
+                          const std::vector<double>& cutoffs, double seconds_limit) {
   std::vector<Engine> engines{engine_for(EngineRole::closed_form), engine_for(EngineRole::integrator)};
   if (std::find(engines.begin(), engines.end(), own) == engines.end()) engines.push_back(own);
   std::vector<Trial> list;
   const auto add = [&](const Model& tried, double cutoff) {
     for (const Engine engine : engines)
-      if (const double seconds = seconds_by_trial(tried, scene.run, engine, patience); seconds > 0.0)
+      if (const double seconds = seconds_by_trial(tried, scene.run, engine, seconds_limit); seconds > 0.0)
         list.push_back({engine, cutoff, seconds});
   };
   add(model, 0.0);
@@ -213,7 +213,7 @@ std::string trial_text(const std::vector<Trial>& trials) {
   return text;
 }
 
-std::string quicker(const std::vector<Trial>& trials, Engine own, double seconds) {
+std::string faster_engine_advice(const std::vector<Trial>& trials, Engine own, double seconds) {
   const auto best = std::min_element(trials.begin(), trials.end(),
                                      [](const Trial& a, const Trial& b) { return a.seconds < b.seconds; });
   if (best == trials.end() || seconds < long_run || best->seconds * times_as_long > seconds) return "";
@@ -236,8 +236,8 @@ RunSpec by_exact(RunSpec run) {
 
 }  // namespace
 
-Expected expected(const Model& model, const RunSpec& run, const Method& method) {
-  Expected result;
+ExpectedCost expected_cost(const Model& model, const RunSpec& run, const Method& method) {
+  ExpectedCost result;
   for (const Dof& dof : model.dofs) result.unknowns += dof.massless ? 1 : 2;
   result.unknowns += 2 * static_cast<long>(model.contacts.size());
   result.omega_max = model.omega_max;
@@ -245,15 +245,16 @@ Expected expected(const Model& model, const RunSpec& run, const Method& method) 
     for (const Piece& piece : load.history.pieces())
       if (piece.amplitude != 0.0) result.omega_max = std::max(result.omega_max, piece.omega);
   if (result.omega_max > 0.0)
-    result.effort = engine_row(method.engine).effort({model, run, method, result.omega_max, result.unknowns});
+    result.estimate =
+        engine_row(method.engine).estimate_cost({model, run, method, result.omega_max, result.unknowns});
   return result;
 }
 
-Expected expected(const Model& model, const RunSpec& run) {
-  return expected(model, run, engine_row(run.engine).method(model, run));
+ExpectedCost expected_cost(const Model& model, const RunSpec& run) {
+  return expected_cost(model, run, engine_row(run.engine).method(model, run));
 }
 
-bool exact_takes(const Model& model, const RunSpec& run) {
+bool exact_accepts(const Model& model, const RunSpec& run) {
   if (!std::all_of(model.contacts.begin(), model.contacts.end(),
                    [](const Contact& contact) { return contact.obeys_coulomb(); }))
     return false;
@@ -266,13 +267,14 @@ bool exact_takes(const Model& model, const RunSpec& run) {
   return true;
 }
 
-std::optional<double> exact_instead(const Model& model, const RunSpec& run) {
-  if (engine_row(run.engine).role != EngineRole::integrator || !exact_takes(model, run)) return std::nullopt;
-  const Effort effort = expected(model, by_exact(run)).effort;
+std::optional<double> seconds_with_exact(const Model& model, const RunSpec& run) {
+  if (engine_row(run.engine).role != EngineRole::integrator || !exact_accepts(model, run))
+    return std::nullopt;
+  const CostEstimate effort = expected_cost(model, by_exact(run)).estimate;
   return effort.seconds > 0.0 ? std::optional(effort.seconds) : std::nullopt;
 }
 
-std::string about_seconds(double seconds) {
+std::string seconds_text(double seconds) {
   return seconds < 0.1 ? "less than 0.1" : fmt::format("about {:g}", rough(seconds));
 }
 

@@ -21,7 +21,7 @@ namespace signorini::run {
 //   fixed steps   t_end / dt
 
 /// Zero steps: the cost is unknown beforehand.
-struct Effort {
+struct CostEstimate {
   double steps_per_period = 0.0;  ///< of omega_max
   double steps = 0.0, seconds = 0.0;
   double first = 0.0;  ///< part of `seconds` before the first step has ended: modes of a state
@@ -29,7 +29,7 @@ struct Effort {
          by_modes = 0.0;  ///< exact: seconds with each flow; 0: modes cannot compute the scene
 };
 
-struct EffortParts {
+struct CostInputs {
   const Model& model;
   const RunSpec& run;
   const Method& method;
@@ -37,9 +37,9 @@ struct EffortParts {
   long unknowns;
 };
 
-[[nodiscard]] Effort effort_of_exact(const EffortParts& parts);
-[[nodiscard]] Effort effort_of_bdf(const EffortParts& parts);
-[[nodiscard]] Effort effort_of_fixed_steps(const EffortParts& parts);
+[[nodiscard]] CostEstimate cost_of_exact(const CostInputs& parts);
+[[nodiscard]] CostEstimate cost_of_bdf(const CostInputs& parts);
+[[nodiscard]] CostEstimate cost_of_fixed_steps(const CostInputs& parts);
 
 /// Duration of the whole run with the series; and of the complex modes of all states that its contacts may enter.
 [[nodiscard]] double seconds_of_series(const Model& model, const RunSpec& run);
@@ -69,17 +69,17 @@ struct TrialTime {
 };
 
 /// The equation above for (t_1, s_1) and (t, s); proportional to t if they are equal; 0 if t is 0.
-[[nodiscard]] double seconds_of_all(double t_end, const TrialTime& early, const TrialTime& late);
+[[nodiscard]] double extrapolated_seconds(double t_end, const TrialTime& early, const TrialTime& late);
 
 /// Expected seconds of the run with this engine; 0: it does not accept the scene, or stops within the trial.
 /// `patience`: limit for the seconds of the trial, and for a step; the rule of cost_estimate.hpp is used if the first one
 /// takes too long.
-[[nodiscard]] double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double patience);
+[[nodiscard]] double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double seconds_limit);
 
 /// Trials of exact, ida and the run's own engine, each without reduction and with each cutoff. `model`: of the scene
 /// without [reduction]; a scene that has one is tried without other cutoffs.
 [[nodiscard]] std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
-                                        const std::vector<double>& cutoffs, double patience);
+                                        const std::vector<double>& cutoffs, double seconds_limit);
 
 /// Cutoff worth a trial: 50 times the lowest frequency, if that is far below the highest; otherwise 0. Chosen value;
 /// `[reduction] tolerance` finds its accuracy.
@@ -90,27 +90,27 @@ struct TrialTime {
 
 /// Recommendation if `own` is expected to take `seconds`, more than four times another trial and more than five
 /// seconds; otherwise empty.
-[[nodiscard]] std::string quicker(const std::vector<Trial>& trials, Engine own, double seconds);
+[[nodiscard]] std::string faster_engine_advice(const std::vector<Trial>& trials, Engine own, double seconds);
 
-struct Expected {
+struct ExpectedCost {
   long unknowns = 0;
   double omega_max = 0.0;  ///< of the structure with all contacts sticking, and of harmonic loads
-  Effort effort;
+  CostEstimate estimate;
 };
 
 /// Cost with `method`, that of run.engine, which is not automatic.
-[[nodiscard]] Expected expected(const Model& model, const RunSpec& run, const Method& method);
+[[nodiscard]] ExpectedCost expected_cost(const Model& model, const RunSpec& run, const Method& method);
 /// Cost with the engine's own method. Errors: SceneError if a step is required and not given.
-[[nodiscard]] Expected expected(const Model& model, const RunSpec& run);
+[[nodiscard]] ExpectedCost expected_cost(const Model& model, const RunSpec& run);
 
 /// True if engine `exact` accepts this model, and may be chosen for it without being named: laws made of data run in its
 /// series only where a scene asks for it.
-[[nodiscard]] bool exact_takes(const Model& model, const RunSpec& run);
+[[nodiscard]] bool exact_accepts(const Model& model, const RunSpec& run);
 
 /// Seconds with exact instead of ida; nullopt: another engine, a scene that exact does not accept, or an unknown cost.
-[[nodiscard]] std::optional<double> exact_instead(const Model& model, const RunSpec& run);
+[[nodiscard]] std::optional<double> seconds_with_exact(const Model& model, const RunSpec& run);
 
 /// Duration as text: "about 3", "less than 0.1".
-[[nodiscard]] std::string about_seconds(double seconds);
+[[nodiscard]] std::string seconds_text(double seconds);
 
 }  // namespace signorini::run

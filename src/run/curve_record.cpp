@@ -48,7 +48,7 @@ const Chebyshev::Values& Chebyshev::nodes() {
   return x;
 }
 
-double Chebyshev::through(const Values& values, std::size_t stride, double x) {
+double Chebyshev::interpolate(const Values& values, std::size_t stride, double x) {
   double above = 0.0, below = 0.0, sign = 1.0;
   for (std::size_t i = 0; i <= last_node; i += stride, sign = -sign) {
     if (x == nodes()[i]) return values[i];
@@ -68,10 +68,10 @@ Chebyshev::Values Chebyshev::slopes(const Values& values, std::size_t stride) {
   return result;
 }
 
-double Chebyshev::turn_between(const Values& slope, std::size_t stride, double a, double b) {
-  double fa = through(slope, stride, a);
-  for (int i = 0; i < 60 && b - a > rounding::of_few; ++i) {
-    const double middle = 0.5 * (a + b), f = through(slope, stride, middle);
+double Chebyshev::extremum_between(const Values& slope, std::size_t stride, double a, double b) {
+  double fa = interpolate(slope, stride, a);
+  for (int i = 0; i < 60 && b - a > rounding::few_operations; ++i) {
+    const double middle = 0.5 * (a + b), f = interpolate(slope, stride, middle);
     if ((f > 0.0) == (fa > 0.0)) {
       a = middle;
       fa = f;
@@ -84,8 +84,8 @@ double Chebyshev::turn_between(const Values& slope, std::size_t stride, double a
 
 namespace {
 
-constexpr std::size_t most_of_a_kind = 24;  // limit of named curves in displacement pictures
-constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500;
+constexpr std::size_t max_of_a_kind = 24;  // limit of named curves in displacement pictures
+constexpr std::size_t most_values = 100000, most_points = 8000, min_points = 2500;
 // Fraction of the range so far: a parabola's vertex is kept only if it exceeds the middle row by more.
 constexpr double least_rise = 1e-3;
 constexpr double turn = 1e-3;  // rad; smallest scale of rotations: those of 1e-15 count as rounding
@@ -108,7 +108,7 @@ std::vector<Column> drawn_columns(const Model& model) {
   std::map<std::string, std::size_t> of_kind;
   std::vector<Column> columns;
   for (const Column& column : model.columns)
-    if (!column.velocity && ++of_kind[column.name.substr(column.name.rfind('.') + 1)] <= most_of_a_kind)
+    if (!column.velocity && ++of_kind[column.name.substr(column.name.rfind('.') + 1)] <= max_of_a_kind)
       columns.push_back(column);
   return columns;
 }
@@ -120,20 +120,20 @@ std::vector<int> drawn_entries(const Model& model) {
   return entries;
 }
 
-std::size_t most_points_of(std::size_t columns) {
-  return std::clamp(most_values / (columns + energy_columns.size() + 1), fewest_points, most_points);
+std::size_t max_curve_points(std::size_t columns) {
+  return std::clamp(most_values / (columns + energy_columns.size() + 1), min_points, most_points);
 }
 
 CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share)
     : model_(model),
       t_end_(t_end),
       last_(recorder.wants_motion() ? 0.0 : std::numeric_limits<double>::infinity()),
-      wanted_(recorder.wants_motion()),
+      enabled_(recorder.wants_motion()),
       energies_(share.energies) {
-  if (!wanted_) return;
+  if (!enabled_) return;
   const std::vector<Column> columns = drawn_columns(model);
-  const std::size_t most = most_points_of(share.whole() ? columns.size() : share.columns);
-  const base::Downsampled<CurvePoint, 1, ValueOf> none(t_end * model.unit.time, {.most = most});
+  const std::size_t most = max_curve_points(share.whole() ? columns.size() : share.columns);
+  const base::Downsampled<CurvePoint, 1, ValueOf> none(t_end * model.unit.time, {.max_rows = most});
   for (const Column& column : columns) {
     const bool turns =
         column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
@@ -146,13 +146,13 @@ CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recor
   curves_.push_back({balance_column, Kind::balance, -1, unit, none, share.whole()});
 }
 
-bool CurveRecord::needs(double t) const { return t - last_ >= closest_rows * t_end_ || t >= t_end_; }
+bool CurveRecord::needs_row(double t) const { return t - last_ >= min_row_spacing * t_end_ || t >= t_end_; }
 
 void CurveRecord::add(double t, const Vector& u, const Energy& energy) {
-  if (!wanted()) return;
+  if (!enabled()) return;
   last_ = t;
   if (energies_) energies_(t, energy);
-  asked_ = std::numeric_limits<double>::infinity();
+  requested_spacing_ = std::numeric_limits<double>::infinity();
   const bool plain = model_.is_physical();
   const Vector physical = plain ? Vector() : model_.physical(u, t, 0);
   const Vector& shown = plain ? u : physical;
@@ -173,7 +173,7 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
     second = point;
     return;
   }
-  asked_ = std::min(asked_, asked_by(curve, point) / model_.unit.time);
+  requested_spacing_ = std::min(requested_spacing_, spacing_for_curve(curve, point) / model_.unit.time);
   if (!curve.kept) {
     curve.least = std::min(curve.least, second.value);
     curve.greatest = std::max(curve.greatest, second.value);
@@ -193,7 +193,7 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
 
 /// Row spacing that a curve needs. A curve of rounding size relative to others of its kind has no bends; nor has the
 /// balance, which consists of rounding.
-double CurveRecord::asked_by(const Curve& curve, const CurvePoint& point) {
+double CurveRecord::spacing_for_curve(const Curve& curve, const CurvePoint& point) {
   constexpr double any = std::numeric_limits<double>::infinity();
   const auto& [first, second] = curve.before;
   double& greatest = greatest_[static_cast<std::size_t>(curve.kind)];
@@ -202,14 +202,14 @@ double CurveRecord::asked_by(const Curve& curve, const CurvePoint& point) {
     return any;
   const double floor = std::max(greatest, curve.kind == Kind::angle ? turn : 0.0);
   const double range = curve.range();
-  if (!(range > rounding::of_elimination * floor)) return any;
+  if (!(range > rounding::elimination * floor)) return any;
   const double left = second.t - first.t, right = point.t - second.t, part = left / (left + right);
-  return spacing_for(left, right, std::abs(second.value - first.value - part * (point.value - first.value)),
+  return row_spacing(left, right, std::abs(second.value - first.value - part * (point.value - first.value)),
                      range);
 }
 
 void CurveRecord::write(Recorder& recorder) {
-  if (!wanted()) return;
+  if (!enabled()) return;
   std::map<Kind, double> greatest{{Kind::angle, turn}};
   for (Curve& curve : curves_) {
     if (curve.begun) curve.points.add(curve.before[1]);
@@ -218,8 +218,7 @@ void CurveRecord::write(Recorder& recorder) {
   Curves curves;
   for (Curve& curve : curves_) {
     if (!curve.kept) continue;
-    const double rounding =
-        curve.kind == Kind::balance ? 0.0 : rounding::of_elimination * greatest[curve.kind];
+    const double rounding = curve.kind == Kind::balance ? 0.0 : rounding::elimination * greatest[curve.kind];
     curve.points.close({rounding});
     curves.names.push_back(curve.name);
     curves.points.push_back(curve.points.take());

@@ -32,14 +32,14 @@ namespace signorini::run {
 
 /// Fraction of the range. Half of a curve's first bend passes before rows detect it, and thinned rows are off by 0.3 %
 /// (base/curves.hpp). Chosen value; the test "what pictures draw of contacts is the motion" depends on it.
-inline constexpr double most_bend = 0.0045;
+inline constexpr double max_deviation = 0.0045;
 /// Fraction of the run: 26 rows per pixel of the widest picture.
-inline constexpr double closest_rows = 1.0 / 32000.0;
+inline constexpr double min_row_spacing = 1.0 / 32000.0;
 
 /// Spacing h of one curve; left, right: b - a and c - b, off: d. Infinite for a straight line.
-[[nodiscard]] inline double spacing_for(double left, double right, double off, double range) {
+[[nodiscard]] inline double row_spacing(double left, double right, double off, double range) {
   if (!(off > 0.0) || !(range > 0.0)) return std::numeric_limits<double>::infinity();
-  return std::sqrt(left * right * most_bend * range / off);
+  return std::sqrt(left * right * max_deviation * range / off);
 }
 
 // Polynomials through values at nested Chebyshev points.
@@ -57,11 +57,11 @@ struct Chebyshev {
 
   /// The 17 points.
   [[nodiscard]] static const Values& nodes();
-  [[nodiscard]] static double through(const Values& values, std::size_t stride, double x);
+  [[nodiscard]] static double interpolate(const Values& values, std::size_t stride, double x);
   /// Derivative p' at the points of the stride.
   [[nodiscard]] static Values slopes(const Values& values, std::size_t stride);
   /// Zero of p' between two points at which its signs differ; `slope` is the result of slopes().
-  [[nodiscard]] static double turn_between(const Values& slope, std::size_t stride, double a, double b);
+  [[nodiscard]] static double extremum_between(const Values& slope, std::size_t stride, double a, double b);
 };
 
 /// Displacements shown in pictures.
@@ -71,18 +71,18 @@ struct Chebyshev {
 [[nodiscard]] std::vector<int> drawn_entries(const Model& model);
 
 /// Limit for the points of a curve, for this number of displacements.
-[[nodiscard]] std::size_t most_points_of(std::size_t columns);
+[[nodiscard]] std::size_t max_curve_points(std::size_t columns);
 
 class CurveRecord {
  public:
   /// Model and recorder must outlive the object. No data are kept if the recorder does not want motions.
   CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
-  [[nodiscard]] bool wanted() const { return wanted_; }
+  [[nodiscard]] bool enabled() const { return enabled_; }
   /// True if a line needs a row at t, without an event there.
-  [[nodiscard]] bool needs(double t) const;
+  [[nodiscard]] bool needs_row(double t) const;
   /// Row spacing required by the last three rows (curve_record.hpp).
-  [[nodiscard]] double asked() const { return asked_; }
+  [[nodiscard]] double requested_spacing() const { return requested_spacing_; }
   /// Time of the last row; infinite if no rows are wanted.
   [[nodiscard]] double last() const { return last_; }
   /// Adds a row. u: of the computed model; rows are stored in the scene's units.
@@ -113,13 +113,13 @@ class CurveRecord {
     bool begun = false;
   };
   void add(Curve& curve, const CurvePoint& point);
-  [[nodiscard]] double asked_by(const Curve& curve, const CurvePoint& point);
+  [[nodiscard]] double spacing_for_curve(const Curve& curve, const CurvePoint& point);
 
   const Model& model_;
   double t_end_, last_;
-  double asked_ = std::numeric_limits<double>::infinity();
+  double requested_spacing_ = std::numeric_limits<double>::infinity();
   std::array<double, 4> greatest_{};  // largest value of each kind
-  bool wanted_;
+  bool enabled_;
   std::function<void(double, const Energy&)> energies_;  // receiver of a part's energies
   std::vector<Curve> curves_;                            // displacements, energies, the balance
 };

@@ -13,7 +13,7 @@
 #include "engine/newmark/friction_iteration.hpp"
 #include "engine/newmark/newmark_engine.hpp"
 #include "linear/redundant_rows.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "run/choose_engine.hpp"
 #include "signorini/error.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 constexpr const char* ida_instead = "use \"ida\"";
 
 [[noreturn]] void refuse(const RunSpec& run, const std::string& what, const std::string& instead) {
-  throw UnfitEngine(run, what, instead);
+  throw UnsupportedSceneError(run, what, instead);
 }
 
 void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
@@ -52,7 +52,7 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
     if (contact::friction_varies(contact))
       refuse(run,
              fmt::format("needs linear laws, but the friction of contact '{}' depends on its {}",
-                         contact.name, contact.friction.by_force() ? "normal force" : "slip rate"),
+                         contact.name, contact.friction.is_load_dependent() ? "normal force" : "slip rate"),
              ida_instead);
   }
 }
@@ -90,7 +90,7 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
   for (const std::size_t k : shared.groups().front()) names.push_back(model.contacts[k].name);
   refuse(run,
          fmt::format("decides each contact alone, and contacts {} may hold one motion together",
-                     base::listed(names, 5)),
+                     base::join_quoted(names, 5)),
          "use \"newmark\" or a tangential_stiffness");
 }
 
@@ -112,11 +112,11 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
   refuse_functions(model, run);
   const auto check = [&](const History& history, const std::string& what) {
     for (const Piece& p : history.pieces())
-      for (std::size_t j = exact::most_levels - 1; j < p.coefficients.size(); ++j)
+      for (std::size_t j = exact::max_levels - 1; j < p.coefficients.size(); ++j)
         if (p.coefficients[j] != 0.0)
           refuse(run,
                  fmt::format("takes polynomials up to degree {}; {} has degree {} or more",
-                             exact::most_levels - 2, what, j),
+                             exact::max_levels - 2, what, j),
                  "");
   };
   for (const Load& load : model.loads) check(load.history, load.name);
@@ -133,7 +133,7 @@ Method closed_flow(const Model& model, const RunSpec& run) {
           false,
           "",
           0.0,
-          exact::most_levels,
+          exact::max_levels,
           flow.modal ? "for the Taylor series of states without modes; rtol is not used"
                      : "Taylor series, as long as rounding accuracy needs; rtol is not used",
           flow.modal ? "modal" : "taylor",
@@ -141,8 +141,8 @@ Method closed_flow(const Model& model, const RunSpec& run) {
 }
 
 Method bdf(const Model& model, const RunSpec& run) {
-  const ida::Order order = ida::choose_order(model, run);
-  return {run.engine, false, "", run.rtol, order.greatest, order.reason};
+  const ida::OrderChoice order = ida::choose_order(model, run);
+  return {run.engine, false, "", run.rtol, order.max_order, order.reason};
 }
 
 Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
@@ -156,9 +156,9 @@ std::unique_ptr<engine::Stepper> make_exact(const EngineParts& p) {
   if (choose_flow(p.model, p.run).modal)
     return std::make_unique<modal::ModalEngine>(
         p.model, p.structure, p.systems, p.run.t_end,
-        modal::ModalUse{p.needs.modal, p.needs.peaks, p.needs.step_seed, p.watched});
+        modal::ModalOptions{p.needs.modal, p.needs.peaks, p.needs.step_seed, p.watched});
   return std::make_unique<exact::ExactEngine>(p.model, p.structure, p.systems, p.run.t_end,
-                                              exact::SeriesUse{p.alone, p.needs.step_seed});
+                                              exact::SeriesOptions{p.without_listeners, p.needs.step_seed});
 }
 
 std::unique_ptr<engine::Stepper> make_ida(const EngineParts& p) {
@@ -183,52 +183,53 @@ bool no_flights(const Model& /*model*/) { return false; }
 constexpr std::array rows_of_engines = {
     EngineRow{Engine::exact,
               EngineRole::closed_form,
-              {.closed_flow = true,
-               .follow_orbits = true,
-               .laws_at_ends = true,
+              {.closed_form_flow = true,
+               .supports_orbits = true,
+               .laws_at_step_ends = true,
                .locates_events = always,
-               .knows_low_flights = all_flights},
+               .resolves_low_flights = all_flights},
               refuse_long_polynomials_too,
               closed_flow,
               make_exact,
-              effort_of_exact},
+              cost_of_exact},
     EngineRow{Engine::ida,
               EngineRole::integrator,
-              {.follow_orbits = true,
-               .laws_at_ends = true,
+              {.supports_orbits = true,
+               .laws_at_step_ends = true,
                .locates_events = always,
-               .knows_low_flights = ida::IdaEngine::follows_low_flights},
+               .resolves_low_flights = ida::IdaEngine::follows_low_flights},
               refuse_nothing,
               bdf,
               make_ida,
-              effort_of_bdf},
+              cost_of_bdf},
     EngineRow{Engine::newmark,
               EngineRole::fixed_steps,
               {.discrete_derivatives = true,
-               .laws_at_ends = true,
+               .laws_at_step_ends = true,
                .locates_events = unless_interpolated,
-               .knows_low_flights = no_flights},
+               .resolves_low_flights = no_flights},
               refuse_own_and_nonlinear_laws,
               fixed_steps,
               make_newmark,
-              effort_of_fixed_steps},
+              cost_of_fixed_steps},
     EngineRow{Engine::friction_iteration,
               EngineRole::none,
-              {.locates_events = never, .knows_low_flights = no_flights},
+              {.locates_events = never, .resolves_low_flights = no_flights},
               refuse_rigid_contacts_too,
               fixed_steps,
               make_friction_iteration,
-              effort_of_fixed_steps},
+              cost_of_fixed_steps},
 };
 static_assert(rows_of_engines.size() == all_engines.size());
 
 }  // namespace
 
-UnfitEngine::UnfitEngine(const RunSpec& run, const std::string& what, const std::string& instead)
+UnsupportedSceneError::UnsupportedSceneError(const RunSpec& run, const std::string& what,
+                                             const std::string& instead)
     : SceneError(run.place, "run.engine",
                  fmt::format("engine \"{}\" {}{}{}", to_string(run.engine), what, instead.empty() ? "" : "; ",
                              instead)),
-      why(what) {}
+      reason(what) {}
 
 const EngineRow& engine_row(Engine engine) {
   return *std::find_if(rows_of_engines.begin(), rows_of_engines.end(),
@@ -241,10 +242,11 @@ Engine engine_for(EngineRole role) {
       ->engine;
 }
 
-std::string engines_that(bool EngineAbilities::*can) {
+std::string engines_that(bool EngineCapabilities::*can) {
   std::string names;
   for (const EngineRow& row : rows_of_engines)
-    if (row.can.*can) names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", to_string(row.engine));
+    if (row.capabilities.*can)
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", to_string(row.engine));
   return names;
 }
 

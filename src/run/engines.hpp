@@ -2,7 +2,7 @@
 //
 //   const EngineRow& engine = engine_row(run.engine);
 //   engine.refuse(model, run);   method = engine.method(model, run);   stepper = engine.make(parts);
-//   if (engine.can.follow_orbits) ...;   run.engine = engine_for(EngineRole::closed_form);
+//   if (engine.can.supports_orbits) ...;   run.engine = engine_for(EngineRole::closed_form);
 //
 // Code that needs an engine asks for abilities or for a role, never for a name: to add an engine, add a row in
 // signorini/engine.hpp, a row here, and its folder.
@@ -32,16 +32,16 @@ struct EngineParts {
   const engine::Tolerance& tolerance;
   int max_order;
   ListenerNeeds needs = {};
-  bool alone = false;  ///< no listener reads its steps
+  bool without_listeners = false;  ///< no listener reads its steps
   /// Entries of u and v for DenseOutput::evaluate_watched, in addition to those of contacts; nullopt: all.
   std::optional<std::vector<int>> watched = {};
 };
 
 /// Error of an engine that does not accept the scene: the reason, without a recommendation.
-class UnfitEngine : public SceneError {
+class UnsupportedSceneError : public SceneError {
  public:
-  UnfitEngine(const RunSpec& run, const std::string& what, const std::string& instead);
-  std::string why;
+  UnsupportedSceneError(const RunSpec& run, const std::string& what, const std::string& instead);
+  std::string reason;
 };
 
 /// Roles of engines; at most one engine has each role.
@@ -53,28 +53,28 @@ enum class EngineRole : unsigned char {
   fixed_steps,  ///< independent method for verifications, which halve its steps
 };
 
-struct EngineAbilities {
-  bool closed_flow = false;           ///< the motion between events is exact; run.flow chooses its method
-  bool follow_orbits = false;         ///< its motion or its tangents can close an orbit
+struct EngineCapabilities {
+  bool closed_form_flow = false;      ///< the motion between events is exact; run.flow chooses its method
+  bool supports_orbits = false;       ///< its motion or its tangents can close an orbit
   bool discrete_derivatives = false;  ///< sensitivity/discrete_run.hpp differentiates its steps
-  bool laws_at_ends = false;          ///< the laws of contacts hold at the ends of its steps
+  bool laws_at_step_ends = false;     ///< the laws of contacts hold at the ends of its steps
   /// True if the engine locates the zeros of guards.
   bool (*locates_events)(const RunSpec& run) = nullptr;
-  /// Value of Stepper::knows_low_flights.
-  bool (*knows_low_flights)(const Model& model) = nullptr;
+  /// Value of Stepper::resolves_low_flights.
+  bool (*resolves_low_flights)(const Model& model) = nullptr;
 };
 
 struct EngineRow {
   Engine engine;
   EngineRole role;
-  EngineAbilities can;
-  /// Errors: UnfitEngine at run.engine, with the name of the contact or the load.
+  EngineCapabilities capabilities;
+  /// Errors: UnsupportedSceneError at run.engine, with the name of the contact or the load.
   void (*refuse)(const Model& model, const RunSpec& run);
   /// Order and its reason. Errors: SceneError if a step is required and not given.
   Method (*method)(const Model& model, const RunSpec& run);
   std::unique_ptr<engine::Stepper> (*make)(const EngineParts& parts);
   /// Estimated cost of the time loop, as an order of magnitude.
-  Effort (*effort)(const EffortParts& parts);
+  CostEstimate (*estimate_cost)(const CostInputs& parts);
 };
 
 /// Row of an engine, which is not automatic.
@@ -82,6 +82,6 @@ struct EngineRow {
 /// The engine with that role, which is not none.
 [[nodiscard]] Engine engine_for(EngineRole role);
 /// Names of the engines with an ability, as in "\"exact\" or \"ida\"".
-[[nodiscard]] std::string engines_that(bool EngineAbilities::*can);
+[[nodiscard]] std::string engines_that(bool EngineCapabilities::*can);
 
 }  // namespace signorini::run

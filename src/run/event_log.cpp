@@ -8,8 +8,8 @@
 #include "base/rounding.hpp"
 #include "contact/motion.hpp"
 #include "decide/massless_jump.hpp"
-#include "model/machine_units.hpp"
-#include "run/physical.hpp"
+#include "model/internal_units.hpp"
+#include "run/scene_units.hpp"
 
 namespace signorini::run {
 namespace {
@@ -47,11 +47,13 @@ void settle(const Contact& contact, double error, Event& event) {
 
 /// True if the sliding point can jump: it is massless, or a spring connects it to the mass.
 bool can_slide_at_once(const Model& model, const Contact& contact) {
-  return !contact.takes_impulses() && (!contact.sticks_rigidly() || decide::carries_massless(model, contact));
+  return !contact.takes_impulses() && (!contact.sticks_rigidly() || decide::acts_on_massless(model, contact));
 }
 
 /// State as named in events: held at the limit counts as slip.
-State in_events(State state) { return is_held(state) ? kind_of(state) : contact::state_of_rows(state); }
+State in_events(State state) {
+  return is_at_static_limit(state) ? kind_of(state) : contact::representative_state(state);
+}
 
 /// Event of a contact from the decision, without data about the guard.
 Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, const Contact& contact) {
@@ -59,8 +61,8 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
   ContactMotion before = decision.before[k], after = decision.after[k];
   double vt = decision.slides_before[k].vt, vt_after = decision.slides_after[k].vt;
   if (contact.compliance_split()) {
-    contact::leave_out_borrowed(contact, (*now.before)[k].state, before);
-    contact::leave_out_borrowed(contact, decision.mode[k].state, after);
+    contact::remove_split_compliance(contact, (*now.before)[k].state, before);
+    contact::remove_split_compliance(contact, decision.states[k].state, after);
     vt = before.vt;
     vt_after = after.vt;
   }
@@ -69,12 +71,12 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
   event.contact = static_cast<int>(k);
   event.type = type;
   event.from = in_events((*now.before)[k].state);
-  event.to = in_events(decision.mode[k].state);
+  event.to = in_events(decision.states[k].state);
   if (is_hit(decision, k)) {
     event.impulse_n = decision.impulses[k].normal;
     event.impulse_t = decision.impulses[k].tangent;
   }
-  event.gap = contact.gap_if_any(after.gap);
+  event.gap = contact.optional_gap(after.gap);
   event.N = before.N;
   event.T = before.T;
   event.N_after = after.N;
@@ -119,17 +121,17 @@ void EventLog::instant(const Instant& now, const engine::Stepper& stepper) {
   if (now.load_jumps) load_jump(now);
   const decide::Decision& decision = *now.decision;
   for (std::size_t k = 0; k < now.before->size(); ++k) {
-    const State from = in_events((*now.before)[k].state), to = in_events(decision.mode[k].state);
+    const State from = in_events((*now.before)[k].state), to = in_events(decision.states[k].state);
     const bool let_go = from == State::stick && decision.visited[k] && decision.jumped[k] &&
                         can_slide_at_once(model_, model_.contacts[k]);
     auto type = is_hit(decision, k) ? std::optional(EventType::impact) : classify(from, to, let_go);
     if (!type && now.load_jumps && decision.jumped[k]) type = EventType::time;
     if (type) contact(now, k, *type, stepper);
   }
-  see_hits(now);
+  check_hit_order(now);
 }
 
-void EventLog::see_hits(const Instant& now) {
+void EventLog::check_hit_order(const Instant& now) {
   const decide::Decision& decision = *now.decision;
   for (std::size_t k = 0; k < decision.impulses.size(); ++k) {
     if (!decision.impulses[k].hit) continue;
@@ -147,7 +149,7 @@ void EventLog::see_hits(const Instant& now) {
   if (hit.moves.empty()) return;
   const auto jump = [&](std::size_t k) { return std::abs(decision.after[k].vn - decision.before[k].vn); };
   for (std::size_t k = 0; k < hit.moves.size(); ++k)
-    hit.moves[k] = !decision.impulses[k].hit && jump(k) > rounding::of_many * jump(hit.contact);
+    hit.moves[k] = !decision.impulses[k].hit && jump(k) > rounding::many_operations * jump(hit.contact);
   last_hit_ = std::move(hit);
 }
 
@@ -195,7 +197,7 @@ void EventLog::add_conditioning(const Instant& now, const engine::Stepper& stepp
 
 namespace {
 
-constexpr int most_warnings = 5;  // limit for pairs of events of unknown order
+constexpr int max_warnings = 5;  // limit for pairs of events of unknown order
 
 }  // namespace
 
@@ -218,7 +220,7 @@ void EventOrder::load_jump(double t) {
 }
 
 void EventOrder::warn(const std::string& which) {
-  if (++unordered_ <= most_warnings)
+  if (++unordered_ <= max_warnings)
     report_.warnings.push_back(
         fmt::format("the order of {} is not determined at this precision ({} in "
                     "events.csv)",
@@ -226,9 +228,9 @@ void EventOrder::warn(const std::string& which) {
 }
 
 void EventOrder::finish() {
-  if (unordered_ > most_warnings)
+  if (unordered_ > max_warnings)
     report_.warnings.push_back(
-        fmt::format("{} more pairs of events whose order is not determined", unordered_ - most_warnings));
+        fmt::format("{} more pairs of events whose order is not determined", unordered_ - max_warnings));
 }
 
 }  // namespace signorini::run

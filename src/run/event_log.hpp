@@ -84,7 +84,7 @@ class EventLog {
   void load_jump(const Instant& now);
   void contact(const Instant& now, std::size_t k, EventType type, const engine::Stepper& stepper);
   void add_conditioning(const Instant& now, const engine::Stepper& stepper, std::size_t k, Event& event);
-  void see_hits(const Instant& now);
+  void check_hit_order(const Instant& now);
 
   const Model& model_;
   Recorder& recorder_;

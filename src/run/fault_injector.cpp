@@ -7,10 +7,10 @@ namespace signorini::run {
 void FaultInjector::inject(decide::ContactStateSolver& decider, decide::Instant now,
                            const motion::Forcing& forcing, decide::Decision& decided) {
   decide::Decision changed = decided;
-  if (!change(now.mode, now.v, changed)) return;
+  if (!change(now.states, now.v, changed)) return;
   now.u = changed.u;
   now.v = changed.v;
-  const decide::Decision other = decider.adopt(now, changed.mode, forcing);
+  const decide::Decision other = decider.adopt(now, changed.states, forcing);
   changed.consistent = other.consistent;
   changed.refusal = other.refusal;
   changed.system = other.system;
@@ -21,7 +21,7 @@ void FaultInjector::inject(decide::ContactStateSolver& decider, decide::Instant 
   changed.slides_after = other.slides_after;
   changed.guards = other.guards;
   changed.forms = other.forms;
-  changed.captures = other.captures;
+  changed.capture_impulses = other.capture_impulses;
   decided = std::move(changed);
 }
 

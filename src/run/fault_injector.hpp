@@ -25,7 +25,7 @@ class FaultInjector {
     return false;
   }
   /// True if peaks are taken at the ends of steps only.
-  virtual bool forgets_peaks_inside() { return false; }
+  virtual bool skips_interior_peaks() { return false; }
 
   /// Changes the decision of this instant, and recomputes the quantities that follow from the change.
   void inject(decide::ContactStateSolver& decider, decide::Instant now, const motion::Forcing& forcing,

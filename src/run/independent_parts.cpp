@@ -14,7 +14,7 @@
 namespace signorini::run {
 namespace {
 
-constexpr std::size_t most_of_all_parts = 50;  // limit over all parts
+constexpr std::size_t max_of_all_parts = 50;  // limit over all parts
 
 int number_of(const assembly::PartModel& part, int contact) {
   return contact < 0 ? contact : static_cast<int>(part.contacts[static_cast<std::size_t>(contact)]);
@@ -24,7 +24,7 @@ constexpr Extreme Audit::*greatest_of_parts[] = {&Audit::gap,        &Audit::ten
                                                  &Audit::friction,   &Audit::direction, &Audit::equilibrium,
                                                  &Audit::penetration};
 
-void join(const assembly::PartModel& part, const Audit& own, Audit& all) {
+void merge_results(const assembly::PartModel& part, const Audit& own, Audit& all) {
   for (Extreme Audit::*const extreme : greatest_of_parts)
     if ((own.*extreme).value > (all.*extreme).value) {
       all.*extreme = own.*extreme;
@@ -60,12 +60,12 @@ constexpr long Counters::*counts_of_parts[] = {&Counters::steps,
                                                &Counters::proof_steps,
                                                &Counters::fallbacks};
 
-void join(const Counters& own, Counters& all) {
+void merge_results(const Counters& own, Counters& all) {
   for (long Counters::*const count : counts_of_parts) all.*count += own.*count;
   for (const auto& [order, steps] : own.steps_by_order) all.steps_by_order[order] += steps;
 }
 
-void join(const assembly::PartModel& part, const Testimony& own, Testimony& all) {
+void merge_results(const assembly::PartModel& part, const LawCheckSummary& own, LawCheckSummary& all) {
   all.checked += own.checked;
   all.violated += own.violated;
   for (Violation v : own.violations) {
@@ -76,8 +76,8 @@ void join(const assembly::PartModel& part, const Testimony& own, Testimony& all)
 
 }  // namespace
 
-double join(const Model& whole, const std::vector<assembly::PartModel>& parts,
-            const std::vector<RunEnd>& endings, Report& report) {
+double merge_results(const Model& whole, const std::vector<assembly::PartModel>& parts,
+                     const std::vector<RunEnd>& endings, Report& report) {
   report.audit.energy_scale = 0.0;
   report.audit.friction_work.resize(whole.contacts.size());
   report.peaks.resize(whole.contacts.size());
@@ -89,33 +89,33 @@ double join(const Model& whole, const std::vector<assembly::PartModel>& parts,
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const assembly::PartModel& part = parts[i];
     const Report& own = endings[i].report;
-    join(part, own.audit, report.audit);
+    merge_results(part, own.audit, report.audit);
     if (own.audit.energy.value > greatest_off) {
       greatest_off = own.audit.energy.value;
       report.audit.energy.t = own.audit.energy.t;
     }
-    join(own.counters, report.counters);
-    join(part, own.witness, report.witness);
+    merge_results(own.counters, report.counters);
+    merge_results(part, own.law_checks, report.law_checks);
     for (std::size_t k = 0; k < part.contacts.size(); ++k) {
       report.peaks[part.contacts[k]] = own.peaks[k];
       report.supports[part.contacts[k]] = own.supports[k];
       report.landings[part.contacts[k]] = own.landings[k];
     }
     report.undecided += own.undecided;
-    if (own.forgiven_at && !(report.forgiven_at && *report.forgiven_at <= *own.forgiven_at))
-      report.forgiven_at = own.forgiven_at;
+    if (own.first_undecided && !(report.first_undecided && *report.first_undecided <= *own.first_undecided))
+      report.first_undecided = own.first_undecided;
     for (const std::string& warning : own.warnings)
-      if (unique.insert(warning).second && unique.size() <= most_of_all_parts)
+      if (unique.insert(warning).second && unique.size() <= max_of_all_parts)
         report.warnings.push_back(warning);
     energy_rounding += endings[i].energy_rounding;
   }
-  if (unique.size() > most_of_all_parts)
+  if (unique.size() > max_of_all_parts)
     report.warnings.push_back(
-        fmt::format("{} more warnings of parts that nothing couples", unique.size() - most_of_all_parts));
-  std::vector<Violation>& found = report.witness.violations;
+        fmt::format("{} more warnings of parts that nothing couples", unique.size() - max_of_all_parts));
+  std::vector<Violation>& found = report.law_checks.violations;
   std::stable_sort(found.begin(), found.end(),
                    [](const Violation& a, const Violation& b) { return a.t < b.t; });
-  if (found.size() > most_violations) found.resize(most_violations);
+  if (found.size() > max_stored_violations) found.resize(max_stored_violations);
   return energy_rounding;
 }
 
@@ -124,13 +124,13 @@ namespace {
 /// Number of parts of t_end: rows of at most one such part wait for parts that are behind, and an interrupted run is as
 /// far behind. Chosen value.
 constexpr double stages = 32.0;
-constexpr double most_waiting = 8e6;  // limit for the numbers in these rows
-constexpr std::size_t most_events =
+constexpr double max_waiting = 8e6;  // limit for the numbers in these rows
+constexpr std::size_t max_events =
     2000;  // waiting events, less than a megabyte: the next stage is shorter if there are more
 
 /// Run data with the flow chosen for the whole model, so that parts do not choose again.
 RunSpec as_chosen(RunSpec spec, const Method& method) {
-  if (engine_row(spec.engine).can.closed_flow)
+  if (engine_row(spec.engine).capabilities.closed_form_flow)
     spec.flow = method.flow == "modal" ? Flow::modal : Flow::taylor;
   return spec;
 }
@@ -176,7 +176,7 @@ class IndependentParts {
     double length = longest / stages;  // short at first: the density of events is not known yet
     while (reported_ < spec_.t_end && !over()) {
       const std::size_t found = stage(reported_ + length < spec_.t_end ? reported_ + length : spec_.t_end);
-      length = found > most_events ? 0.5 * length : std::min(longest, 2.0 * length);
+      length = found > max_events ? 0.5 * length : std::min(longest, 2.0 * length);
     }
     return ending();
   }
@@ -195,7 +195,7 @@ class IndependentParts {
     const double numbers =
         static_cast<double>(grid_->size()) *
         static_cast<double>(2 * whole_.size() + 8 * static_cast<int>(whole_.contacts.size()));
-    return spec_.t_end / std::max(stages, std::ceil(numbers / most_waiting));
+    return spec_.t_end / std::max(stages, std::ceil(numbers / max_waiting));
   }
 
   [[nodiscard]] bool over() const { return interrupted_ || stopped_ != nullptr; }
@@ -209,7 +209,7 @@ class IndependentParts {
       see_stops(i);
     }
     reported_ = until;
-    return over() ? 0 : rows_.pass_on(until == spec_.t_end ? until : reached(), until == spec_.t_end);
+    return over() ? 0 : rows_.forward(until == spec_.t_end ? until : reached(), until == spec_.t_end);
   }
 
   /// Time that all parts have reached.
@@ -256,10 +256,10 @@ class IndependentParts {
       endings.push_back(beyond ? until(end, parts_[i], *again.back()) : loops_[i]->end());
       if (&parts_[i] == stopped_) result.law_violated = endings.back().law_violated;
     }
-    if (over() && begun()) rows_.pass_on(end, true);
+    if (over() && begun()) rows_.forward(end, true);
     rows_.finish();
-    rows_.pass_on_motion(end, drawn);
-    result.energy_rounding = join(whole_, parts_, endings, report_);
+    rows_.forward_motion(end, drawn);
+    result.energy_rounding = merge_results(whole_, parts_, endings, report_);
     report_outcome(end, endings);
     result.report = std::move(report_);
     return result;

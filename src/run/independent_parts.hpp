@@ -24,8 +24,8 @@ namespace signorini::run {
 
 /// Adds the results of the parts to `report`, which has outcome, method, events and load jumps of the whole model
 /// already. Returns the sum of RunEnd::energy_rounding.
-double join(const Model& whole, const std::vector<assembly::PartModel>& parts,
-            const std::vector<RunEnd>& endings, Report& report);
+double merge_results(const Model& whole, const std::vector<assembly::PartModel>& parts,
+                     const std::vector<RunEnd>& endings, Report& report);
 
 /// Runs the parts of `whole`, in its units. spec.engine is not automatic.
 [[nodiscard]] RunEnd run_independent_parts(const Model& whole, std::vector<assembly::PartModel> parts,

@@ -7,7 +7,7 @@
 #include "base/rounding.hpp"
 #include "decide/driven_states.hpp"
 #include "engine/tolerance.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "motion/point.hpp"
 
 namespace signorini::run {
@@ -27,7 +27,7 @@ std::vector<std::size_t> concerned(const decide::Instant& now,
                                    const std::optional<contact::ContactStates>& adopted) {
   std::vector<std::size_t> contacts = decide::contacts_of(now.triggered);
   for (std::size_t k = 0; adopted && k < adopted->size(); ++k)
-    if ((*adopted)[k].state != now.mode[k].state) contacts.push_back(k);
+    if ((*adopted)[k].state != now.states[k].state) contacts.push_back(k);
   return contacts;
 }
 
@@ -37,7 +37,7 @@ void rescale(const Model& model, engine::StepperReport& engine) {
   for (events::NearHit& hit : engine.near_hits) {
     hit.t = model::time_in_scene_units(model, hit.t);
     hit.gap = model::in_scene_units(model, hit.gap, unit::length);
-    hit.bend = model::in_scene_units(model, hit.bend, unit::acceleration);
+    hit.half_curvature = model::in_scene_units(model, hit.half_curvature, unit::acceleration);
   }
 }
 
@@ -66,7 +66,7 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
   report_.method = std::move(method);
   decider_.trace(hooks_.rounds);
   report_.warnings = model.warnings;
-  for (std::string& sentence : swings_within_steps(model, spec))
+  for (std::string& sentence : fast_load_warnings(model, spec))
     report_.warnings.push_back(std::move(sentence));
 }
 
@@ -88,7 +88,7 @@ bool Loop::refuse(const Refusal& refusal) {
 }
 
 /// False: the record of the motion up to here breaks a law without an explanation.
-bool Loop::lawful() { return record_.law_violated().empty() || stop(record_.law_violated()); }
+bool Loop::laws_hold() { return record_.law_violated().empty() || stop(record_.law_violated()); }
 
 motion::Point Loop::decided_point(const decide::Decision& decision) const {
   motion::Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
@@ -105,10 +105,10 @@ bool Loop::start() {
   now.v = model_.v0;
   now.resolution = s.resolution = motion::resolution_at(0.0, 0.0);
   now.start = true;
-  now.knows_low_flights = engine_->knows_low_flights;
-  now.mode = decide::first_mode(model_, s.forcing, 0.0, model_.u0, model_.v0);
-  now.triggered = decide::zero_at_start(model_, model_.u0, model_.v0, now.mode);
-  const contact::ContactStates guessed = now.mode;
+  now.resolves_low_flights = engine_->resolves_low_flights;
+  now.states = decide::initial_states(model_, s.forcing, 0.0, model_.u0, model_.v0);
+  now.triggered = decide::guards_zero_at_start(model_, model_.u0, model_.v0, now.states);
+  const contact::ContactStates guessed = now.states;
   s.decision = decider_.decide(std::move(now), s.forcing, s.forcing);
   if (!s.decision.consistent) return refuse(s.decision.refusal);
   motion::Point after = decided_point(s.decision);
@@ -130,7 +130,7 @@ bool Loop::start() {
   // A motion within the range of numbers may have squares beyond it: the balance is then unknown.
   if (!std::isfinite(record_.energy().balance()))
     return stop("the energy at the start leaves the range of numbers");
-  return lawful();
+  return laws_hold();
 }
 
 /// Makes a step of the engine, and decides the instant at its end if there is one. False: the run ends.
@@ -153,8 +153,8 @@ bool Loop::step() {
   const bool event = step.kind == engine::Step::Kind::event;
   if (event && hooks_.event_shift) step.end += hooks_.event_shift->shift(step);
   if (event && hooks_.faults) step.end += hooks_.faults->late(step, s.decision);
-  advanced(step);
-  if (event) return instant(std::move(step.triggered), std::move(step.adopted)) && steered();
+  finish_step(step);
+  if (event) return instant(std::move(step.triggered), std::move(step.engine_states)) && steered();
   if (!recorder_.progress(s.t)) return stop("interrupted", Outcome::Kind::interrupted);
   if (step.end >= stretch_.end) return instant({}) && steered();
   if (!steer()) return false;
@@ -162,21 +162,21 @@ bool Loop::step() {
 }
 
 /// Listeners receive the interior of the step first, then its end.
-void Loop::advanced(const engine::Step& step) {
+void Loop::finish_step(const engine::Step& step) {
   engine::DenseOutput& motion = engine_->dense_output();
   const engine::StepFacts facts = motion.facts();
   const RunStep made{step, facts, state_.decision, state_.forcing, motion};
   hooks_.listeners.step(made);
   state_.t = step.end;
   motion.evaluate(state_.t, state_.point);
-  hooks_.listeners.reached(made, here());
+  hooks_.listeners.reached(made, current_point());
 }
 
 /// Passes the state at t to the steering recorder. False: the run ends.
 bool Loop::steer() {
   if (!recorder_.steers()) return true;
-  changes_.at(state_.t);
-  const bool on = recorder_.steer(record_.sample(here()), changes_);
+  changes_.set_time(state_.t);
+  const bool on = recorder_.steer(record_.sample(current_point()), changes_);
   changes_.apply();
   if (changes_.change().any) {
     record_.loads_changed();
@@ -198,13 +198,13 @@ bool Loop::steered() {
 decide::Instant Loop::instant_now(std::vector<decide::TriggeredGuard> fired) const {
   decide::Instant now;
   now.resolution = state_.resolution;
-  now.knows_low_flights = engine_->knows_low_flights;
+  now.resolves_low_flights = engine_->resolves_low_flights;
   now.u = state_.point.u;
   now.v = state_.point.v;
-  now.mode = state_.decision.mode;
+  now.states = state_.decision.states;
   now.triggered = std::move(fired);
-  now.rested = decide::resting(state_.decision);
-  now.touched = touches_.times();
+  now.resting_limits = decide::find_resting_limits(state_.decision);
+  now.last_touch = touches_.times();
   return now;
 }
 
@@ -216,7 +216,7 @@ bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<cont
   if (std::exchange(stretch_.open, false) && record_.needs_accelerations())
     engine_->dense_output().accelerate(s.t, s.point);
   decide::Instant now = instant_now(std::move(fired));
-  hooks_.listeners.before(here());
+  hooks_.listeners.before(current_point());
   // States found by the engine come first; a breakpoint at the same time is the next instant.
   LoadChanges::Change change;
   if (!adopted) {
@@ -231,7 +231,7 @@ bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<cont
   std::optional<motion::Forcing> before;
   stretch_.same_forcing = !change.any;
   if (change.any) before = std::exchange(s.forcing, motion::Forcing(model_, s.t, motion::Side::after));
-  const contact::ContactStates old_mode = s.decision.mode;
+  const contact::ContactStates old_states = s.decision.states;
   const std::vector<decide::TriggeredGuard> triggered = now.triggered;
   const motion::Forcing& forcing_before = before ? *before : s.forcing;
   decide::Instant again;
@@ -240,29 +240,29 @@ bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<cont
                                   : decider_.decide(std::move(now), forcing_before, s.forcing);
   if (hooks_.faults && next.consistent) hooks_.faults->inject(decider_, std::move(again), s.forcing, next);
   if (!next.consistent || stands) {
-    record_.refused(here());
+    record_.refused(current_point());
     return refuse(!next.consistent
                       ? next.refusal
                       : decider_.standstill(next, stall_detector_.contacts(), std::move(*stands)));
   }
   motion::Point after = decided_point(next);
   const RunInstant decided{
-      s.t,       s.resolution, triggered,   change.any,          old_mode, next,  forcing_before,
-      s.forcing, s.point.v,    change.jump, adopted.has_value(), &s.point, &after};
+      s.t,       s.resolution, triggered,   change.any,          old_states, next,  forcing_before,
+      s.forcing, s.point.v,    change.jump, adopted.has_value(), &s.point,   &after};
   hooks_.listeners.instant(decided);
-  touches_.instant(s.t, old_mode, next);
+  touches_.instant(s.t, old_states, next);
   s.decision = std::move(next);
   s.point = std::move(after);
-  return lawful();
+  return laws_hold();
 }
 
 RunEnd Loop::end() {
   report_.outcome.t = state_.t;
   engine::StepperReport engine = engine_->report();
   rescale(model_, engine);
-  hooks_.listeners.end(here(), engine);
+  hooks_.listeners.end(current_point(), engine);
   const auto stored = [&](const Vector& u) { return 0.5 * structure_.magnitude(structure_.k, u.data()); };
-  const double rounding = rounding::of_many * std::max(stored(model_.u0), stored(state_.point.u));
+  const double rounding = rounding::many_operations * std::max(stored(model_.u0), stored(state_.point.u));
   return {std::move(report_), rounding, !record_.law_violated().empty()};
 }
 

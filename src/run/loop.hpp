@@ -55,16 +55,16 @@ class Loop {
   bool refuse(const Refusal& refusal);
   bool start();
   bool step();
-  void advanced(const engine::Step& step);
+  void finish_step(const engine::Step& step);
   bool steer();
   bool steered();
   bool instant(std::vector<decide::TriggeredGuard> fired,
                std::optional<contact::ContactStates> adopted = std::nullopt);
-  [[nodiscard]] bool lawful();
+  [[nodiscard]] bool laws_hold();
   [[nodiscard]] decide::Instant instant_now(std::vector<decide::TriggeredGuard> fired) const;
   [[nodiscard]] motion::Point decided_point(const decide::Decision& decision) const;
-  [[nodiscard]] RunPoint here() const {
-    return {state_.t, state_.forcing, state_.decision.mode, state_.point};
+  [[nodiscard]] RunPoint current_point() const {
+    return {state_.t, state_.forcing, state_.decision.states, state_.point};
   }
 
   Model& model_;

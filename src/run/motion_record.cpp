@@ -13,9 +13,9 @@ namespace signorini::run {
 namespace {
 
 // Limits that give a file of about five megabytes if motions are slow.
-constexpr std::size_t most_in_all = 40000, most_of_one = 8000, fewest_of_one = 400;
-constexpr double fewest_intervals = 250.0;  // so that a contact at rest has rows, too
-constexpr std::size_t most_drawn = 24;      // contacts with a picture of their own
+constexpr std::size_t max_in_all = 40000, max_of_one = 8000, min_of_one = 400;
+constexpr double min_intervals = 250.0;  // so that a contact at rest has rows, too
+constexpr std::size_t max_drawn = 24;    // contacts with a picture of their own
 // A pixel of the widest picture is 1/1250 of the run: fewer than two rows per pixel for straight lines.
 constexpr double pieces_of_run = 2000.0;
 constexpr double growth = 0.2;  // of the row spacing, per time between two rows; chosen
@@ -23,14 +23,14 @@ constexpr double growth = 0.2;  // of the row spacing, per time between two rows
 }  // namespace
 
 MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share)
-    : t_end_(t_end), spacing_(t_end / pieces_of_run), wanted_(recorder.wants_motion()) {
+    : t_end_(t_end), spacing_(t_end / pieces_of_run), enabled_(recorder.wants_motion()) {
   if (!recorder.wants_motion() || model.contacts.empty()) return;
   const std::size_t count = model.contacts.size();
   const std::size_t in_all = share.whole() ? count : share.contacts;
-  const std::size_t most = std::clamp(most_in_all / in_all, fewest_of_one, most_of_one);
+  const std::size_t most = std::clamp(max_in_all / in_all, min_of_one, max_of_one);
   for (std::size_t k = 0; k < count; ++k) {
-    const bool drawn = share.number(k) < most_drawn;
-    tracks_.push_back({{t_end, {most, !drawn, true, t_end / fewest_intervals}}, drawn});
+    const bool drawn = share.number(k) < max_drawn;
+    tracks_.push_back({{t_end, {most, !drawn, true, t_end / min_intervals}}, drawn});
   }
   const auto parts = assembly::coupled_contacts(model);
   reached_.resize(parts.size());
@@ -46,53 +46,53 @@ void MotionRecord::step(double begin, double end, std::span<const double> turnin
   // Bodies with the same motion have the same turning points except for rounding: a thousand of them are one moment. A
   // motion that overflows may have turning points that are not numbers.
   for (const double t : turning_points)
-    if (std::isfinite(t) && (turns_.empty() || t - turns_.back() > rounding::of_time * std::abs(t)))
+    if (std::isfinite(t) && (turns_.empty() || t - turns_.back() > rounding::time_resolution * std::abs(t)))
       turns_.push_back(t);
 }
 
-std::optional<MotionRecord::Moment> MotionRecord::next() {
+std::optional<MotionRecord::RowTime> MotionRecord::next() {
   const double never = std::numeric_limits<double>::infinity();
   const double turn = turn_ < turns_.size() ? turns_[turn_] : never;
-  double line = wanted_ ? std::max(at_, last_ + spacing_) : never;  // independent of the steps between
+  double line = enabled_ ? std::max(at_, last_ + spacing_) : never;  // independent of the steps between
   if (!(line < end_ - 0.5 * spacing_)) line = never;
   if (turn == never && line == never) return std::nullopt;
   at_ = std::min(turn, line);
   if (turn <= line) ++turn_;
-  return Moment{at_, turn <= line};
+  return RowTime{at_, turn <= line};
 }
 
 void MotionRecord::adapt(double t, double asked) {
-  asked = std::min(asked, std::exchange(asked_, std::numeric_limits<double>::infinity()));
+  asked = std::min(asked, std::exchange(requested_spacing_, std::numeric_limits<double>::infinity()));
   const double wider = spacing_ + growth * std::max(0.0, t - std::exchange(adapted_, t));
-  spacing_ = std::clamp(std::min(asked, wider), closest_rows * t_end_, t_end_ / pieces_of_run);
+  spacing_ = std::clamp(std::min(asked, wider), min_row_spacing * t_end_, t_end_ / pieces_of_run);
 }
 
-bool MotionRecord::needs(double t) const {
+bool MotionRecord::needs_row(double t) const {
   return !tracks_.empty() && (t - last_ >= spacing_ || t >= t_end_);
 }
 
 void MotionRecord::add(double t, const Auditor& auditor, const motion::Forcing& forcing,
-                       const contact::ContactStates& mode, const motion::Point& point) {
+                       const contact::ContactStates& states, const motion::Point& point) {
   last_ = t;
   if (tracks_.empty()) return;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     Track& track = tracks_[k];
     const std::vector<MotionRow>& rows = track.rows.rows();
     if (!track.drawn && !rows.empty() && t < t_end_ && t - rows.back().t < t_end_ / pieces_of_run) continue;
-    const MotionRow row{t, auditor.sample(k, forcing, t, mode[k], point)};
+    const MotionRow row{t, auditor.sample(k, forcing, t, states[k], point)};
     keep(track, row);
-    if (track.drawn) asked_ = std::min(asked_, asked_by(track, row));
+    if (track.drawn) requested_spacing_ = std::min(requested_spacing_, spacing_for_track(track, row));
   }
 }
 
 void MotionRecord::before(double t, const Auditor& auditor, const motion::Forcing& forcing,
-                          const contact::ContactStates& mode, const motion::Point& point) {
+                          const contact::ContactStates& states, const motion::Point& point) {
   for (std::size_t k = 0; k < tracks_.size(); ++k)
-    tracks_[k].before = {t, auditor.sample(k, forcing, t, mode[k], point)};
+    tracks_[k].before = {t, auditor.sample(k, forcing, t, states[k], point)};
 }
 
 void MotionRecord::after(double t, const Auditor& auditor, const motion::Forcing& forcing,
-                         const contact::ContactStates& mode, const motion::Point& point,
+                         const contact::ContactStates& states, const motion::Point& point,
                          const std::optional<std::vector<std::size_t>>& changed) {
   if (tracks_.empty()) return;
   reached_.assign(reached_.size(), !changed);
@@ -108,12 +108,12 @@ void MotionRecord::after(double t, const Auditor& auditor, const motion::Forcing
     }
     if (reached_[track.part] && !track.rows.rows().empty() && last < track.before.t)
       keep(track, track.before);
-    const MotionRow row{t, auditor.sample(k, forcing, t, mode[k], point)};
+    const MotionRow row{t, auditor.sample(k, forcing, t, states[k], point)};
     keep(track, row);
     track.last[1] = row;
     track.lasts = 1;
     if (track.drawn && reached_[track.part]) {
-      spacing_ = closest_rows * t_end_;
+      spacing_ = min_row_spacing * t_end_;
       adapted_ = t;  // the spacing grows from here on
     }
   }
@@ -128,16 +128,16 @@ void MotionRecord::keep(Track& track, const MotionRow& row) {
 }
 
 /// Row spacing that a contact needs. A quantity of rounding size, compared with other contacts, has no bends.
-double MotionRecord::asked_by(Track& track, const MotionRow& row) const {
+double MotionRecord::spacing_for_track(Track& track, const MotionRow& row) const {
   double asked = std::numeric_limits<double>::infinity();
   const auto [first, second] = std::exchange(track.last, {track.last[1], row});
   if (++track.lasts < 3 || !(row.t > second.t && second.t > first.t)) return asked;
   const auto a = Drawn{}(first), b = Drawn{}(second), c = Drawn{}(row);
   const double left = second.t - first.t, right = row.t - second.t, part = left / (left + right);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double range = track.rows.range(i), least = rounding::of_elimination * (i < 2 ? force_ : length_);
+    const double range = track.rows.range(i), least = rounding::elimination * (i < 2 ? force_ : length_);
     if (range > least)
-      asked = std::min(asked, spacing_for(left, right, std::abs(b[i] - a[i] - part * (c[i] - a[i])), range));
+      asked = std::min(asked, row_spacing(left, right, std::abs(b[i] - a[i] - part * (c[i] - a[i])), range));
   }
   return asked;
 }
@@ -148,8 +148,8 @@ void MotionRecord::write(Recorder& recorder) {
     force = std::max({force, track.rows.size(0), track.rows.size(1)});
     length = std::max({length, track.rows.size(2), track.rows.size(3)});
   }
-  force *= rounding::of_elimination;
-  length *= rounding::of_elimination;
+  force *= rounding::elimination;
+  length *= rounding::elimination;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     tracks_[k].rows.close({force, force, length, length, 0.0});
     recorder.motion(static_cast<int>(k), tracks_[k].rows.rows());

@@ -30,29 +30,29 @@ class MotionRecord {
   MotionRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
   /// A time inside a step.
-  struct Moment {
+  struct RowTime {
     double t = 0.0;
-    bool turns = false;  ///< a turning point
+    bool is_turning_point = false;  ///< a turning point
   };
   /// Sets a step. Its moments are its turning points, ascending, and the times between that a line needs.
   void step(double begin, double end, std::span<const double> turning_points);
   /// The next moment, in ascending order; nullopt: there is no other.
-  [[nodiscard]] std::optional<Moment> next();
+  [[nodiscard]] std::optional<RowTime> next();
   /// Sets the row spacing after the last row, at t, from that which curves need (`asked`) and that which contacts need.
   void adapt(double t, double asked);
   /// True if the motion is drawn.
-  [[nodiscard]] bool wanted() const { return wanted_; }
+  [[nodiscard]] bool enabled() const { return enabled_; }
   /// True if a line needs a row at t, the end of a step.
-  [[nodiscard]] bool needs(double t) const;
+  [[nodiscard]] bool needs_row(double t) const;
   /// Adds a row of every contact; times ascend, and may repeat.
   void add(double t, const Auditor& auditor, const motion::Forcing& forcing,
-           const contact::ContactStates& mode, const motion::Point& point);
+           const contact::ContactStates& states, const motion::Point& point);
   /// Keeps the side before an instant; `after` adds it for the contacts that the instant reaches.
   void before(double t, const Auditor& auditor, const motion::Forcing& forcing,
-              const contact::ContactStates& mode, const motion::Point& point);
+              const contact::ContactStates& states, const motion::Point& point);
   /// Adds the rows after an instant. changed: contacts; absent: all.
   void after(double t, const Auditor& auditor, const motion::Forcing& forcing,
-             const contact::ContactStates& mode, const motion::Point& point,
+             const contact::ContactStates& states, const motion::Point& point,
              const std::optional<std::vector<std::size_t>>& changed);
   /// Time of the last row of all contacts.
   [[nodiscard]] double last() const { return last_; }
@@ -76,15 +76,15 @@ class MotionRecord {
     int lasts = 0;
   };
   void keep(Track& track, const MotionRow& row);
-  [[nodiscard]] double asked_by(Track& track, const MotionRow& row) const;
+  [[nodiscard]] double spacing_for_track(Track& track, const MotionRow& row) const;
 
   double t_end_;
   double spacing_;  // spacing of rows that only a line needs
-  bool wanted_;
+  bool enabled_;
   double last_ = 0.0, adapted_ = 0.0;
-  double asked_ = std::numeric_limits<double>::infinity();  // by the rows since the last adapt()
-  double force_ = 0.0, length_ = 0.0;                       // largest of all drawn contacts
-  double at_ = 0.0, end_ = 0.0;                             // of the step
+  double requested_spacing_ = std::numeric_limits<double>::infinity();  // by the rows since the last adapt()
+  double force_ = 0.0, length_ = 0.0;                                   // largest of all drawn contacts
+  double at_ = 0.0, end_ = 0.0;                                         // of the step
   std::vector<double> turns_;
   std::size_t turn_ = 0;  // index of the next one
   std::vector<Track> tracks_;

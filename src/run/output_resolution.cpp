@@ -45,12 +45,12 @@ std::vector<HalfPeriod> swings_given(const Model& model) {
 
 }  // namespace
 
-FormNorm reach_of(const engine::FastModes& modes, const Output& linear) {
+FormNorm form_norm_of(const engine::FastModes& modes, const Output& linear) {
   return {modes.form_norm(linear.u), modes.form_norm(linear.v), modes.form_norm(linear.a)};
 }
 
-double added(const engine::FastModeBound& ripple, const FormNorm& reach, const Output& linear,
-             const ForceLayout& layout) {
+double fast_mode_contribution(const engine::FastModeBound& ripple, const FormNorm& reach,
+                              const Output& linear, const ForceLayout& layout) {
   double sum = reach.u * ripple.u + reach.v * ripple.v + reach.a * ripple.a;
   for (const Output::ContactForces& f : linear.forces)
     sum += std::abs(f.N) * ripple.forces[static_cast<Eigen::Index>(layout.normal(f.contact))] +
@@ -87,22 +87,22 @@ void FastModeCutoff::loads_changed() {
   }
 }
 
-double FastModeCutoff::of_all(double radians, double begin, double end) {
-  given_ = 1.0 / t_end_;
+double FastModeCutoff::max_rate(double radians, double begin, double end) {
+  load_rate_ = 1.0 / t_end_;
   auto next = std::upper_bound(changes_.begin(), changes_.end(), begin);
-  do given_ = std::max(given_, fastest_[static_cast<std::size_t>(next - changes_.begin())]);
+  do load_rate_ = std::max(load_rate_, fastest_[static_cast<std::size_t>(next - changes_.begin())]);
   while (next != changes_.end() && *next++ < end);
-  return std::max(given_, std::min(model_.omega_max, radians / (end - begin)));
+  return std::max(load_rate_, std::min(model_.omega_max, radians / (end - begin)));
 }
 
-double FastModeCutoff::counted_modes(
+double FastModeCutoff::output_rate(
     const engine::FastModes& modes, double all,
     const std::function<bool(const engine::FastModeBound&)>& is_rounding) const {
   const auto quiet_above = [&](double omega) {
     const auto ripple = modes.fast_mode_bound(omega);
     return ripple && is_rounding(*ripple);
   };
-  double from = given_, to = all;
+  double from = load_rate_, to = all;
   if (quiet_above(from)) return from;
   while (to > 2.0 * from) {
     const double middle = std::sqrt(from) * std::sqrt(to);
@@ -132,11 +132,12 @@ class PeakSearch {
   }
 
   [[nodiscard]] PeakPoint at(double t) const {
-    base::Along::Values values = values_along(f_, stride_, t);
+    base::PolynomialInterpolation::Values values = values_along(f_, stride_, t);
     for (double& value : values) value *= sign_;
-    const base::Along::Extremes e = base::Along::extremes(values, f_.size());
-    const base::Along::Values rates = values_along(rates_, stride_, t);
-    return {e.greatest, sign_ * base::Along::through(rates, f_.size(), e.at_greatest)};
+    const base::PolynomialInterpolation::Extremes e =
+        base::PolynomialInterpolation::extremes(values, f_.size());
+    const base::PolynomialInterpolation::Values rates = values_along(rates_, stride_, t);
+    return {e.greatest, sign_ * base::PolynomialInterpolation::interpolate(rates, f_.size(), e.at_greatest)};
   }
 
  private:
@@ -184,19 +185,21 @@ ValueBounds bounds_along(std::span<const Chebyshev::Values> f, std::size_t strid
   b = {std::min(b.least, end.least), std::max(b.greatest, end.greatest)};
   double off = 0.0;
   for (std::size_t i = 1; i + 1 < f.size(); ++i) {
-    const double x = base::Along::point(f.size(), i);
+    const double x = base::PolynomialInterpolation::point(f.size(), i);
     Chebyshev::Values bow{};
     for (std::size_t j = 0; j < Chebyshev::count; j += stride)
       bow[j] = f[i][j] - ((1.0 - x) * f.front()[j] + x * f.back()[j]);
     const ValueBounds of = bounds_of(bow, stride, between);
     off = std::max({off, of.greatest, -of.least});
   }
-  return {b.least - base::Along::lebesgue * off, b.greatest + base::Along::lebesgue * off};
+  return {b.least - base::PolynomialInterpolation::lebesgue * off,
+          b.greatest + base::PolynomialInterpolation::lebesgue * off};
 }
 
-base::Along::Values values_along(std::span<const Chebyshev::Values> f, std::size_t stride, double x) {
-  base::Along::Values values{};
-  for (std::size_t i = 0; i < f.size(); ++i) values[i] = Chebyshev::through(f[i], stride, x);
+base::PolynomialInterpolation::Values values_along(std::span<const Chebyshev::Values> f, std::size_t stride,
+                                                   double x) {
+  base::PolynomialInterpolation::Values values{};
+  for (std::size_t i = 0; i < f.size(); ++i) values[i] = Chebyshev::interpolate(f[i], stride, x);
   return values;
 }
 

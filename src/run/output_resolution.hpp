@@ -22,10 +22,10 @@ namespace signorini::run {
 struct FormNorm {
   double u = 0.0, v = 0.0, a = 0.0;
 };
-[[nodiscard]] FormNorm reach_of(const engine::FastModes& modes, const Output& linear);
+[[nodiscard]] FormNorm form_norm_of(const engine::FastModes& modes, const Output& linear);
 /// Upper bound of the contribution of a ripple to a linear output.
-[[nodiscard]] double added(const engine::FastModeBound& ripple, const FormNorm& reach, const Output& linear,
-                           const ForceLayout& layout);
+[[nodiscard]] double fast_mode_contribution(const engine::FastModeBound& ripple, const FormNorm& reach,
+                                            const Output& linear, const ForceLayout& layout);
 
 /// Frequencies in a run. All rates are in rad per time.
 class FastModeCutoff {
@@ -36,9 +36,9 @@ class FastModeCutoff {
   /// Updates the frequencies after a change of the model's loads.
   void loads_changed();
   /// Rate of structure and loads, in a step whose motion turns by so many radians (StepFacts::radians).
-  [[nodiscard]] double of_all(double radians, double begin, double end);
+  [[nodiscard]] double max_rate(double radians, double begin, double end);
   /// Rate that outputs show, in the step of the last of_all(): at most `all`, and at least that of loads.
-  [[nodiscard]] double counted_modes(
+  [[nodiscard]] double output_rate(
       const engine::FastModes& modes, double all,
       const std::function<bool(const engine::FastModeBound&)>& is_rounding) const;
   /// Rate at which the phase advances by so many radians in the whole run.
@@ -49,7 +49,7 @@ class FastModeCutoff {
   double t_end_;
   std::vector<double> changes_;  // times at which the fastest acting load changes, ascending
   std::vector<double> fastest_;  // its rate before the first of these times, and from each of them on
-  double given_ = 0.0;           // fastest load in the step, at least 1/t_end
+  double load_rate_ = 0.0;       // fastest load in the step, at least 1/t_end
 };
 
 // Peaks in time of the largest value of p(x, t), a polynomial along a stretch at each time.
@@ -80,7 +80,7 @@ struct ValueBounds {
                                               double sign, double known);
 
 /// Values along the stretch at time x.
-[[nodiscard]] base::Along::Values values_along(std::span<const Chebyshev::Values> f, std::size_t stride,
-                                               double x);
+[[nodiscard]] base::PolynomialInterpolation::Values values_along(std::span<const Chebyshev::Values> f,
+                                                                 std::size_t stride, double x);
 
 }  // namespace signorini::run

@@ -39,20 +39,20 @@ PartRows::PartRows(const Model& whole, const std::vector<assembly::PartModel>& p
       parts_(parts),
       recorder_(recorder),
       report_(report),
-      energy_sum_(whole, t_end, most_points_of(drawn_columns(whole).size())),
+      energy_sum_(whole, t_end, max_curve_points(drawn_columns(whole).size())),
       order_(whole, report) {}
 
-std::size_t PartRows::pass_on(double t, bool last) {
-  const std::size_t events = pass_on_events(t, last);
-  pass_on_rows(t, &PartRecorder::rows, &Recorder::sample);
-  pass_on_rows(t, &PartRecorder::frames, &Recorder::frame);
+std::size_t PartRows::forward(double t, bool last) {
+  const std::size_t events = forward_events(t, last);
+  forward_rows(t, &PartRecorder::rows, &Recorder::sample);
+  forward_rows(t, &PartRecorder::frames, &Recorder::frame);
   energy_sum_.take(energy_lines_, t);
   return events;
 }
 
-std::size_t PartRows::pass_on_events(double t, bool last) {
+std::size_t PartRows::forward_events(double t, bool last) {
   std::vector<Event> all;
-  for (PartRecorder* part : of_)
+  for (PartRecorder* part : recorders_)
     for (; !part->events.empty() && (part->events.front().t < t || (last && part->events.front().t == t));
          part->events.pop_front())
       all.push_back(std::move(part->events.front()));
@@ -61,7 +61,7 @@ std::size_t PartRows::pass_on_events(double t, bool last) {
   });
   for (const Event& event : all) {
     if (event.contact < 0) {
-      if (std::exchange(jumped_, event.t) == event.t) continue;
+      if (std::exchange(last_load_jump_, event.t) == event.t) continue;
       ++report_.counters.time_events;
       order_.load_jump(event.t);
     }
@@ -73,21 +73,21 @@ std::size_t PartRows::pass_on_events(double t, bool last) {
   return all.size();
 }
 
-void PartRows::pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Sample&)) {
+void PartRows::forward_rows(double t, Rows rows, void (Recorder::*to)(const Sample&)) {
   const auto complete = [&] {
-    return std::all_of(of_.begin(), of_.end(), [&](PartRecorder* part) {
+    return std::all_of(recorders_.begin(), recorders_.end(), [&](PartRecorder* part) {
       return !(part->*rows).empty() && (part->*rows).front().t <= t;
     });
   };
   Vector u(whole_.size()), v(whole_.size());
   while (complete()) {
     Sample sample;
-    sample.t = (of_.front()->*rows).front().t;
+    sample.t = (recorders_.front()->*rows).front().t;
     sample.u = &u;
     sample.v = &v;
     sample.contacts.resize(whole_.contacts.size());
-    for (std::size_t i = 0; i < of_.size(); ++i) {
-      const PartRecorder::Row& row = (of_[i]->*rows).front();
+    for (std::size_t i = 0; i < recorders_.size(); ++i) {
+      const PartRecorder::Row& row = (recorders_[i]->*rows).front();
       const assembly::PartModel& part = parts_[i];
       for (std::size_t j = 0; j < part.dofs.size(); ++j) {
         u[part.dofs[j]] = row.u[static_cast<Eigen::Index>(j)];
@@ -96,13 +96,13 @@ void PartRows::pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Samp
       for (std::size_t k = 0; k < part.contacts.size(); ++k)
         sample.contacts[part.contacts[k]] = row.contacts[k];
       add_to(sample.energy, row.energy);
-      (of_[i]->*rows).pop_front();
+      (recorders_[i]->*rows).pop_front();
     }
     (recorder_.*to)(sample);
   }
 }
 
-void PartRows::pass_on_motion(double t, const std::vector<PartRecorder*>& from) {
+void PartRows::forward_motion(double t, const std::vector<PartRecorder*>& from) {
   if (!recorder_.wants_motion()) return;
   std::vector<const std::vector<MotionRow>*> motions(whole_.contacts.size());
   for (std::size_t i = 0; i < from.size(); ++i)
@@ -193,7 +193,7 @@ EnergyValues values_of(const Energy& energy) {
 EnergySum::EnergySum(const Model& whole, double t_end, std::size_t most)
     : time_(whole.unit.time),
       energy_(scene::factor_of(unit::energy, whole.unit)),
-      curves_(energy_values, {t_end * time_, {.most = most}}) {}
+      curves_(energy_values, {t_end * time_, {.max_rows = most}}) {}
 
 void EnergySum::take(const std::vector<EnergyLine*>& lines, double until) {
   EnergyValues value{}, slope{};
@@ -232,7 +232,7 @@ void EnergySum::write(Curves& curves) {
   for (std::size_t i = 0; i + 1 < energy_values; ++i) greatest = std::max(greatest, curves_[i].size(0));
   for (std::size_t i = 0; i < energy_values; ++i) {
     const bool balance = i + 1 == energy_values;  // the balance consists of rounding
-    curves_[i].close({balance ? 0.0 : rounding::of_elimination * greatest});
+    curves_[i].close({balance ? 0.0 : rounding::elimination * greatest});
     curves.names.emplace_back(balance ? balance_column : energy_columns[i].name);
     curves.points.push_back(curves_[i].take());
   }

@@ -3,7 +3,7 @@
 //   events:  ascending in t; at the same time, that of a load first, then in the order of the parts
 //   rows:    at a time of the grid u, v and contacts of all parts, energies summed (part_rows.hpp)
 //
-//   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.pass_on(t); ...
+//   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.forward(t); ...
 //
 // All values are in the units of the whole model. A jump of a load is one row, for any number of parts it acts on.
 #pragma once
@@ -129,32 +129,32 @@ class PartRows {
 
   /// Adds a part; called in the order of the parts.
   void add(PartRecorder& recorder) {
-    of_.push_back(&recorder);
+    recorders_.push_back(&recorder);
     energy_lines_.push_back(&recorder.energy_rows);
   }
   /// Passes on rows up to t, and events before it; with `last` also events at t. Returns the number of these events,
   /// including those left out as the same jump of a load.
-  std::size_t pass_on(double t, bool last = false);
+  std::size_t forward(double t, bool last = false);
   /// Ends the merge, after the last event.
   void finish() { order_.finish(); }
   /// Passes on the data of pictures for a run to t, once, from these recorders in the order of the parts.
-  void pass_on_motion(double t, const std::vector<PartRecorder*>& from);
+  void forward_motion(double t, const std::vector<PartRecorder*>& from);
 
  private:
   using Rows = std::deque<PartRecorder::Row> PartRecorder::*;
-  std::size_t pass_on_events(double t, bool last);
-  void pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Sample&));
+  std::size_t forward_events(double t, bool last);
+  void forward_rows(double t, Rows rows, void (Recorder::*to)(const Sample&));
   [[nodiscard]] Curves displacements_of(const std::vector<PartRecorder*>& from) const;
 
   const Model& whole_;
   const std::vector<assembly::PartModel>& parts_;
   Recorder& recorder_;
   Report& report_;
-  std::vector<PartRecorder*> of_;
+  std::vector<PartRecorder*> recorders_;
   std::vector<EnergyLine*> energy_lines_;
   EnergySum energy_sum_;
   EventOrder order_;
-  double jumped_ = -1.0;  // time of the last jump of a load
+  double last_load_jump_ = -1.0;  // time of the last jump of a load
 };
 
 }  // namespace signorini::run

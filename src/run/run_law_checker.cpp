@@ -7,7 +7,7 @@
 
 #include "base/rounding.hpp"
 #include "law_check/laws.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "run/engines.hpp"
 
 namespace signorini::run {
@@ -15,7 +15,7 @@ namespace {
 
 // Modes of a state are used if they reproduce a motion to 1e-12 of its size (src/engine/exact/modal), relative to the
 // rounding of other sums.
-constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::of_elimination;
+constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::elimination;
 
 }  // namespace
 
@@ -23,14 +23,14 @@ constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::of_e
 CheckedEngine checked_engine(const RunSpec& run, const engine::Tolerance& tolerance, const std::string& flow,
                              bool low_flights) {
   CheckedEngine engine;
-  const Accuracy accuracy = name_of(run.engine).accuracy;
+  const Accuracy accuracy = engine_info(run.engine).accuracy;
   engine.sums_over_modes = flow == "modal";
-  const EngineAbilities& can = engine_row(run.engine).can;
-  engine.follows = can.laws_at_ends;
+  const EngineCapabilities& can = engine_row(run.engine).capabilities;
+  engine.laws_at_step_ends = can.laws_at_step_ends;
   engine.located = can.locates_events(run);
   law_check::LawLimits& limits = engine.limits;
   limits.capture_velocity = tolerance.capture_velocity();
-  limits.knows_low_flights = low_flights && !engine.sums_over_modes;
+  limits.resolves_low_flights = low_flights && !engine.sums_over_modes;
   if (accuracy == Accuracy::step) limits.step = run.dt.value_or(0.0);
   if (accuracy != Accuracy::tolerance) return engine;
   limits.rtol = tolerance.rtol;
@@ -63,10 +63,10 @@ law_check::RecordedEvent recorded_event(const Event& event) {
   return result;
 }
 
-std::vector<ContactState> left_states(const Model& model, const std::vector<ContactState>& guessed) {
+std::vector<ContactState> final_states(const Model& model, const std::vector<ContactState>& guessed) {
   std::vector<ContactState> states = guessed;
-  for (std::size_t k = 0; k < model.continues.size(); ++k) {
-    const SavedState::Left& left = model.continues[k];
+  for (std::size_t k = 0; k < model.saved_contacts.size(); ++k) {
+    const SavedState::FinalContact& left = model.saved_contacts[k];
     if (!model.contacts[k].obeys_coulomb()) continue;
     for (const State state : {State::open, State::closed, State::stick, State::slip_plus, State::slip_minus})
       if (left.state == to_string(state)) states[k] = {state, state == State::stick ? left.slip : 0.0};
@@ -75,11 +75,11 @@ std::vector<ContactState> left_states(const Model& model, const std::vector<Cont
   return states;
 }
 
-Vector left_forces(const Model& model) {
+Vector final_forces(const Model& model) {
   Vector forces = Vector::Zero(model.force_count());
-  for (std::size_t k = 0; k < model.continues.size(); ++k) {
-    forces[static_cast<Eigen::Index>(model.layout.normal(k))] = model.continues[k].N;
-    forces[static_cast<Eigen::Index>(model.layout.tangent(k))] = model.continues[k].T;
+  for (std::size_t k = 0; k < model.saved_contacts.size(); ++k) {
+    forces[static_cast<Eigen::Index>(model.layout.normal(k))] = model.saved_contacts[k].N;
+    forces[static_cast<Eigen::Index>(model.layout.tangent(k))] = model.saved_contacts[k].T;
   }
   return forces;
 }
@@ -96,7 +96,7 @@ CheckedMotion::CheckedMotion(const Model& model, const CheckedEngine& engine)
       driven_.push_back(k);
 }
 
-void CheckedMotion::leave(const motion::Forcing& forcing, double t) {
+void CheckedMotion::finish_instant(const motion::Forcing& forcing, double t) {
   if (!(step_ > 0.0)) return;
   for (const std::size_t k : driven_) jerk_[k] = std::abs(forcing.surface(k, t, 3));
 }
@@ -128,14 +128,14 @@ void CheckedMotion::fill(const motion::Forcing& forcing, double t, double depend
   for (std::size_t turns : {0U, 1U}) {
     // Between two instants the motion may reach the scene's displacements, even if it is at rest at both.
     const double own = turns ? model_.scales.rotation : model_.scales.displacement;
-    side.u_reach[turns] = std::max({own, u_reach_[turns], dependence * of_round_trip * u_modal_[turns]});
+    side.max_u[turns] = std::max({own, u_reach_[turns], dependence * of_round_trip * u_modal_[turns]});
     // A body at rest on a surface that starts to move has the rounding of that motion: A cos(w t - pi/2) at t = 0.
-    const double given = rounding::of_few / rounding::of_elimination *
+    const double given = rounding::few_operations / rounding::elimination *
                          (turns ? model_.scales.angular_velocity : model_.scales.velocity);
-    side.v_reach[turns] = std::max({given, v_reach_[turns], dependence * of_round_trip * v_modal_[turns]});
+    side.max_v[turns] = std::max({given, v_reach_[turns], dependence * of_round_trip * v_modal_[turns]});
   }
-  if (sums_over_modes_) side.lost = dependence * round_trip * std::sqrt(energy_ + kinetic_);
-  side.speeds = speeds_.empty() ? nullptr : speeds_.data();
+  if (sums_over_modes_) side.modal_mismatch = dependence * round_trip * std::sqrt(energy_ + kinetic_);
+  side.energy_speeds = speeds_.empty() ? nullptr : speeds_.data();
   if (side.driven.size() == model_.contacts.size()) {
     for (const std::size_t k : driven_) side.driven[k] = driven_at(k, forcing, t);
   } else {
@@ -151,7 +151,7 @@ void CheckedMotion::fill(const motion::Forcing& forcing, double t, double depend
   }
 }
 
-void CheckedMotion::reach(const law_check::LawChecker& witness, const Vector& u, const Vector& v) {
+void CheckedMotion::update_maxima(const law_check::LawChecker& witness, const Vector& u, const Vector& v) {
   for (int i = 0; i < model_.size(); ++i) {
     const bool turns = model_.dofs[static_cast<std::size_t>(i)].rotation;
     u_reach_[turns] = std::max(u_reach_[turns], std::abs(u[i]));
@@ -159,7 +159,7 @@ void CheckedMotion::reach(const law_check::LawChecker& witness, const Vector& u,
   }
   energy_ = std::max(energy_, witness.twice_energy(u));
   for (std::size_t k = lightness_.size(); k < model_.contacts.size(); ++k)
-    lightness_.push_back(witness.lightness(k));
+    lightness_.push_back(witness.speed_per_energy_root(k));
   const double root = std::sqrt(energy_);
   speeds_.resize(lightness_.size());
   for (std::size_t k = 0; k < speeds_.size(); ++k) speeds_[k] = lightness_[k] * root;
@@ -176,8 +176,8 @@ void CheckedMotion::reach(const law_check::LawChecker& witness, const Vector& u,
   }
 }
 
-std::array<double, 2> CheckedMotion::of_accelerations(const law_check::LawChecker& witness, const Vector& a,
-                                                      double dependence) const {
+std::array<double, 2> CheckedMotion::acceleration_terms(const law_check::LawChecker& witness, const Vector& a,
+                                                        double dependence) const {
   if (!sums_over_modes_) return {0.0, 0.0};
   const std::array<double, 2> size = witness.modal_size(a);
   return {dependence * of_round_trip * size[0], dependence * of_round_trip * size[1]};
@@ -203,7 +203,7 @@ std::string sentence_of(const Violation& v, const Model& model) {
                      who, v.law, v.t, v.value, v.limit);
 }
 
-std::string sentence_of(const Testimony& testimony, const Model& model) {
+std::string sentence_of(const LawCheckSummary& testimony, const Model& model) {
   std::string sentence = sentence_of(testimony.violations.front(), model);
   if (testimony.violated > 1) sentence += fmt::format(" (the first of {})", testimony.violated);
   return sentence;
@@ -213,10 +213,10 @@ RunLawChecker::RunLawChecker(const Model& model, const CheckedEngine& engine, Re
     : model_(model),
       recorder_(recorder),
       engine_(engine),
-      witness_(model, engine.limits),
+      law_checker_(model, engine.limits),
       motion_(model, engine),
-      holds_(std::any_of(model.contacts.begin(), model.contacts.end(),
-                         [](const Contact& c) { return !c.normal_spring(); })) {}
+      has_constraints_(std::any_of(model.contacts.begin(), model.contacts.end(),
+                                   [](const Contact& c) { return !c.normal_spring(); })) {}
 
 namespace {
 
@@ -228,7 +228,7 @@ InstantRow row_of(const law_check::InstantRecord& record) {
   InstantRow row;
   row.t = record.t;
   row.resolution = record.resolution;
-  row.forgiven = record.forgiven;
+  row.tolerated_violation = record.forgiven;
   row.eigenvector_condition = record.eigenvector_condition;
   row.start = record.start;
   row.breakpoint = record.breakpoint;
@@ -237,8 +237,8 @@ InstantRow row_of(const law_check::InstantRecord& record) {
   row.before = side(record.before);
   row.after = side(record.after);
   for (const law_check::RecordedImpulse& p : record.impulses)
-    row.blows.push_back({static_cast<int>(p.contact), p.turn, p.normal, p.tangent});
-  row.captures = record.captures;
+    row.impacts.push_back({static_cast<int>(p.contact), p.impact_number, p.normal, p.tangent});
+  row.capture_impulses = record.captures;
   for (const std::size_t k : record.released) row.released.push_back(static_cast<int>(k));
   return row;
 }
@@ -248,7 +248,7 @@ InstantRow row_of(const law_check::InstantRecord& record) {
 void RunLawChecker::instant(const Instant& now) {
   const decide::Decision& d = *now.decision;
   if (now.start) start_peaks(now);
-  motion_.reach(witness_, now.before->u, now.before->v);
+  motion_.update_maxima(law_checker_, now.before->u, now.before->v);
   law_check::InstantRecord record;
   record.t = now.t;
   record.resolution = now.resolution;
@@ -258,59 +258,61 @@ void RunLawChecker::instant(const Instant& now) {
   record.before.u = &now.before->u;
   record.before.v = &now.before->v;
   record.before.forces = &now.before->forces;
-  record.before.mode = now.mode_before;
+  record.before.mode = now.states_before;
   motion_.fill(*now.forcing_after, now.t, now.eigenvector_condition, record.after);
   const Vector forces = d.jet.forces.col(0), a = d.jet.a();
   record.after.u = &d.u;
   record.after.v = &d.v;
   record.after.a = &a;
-  record.after.a_reach = motion_.of_accelerations(witness_, a, now.eigenvector_condition);
+  record.after.acceleration_terms = motion_.acceleration_terms(law_checker_, a, now.eigenvector_condition);
   record.after.forces = &forces;
-  record.after.mode = &d.mode;
-  for (const decide::Blow& blow : d.blows)
+  record.after.mode = &d.states;
+  for (const decide::SingleImpact& blow : d.single_impacts)
     record.impulses.push_back({blow.contact, blow.turn, blow.normal, blow.tangent});
-  record.captures = d.captures;
+  record.captures = d.capture_impulses;
   record.released = d.released;
   for (const Event& event : *now.events)
     if (event.contact >= 0) record.events.push_back(recorded(event, d));
   record.start = now.start;
   std::vector<ContactState> left;
   Vector forces_left;
-  if (now.start && !model_.continues.empty()) {
+  if (now.start && !model_.saved_contacts.empty()) {
     record.continues = record.breakpoint = true;
-    left = left_states(model_, *now.mode_before);
-    forces_left = left_forces(model_);
+    left = final_states(model_, *now.states_before);
+    forces_left = final_forces(model_);
     record.before.mode = &left;
     record.before.forces = &forces_left;
   }
   record.breakpoint = record.breakpoint || now.breakpoint;
   record.load_jumps = now.load_jumps;
   record.located = engine_.located && !now.adopted;
-  record.forgiven = d.forgiven;
+  record.forgiven = d.tolerated_violation;
   record.eigenvector_condition = now.eigenvector_condition;
-  if (holds_) held_forces_ = std::max(held_forces_, witness_.held_forces(record.after));
-  for (std::size_t k = 0; k < passed_.size(); ++k)
-    passed_[k].surface = std::max(passed_[k].surface, std::abs(record.before.driven[k].s));
+  if (has_constraints_)
+    held_forces_ = std::max(held_forces_, law_checker_.constraint_force_terms(record.after));
+  for (std::size_t k = 0; k < observed_peaks_.size(); ++k)
+    observed_peaks_[k].surface = std::max(observed_peaks_[k].surface, std::abs(record.before.driven[k].s));
   for (const std::size_t turns : {0U, 1U})
-    reached_[turns] = std::max(reached_[turns], record.before.u_reach[turns]);
+    reached_[turns] = std::max(reached_[turns], record.before.max_u[turns]);
   if (recorder_.wants_instants()) recorder_.instant(row_of(record));
-  keep(witness_.instant(record));
-  motion_.leave(*now.forcing_after, now.t);
+  store_violations(law_checker_.check_instant(record));
+  motion_.finish_instant(*now.forcing_after, now.t);
   before_ = std::move(record.before);
   after_ = std::move(record.after);
 }
 
-void RunLawChecker::between(double t, const motion::Forcing& forcing, const contact::ContactStates& mode,
-                            const motion::Point& point, double dependence) {
-  if (!engine_.follows) return;
+void RunLawChecker::between(double t, const motion::Forcing& forcing,
+                            const contact::ContactStates& contact_states, const motion::Point& point,
+                            double dependence) {
+  if (!engine_.laws_at_step_ends) return;
   motion_.fill(forcing, t, dependence, point_);
   law_check::CheckedSide& side = point_;
   side.u = &point.u;
   side.v = &point.v;
   side.a = point.a.size() > 0 ? &point.a : nullptr;
   side.forces = &point.forces;
-  side.mode = &mode;
-  keep(witness_.between(t, side));
+  side.mode = &contact_states;
+  store_violations(law_checker_.check_point(t, side));
 }
 
 namespace {
@@ -326,24 +328,25 @@ std::pair<double, double> borrowed(const Contact& c, const ForceLayout& layout, 
 }  // namespace
 
 void RunLawChecker::start_peaks(const Instant& now) {
-  passed_.resize(model_.contacts.size());
-  for (std::size_t k = 0; k < passed_.size(); ++k) {
+  observed_peaks_.resize(model_.contacts.size());
+  for (std::size_t k = 0; k < observed_peaks_.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const auto [n, t] = borrowed(c, model_.layout, k, now.decision->jet.forces.col(0));
-    passed_[k].g0 = c.normal.dot(now.decision->u) - n;
-    passed_[k].ut0 = c.body_tangent().dot(now.decision->u) - now.forcing_after->surface(k, now.t, 0) - t;
+    observed_peaks_[k].g0 = c.normal.dot(now.decision->u) - n;
+    observed_peaks_[k].ut0 =
+        c.body_tangent().dot(now.decision->u) - now.forcing_after->surface(k, now.t, 0) - t;
   }
 }
 
-void RunLawChecker::passes(double t, const motion::Forcing& forcing, const motion::Point& point) {
-  for (std::size_t k = 0; k < passed_.size(); ++k) passes(k, t, forcing, point);
+void RunLawChecker::observe(double t, const motion::Forcing& forcing, const motion::Point& point) {
+  for (std::size_t k = 0; k < observed_peaks_.size(); ++k) observe(k, t, forcing, point);
 }
 
-void RunLawChecker::passes(std::size_t k, double t, const motion::Forcing& forcing,
-                           const motion::Point& point) {
+void RunLawChecker::observe(std::size_t k, double t, const motion::Forcing& forcing,
+                            const motion::Point& point) {
   if (engine_.limits.step > 0.0) return;  // peaks are taken at the ends of steps
   const Contact& c = model_.contacts[k];
-  PassedPeak& p = passed_[k];
+  ObservedPeak& p = observed_peaks_[k];
   p.most.N = std::max(p.most.N, std::abs(point.N(model_.layout, k)));
   p.most.T = std::max(p.most.T, std::abs(point.T(model_.layout, k)));
   const auto [along_n, along_t] = borrowed(c, model_.layout, k, point.forces);
@@ -364,27 +367,28 @@ double RunLawChecker::place_of(std::size_t k) const {
     }
     return std::sqrt(of_form * of_u);
   };
-  return size(c.normal) + size(c.tangent) + std::abs(c.gap) + passed_[k].surface;
+  return size(c.normal) + size(c.tangent) + std::abs(c.gap) + observed_peaks_[k].surface;
 }
 
 void RunLawChecker::peaks(double t, const std::vector<Peak>& recorded) {
-  for (std::size_t k = 0; k < passed_.size() && k < recorded.size(); ++k) {
+  for (std::size_t k = 0; k < observed_peaks_.size() && k < recorded.size(); ++k) {
     const Contact& c = model_.contacts[k];
-    const PassedPeak& p = passed_[k];
+    const ObservedPeak& p = observed_peaks_[k];
     // Both values are the same sum, at different points. A fixed point moves by the rounding of the scene's
     // displacements.
     const law_check::LawLimits& tol = engine_.limits;
     const double place = place_of(k);
-    const double length = rounding::of_elimination * (place + model_.scales.displacement) +
-                          law_check::of_tolerance * (tol.rtol * place + tol.displacement);
+    const double length = rounding::elimination * (place + model_.scales.displacement) +
+                          law_check::tolerance_factor * (tol.rtol * place + tol.displacement);
     const double force =
         (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
-        (rounding::of_elimination + law_check::of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
-        (c.normal_spring() ? 0.0 : rounding::of_elimination * held_forces_) +
-        law_check::of_tolerance * tol.force;
+        (rounding::elimination + law_check::tolerance_factor * tol.rtol) * (p.most.N + p.most.T) +
+        (c.normal_spring() ? 0.0 : rounding::elimination * held_forces_) +
+        law_check::tolerance_factor * tol.force;
     const auto check = [&](double farthest, double recorded_value, double limit, const Unit& unit) {
       if (farthest - recorded_value > limit)
-        keep({{t, "end", static_cast<int>(k), "peak", farthest - recorded_value, limit, unit, false}});
+        store_violations(
+            {{t, "end", static_cast<int>(k), "peak", farthest - recorded_value, limit, unit, false}});
     };
     check(p.most.N, recorded[k].N, force, unit::force);
     check(p.most.T, recorded[k].T, force, unit::force);
@@ -393,7 +397,7 @@ void RunLawChecker::peaks(double t, const std::vector<Peak>& recorded) {
   }
 }
 
-void RunLawChecker::keep(std::vector<Violation> found) {
+void RunLawChecker::store_violations(std::vector<Violation> found) {
   ++testimony_.checked;
   testimony_.violated += static_cast<long>(found.size());
   for (Violation& v : found) {
@@ -404,7 +408,7 @@ void RunLawChecker::keep(std::vector<Violation> found) {
       shown.limit = model::in_scene_units(model_, v.limit, v.unit);
       law_violated_ = sentence_of(shown, model_);
     }
-    if (testimony_.violations.size() < most_violations) testimony_.violations.push_back(std::move(v));
+    if (testimony_.violations.size() < max_stored_violations) testimony_.violations.push_back(std::move(v));
   }
 }
 

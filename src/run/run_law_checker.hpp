@@ -28,8 +28,8 @@ namespace signorini::run {
 /// Limits and abilities of a run's engine.
 struct CheckedEngine {
   law_check::LawLimits limits;
-  bool located = true;  ///< the engine locates the zeros of guards
-  bool follows = true;  ///< laws hold at ends of steps
+  bool located = true;            ///< the engine locates the zeros of guards
+  bool laws_at_step_ends = true;  ///< laws hold at ends of steps
   bool sums_over_modes = false;
 };
 /// flow: "modal" or not. low_flights: the engine computes flights lower than the rounding of their gaps.
@@ -40,19 +40,19 @@ struct CheckedEngine {
 [[nodiscard]] law_check::RecordedEvent recorded_event(const Event& event);
 
 /// Final states and forces of the run that is continued (Model::continues); guessed: states for user-defined laws.
-[[nodiscard]] std::vector<ContactState> left_states(const Model& model,
-                                                    const std::vector<ContactState>& guessed);
-[[nodiscard]] Vector left_forces(const Model& model);
+[[nodiscard]] std::vector<ContactState> final_states(const Model& model,
+                                                     const std::vector<ContactState>& guessed);
+[[nodiscard]] Vector final_forces(const Model& model);
 
 class CheckedMotion {
  public:
   CheckedMotion(const Model& model, const CheckedEngine& engine);
 
   /// Called at instants only: values between two instants are hardly larger, or of the scene's own scale.
-  void reach(const law_check::LawChecker& witness, const Vector& u, const Vector& v);
-  /// Value of CheckedSide::a_reach.
-  [[nodiscard]] std::array<double, 2> of_accelerations(const law_check::LawChecker& witness, const Vector& a,
-                                                       double dependence) const;
+  void update_maxima(const law_check::LawChecker& witness, const Vector& u, const Vector& v);
+  /// Value of CheckedSide::acceleration_terms.
+  [[nodiscard]] std::array<double, 2> acceleration_terms(const law_check::LawChecker& witness,
+                                                         const Vector& a, double dependence) const;
   /// dependence: StepFacts::eigenvector_condition of the motion up to t.
   [[nodiscard]] law_check::CheckedSide side(const motion::Forcing& forcing, double t,
                                             double dependence) const;
@@ -60,7 +60,7 @@ class CheckedMotion {
   /// entries are kept, or be without `driven`.
   void fill(const motion::Forcing& forcing, double t, double dependence, law_check::CheckedSide& side) const;
   /// Ends an instant, with the forcing after it.
-  void leave(const motion::Forcing& forcing, double t);
+  void finish_instant(const motion::Forcing& forcing, double t);
 
  private:
   [[nodiscard]] law_check::Driven driven_at(std::size_t k, const motion::Forcing& forcing, double t) const;
@@ -77,10 +77,10 @@ class CheckedMotion {
   std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // Witness::modal_size
 };
 
-inline constexpr std::size_t most_violations = 100;  // limit for stored violations; all are counted
+inline constexpr std::size_t max_stored_violations = 100;  // limit for stored violations; all are counted
 
 /// Position of a contact at the start, and its largest distance from there.
-struct PassedPeak {
+struct ObservedPeak {
   double g0 = 0.0, ut0 = 0.0, surface = 0.0;  // surface: largest displacement of its surface
   Peak most;
 };
@@ -93,7 +93,7 @@ class RunLawChecker {
   struct Instant {
     double t = 0.0, resolution = 0.0;
     const motion::Point* before = nullptr;
-    const contact::ContactStates* mode_before = nullptr;
+    const contact::ContactStates* states_before = nullptr;
     const motion::Forcing *forcing_before = nullptr, *forcing_after = nullptr;
     const decide::Decision* decision = nullptr;
     const std::vector<Event>* events = nullptr;
@@ -103,37 +103,37 @@ class RunLawChecker {
   };
   void instant(const Instant& now);
   /// Checks a point inside a stretch.
-  void between(double t, const motion::Forcing& forcing, const contact::ContactStates& mode,
+  void between(double t, const motion::Forcing& forcing, const contact::ContactStates& states,
                const motion::Point& point, double dependence);
 
   /// Adds a point inside a step: that of a row, or a turning point.
-  void passes(double t, const motion::Forcing& forcing, const motion::Point& point);
+  void observe(double t, const motion::Forcing& forcing, const motion::Point& point);
   /// Adds a point for one contact; only the entries of the point that it depends on are read.
-  void passes(std::size_t contact, double t, const motion::Forcing& forcing, const motion::Point& point);
+  void observe(std::size_t contact, double t, const motion::Forcing& forcing, const motion::Point& point);
   /// Checks at the end that none of these points exceeds the reported peaks.
   void peaks(double t, const std::vector<Peak>& recorded);
 
   /// Reason for ending the run: the first violation without an explanation. Empty: none.
   [[nodiscard]] const std::string& unexplained() const { return law_violated_; }
   /// Violations in the units of the model; physical() converts them.
-  [[nodiscard]] Testimony& testimony() { return testimony_; }
+  [[nodiscard]] LawCheckSummary& testimony() { return testimony_; }
 
  private:
   void start_peaks(const Instant& now);
-  void keep(std::vector<Violation> found);
+  void store_violations(std::vector<Violation> found);
   [[nodiscard]] double place_of(std::size_t k) const;
 
   const Model& model_;
   Recorder& recorder_;
   const CheckedEngine engine_;
-  law_check::LawChecker witness_;
+  law_check::LawChecker law_checker_;
   CheckedMotion motion_;
   law_check::CheckedSide point_, before_, after_;  // between instants, and at one
-  std::vector<PassedPeak> passed_;
-  std::array<double, 2> reached_ = {0.0, 0.0};  // largest CheckedSide::u_reach
-  bool holds_ = false;                          // some contact has no spring: its forces enforce constraints
-  double held_forces_ = 0.0;                    // largest LawChecker::held_forces, if there is such a contact
-  Testimony testimony_;
+  std::vector<ObservedPeak> observed_peaks_;
+  std::array<double, 2> reached_ = {0.0, 0.0};  // largest CheckedSide::max_u
+  bool has_constraints_ = false;                // some contact has no spring: its forces enforce constraints
+  double held_forces_ = 0.0;  // largest LawChecker::constraint_force_terms, if there is such a contact
+  LawCheckSummary testimony_;
   std::string law_violated_;
 };
 
@@ -141,6 +141,6 @@ class RunLawChecker {
 /// rounding".
 [[nodiscard]] std::string sentence_of(const Violation& violation, const Model& model);
 /// Sentence about the first violation, with the number of violations.
-[[nodiscard]] std::string sentence_of(const Testimony& testimony, const Model& model);
+[[nodiscard]] std::string sentence_of(const LawCheckSummary& testimony, const Model& model);
 
 }  // namespace signorini::run

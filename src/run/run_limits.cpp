@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 
 namespace signorini::run {
 namespace {
@@ -20,19 +20,19 @@ constexpr double resolutions_of_instant = 10.0;  // largest distance of events o
 std::optional<std::string> StallDetector::count(double t, double resolution,
                                                 const std::vector<std::size_t>& contacts) {
   after_mark_.insert(contacts.begin(), contacts.end());
-  if (auto reason = crawl(t)) return reason;
+  if (auto reason = slow_progress(t)) return reason;
   if (at_once_ == 0 || t - cluster_ > resolutions_of_instant * resolution) {
     cluster_ = t;
     at_once_ = 0;
     in_cluster_.clear();
   }
   in_cluster_.insert(contacts.begin(), contacts.end());
-  if (++at_once_ <= most_at_once_) return std::nullopt;
+  if (++at_once_ <= max_at_once_) return std::nullopt;
   contacts_ = in_cluster_;
-  return fmt::format("{} events at one instant; time does not advance", most_at_once_);
+  return fmt::format("{} events at one instant; time does not advance", max_at_once_);
 }
 
-std::optional<std::string> StallDetector::crawl(double t) {
+std::optional<std::string> StallDetector::slow_progress(double t) {
   if (++since_mark_ < watched_events) return std::nullopt;
   const double advanced = t - mark_;
   since_mark_ = 0;
@@ -49,7 +49,7 @@ constexpr double large = 0.25;  // rad; 1 - cos is 3 %: chosen value
 
 }  // namespace
 
-LargeMotions::LargeMotions(const Model& model) : model_(model) {
+LargeMotionDetector::LargeMotionDetector(const Model& model) : model_(model) {
   if (model.reduction) return;
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
     if (model.dofs[i].rotation) rotations_.push_back(i);
@@ -57,34 +57,34 @@ LargeMotions::LargeMotions(const Model& model) : model_(model) {
     if (model.contacts[k].curved_surface()) pendulums_.push_back(k);
 }
 
-void LargeMotions::note(double t, double angle, const std::string& what) {
+void LargeMotionDetector::record(double t, double angle, const std::string& what) {
   if (!(angle > large)) return;
   if (!first_) first_ = Large{what, t, angle};
   if (angle <= greatest_) return;
   greatest_ = angle;
-  of_greatest_ = what;
+  greatest_description_ = what;
 }
 
-void LargeMotions::see(double t, const motion::Forcing& forcing, const motion::Point& now) {
+void LargeMotionDetector::examine(double t, const motion::Forcing& forcing, const motion::Point& now) {
   for (const std::size_t i : rotations_)
-    note(t, std::abs(now.u[static_cast<Eigen::Index>(i)]), model_.dofs[i].displacement);
+    record(t, std::abs(now.u[static_cast<Eigen::Index>(i)]), model_.dofs[i].displacement);
   for (const std::size_t k : pendulums_) {
     const Contact& contact = model_.contacts[k];
-    note(t,
-         std::abs(motion::slide_of(contact, k, forcing, t, now.u, now.v).ut) /
-             contact.curved_surface()->radius,
-         "ut / R of contact '" + contact.name + "'");
+    record(t,
+           std::abs(motion::body_slide(contact, k, forcing, t, now.u, now.v).ut) /
+               contact.curved_surface()->radius,
+           "ut / R of contact '" + contact.name + "'");
   }
 }
 
-std::optional<std::string> LargeMotions::warning() const {
+std::optional<std::string> LargeMotionDetector::warning() const {
   if (!first_) return std::nullopt;
   return fmt::format(
       "{} is {:.3g} rad at t = {:.6g}, and {} reaches {:.3g} rad: rotations are computed as small ones, so "
       "that from there on "
       "results are far from those of the real structure",
-      first_->description, first_->angle, model::time_in_scene_units(model_, first_->t), of_greatest_,
-      greatest_);
+      first_->description, first_->angle, model::time_in_scene_units(model_, first_->t),
+      greatest_description_, greatest_);
 }
 
 }  // namespace signorini::run

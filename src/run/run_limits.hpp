@@ -17,7 +17,7 @@ class StallDetector {
  public:
   /// unit: factor that converts times for messages.
   StallDetector(double t_end, int most_at_once, double unit = 1.0)
-      : t_end_(t_end), most_at_once_(most_at_once), unit_(unit) {}
+      : t_end_(t_end), max_at_once_(most_at_once), unit_(unit) {}
 
   /// Counts an instant; times do not decrease. Returns the reason for ending the run; nullopt: it continues. contacts:
   /// those whose guards were triggered, or whose states an engine has changed.
@@ -28,10 +28,10 @@ class StallDetector {
 
  private:
   using Contacts = std::set<std::size_t>;
-  [[nodiscard]] std::optional<std::string> crawl(double t);
+  [[nodiscard]] std::optional<std::string> slow_progress(double t);
 
   double t_end_;
-  int most_at_once_;
+  int max_at_once_;
   double unit_;
   double cluster_ = 0.0;  // time of the first of the simultaneous events
   int at_once_ = 0;
@@ -47,13 +47,13 @@ class StallDetector {
 // All computations use cos = 1 and sin = tan for motions of any size; one warning per run therefore reports the first
 // large motion and the largest one.
 
-class LargeMotions {
+class LargeMotionDetector {
  public:
   /// Amplitudes of modes (reduced models) are not examined. The model must outlive the object.
-  explicit LargeMotions(const Model& model);
+  explicit LargeMotionDetector(const Model& model);
 
   /// Examines the end of a step.
-  void see(double t, const motion::Forcing& forcing, const motion::Point& now);
+  void examine(double t, const motion::Forcing& forcing, const motion::Point& now);
   /// Text of the warning; nullopt: all motions stayed small.
   [[nodiscard]] std::optional<std::string> warning() const;
 
@@ -62,13 +62,13 @@ class LargeMotions {
     std::string description;
     double t = 0.0, angle = 0.0;
   };
-  void note(double t, double angle, const std::string& what);
+  void record(double t, double angle, const std::string& what);
 
   const Model& model_;
   std::vector<std::size_t> rotations_, pendulums_;
   std::optional<Large> first_;
   double greatest_ = 0.0;
-  std::string of_greatest_;
+  std::string greatest_description_;
 };
 
 }  // namespace signorini::run

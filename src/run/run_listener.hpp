@@ -16,7 +16,7 @@
 #include "signorini/trace.hpp"
 
 namespace signorini::modal {
-struct ModalShare;
+struct SharedModalData;
 }  // namespace signorini::modal
 
 namespace signorini::run {
@@ -36,7 +36,7 @@ struct RunStep {
 struct RunPoint {
   double t = 0.0;
   const motion::Forcing& forcing;
-  const contact::ContactStates& mode;
+  const contact::ContactStates& states;
   const motion::Point& point;
 };
 
@@ -45,7 +45,7 @@ struct RunInstant {
   double t = 0.0, resolution = 0.0;
   const std::vector<decide::TriggeredGuard>& triggered;
   bool breakpoint = false;  ///< the forcing is not smooth here
-  const contact::ContactStates& mode_before;
+  const contact::ContactStates& states_before;
   const decide::Decision& after;
   const motion::Forcing &forcing_before, &forcing_after;
   const Vector& v_before;  ///< velocities before; u is that of `after`
@@ -58,7 +58,7 @@ struct RunInstant {
 /// Requirements of a listener for the engine of the run.
 struct ListenerNeeds {
   /// Data that engine `exact` in modes shares with the listener (engine/exact/modal/modal_flow.hpp); null: none.
-  modal::ModalShare* modal = nullptr;
+  modal::SharedModalData* modal = nullptr;
   /// True if the largest N, T, gap and ut inside steps are needed. `exact` in modes computes them only then.
   bool peaks = true;
   /// Seed, not 0: engine `exact` in series varies the lengths of its steps randomly.

@@ -11,8 +11,8 @@ namespace {
 /// Contacts whose guards were triggered, or whose states have changed.
 std::vector<std::size_t> changed_contacts(const RunInstant& now) {
   std::vector<std::size_t> contacts = decide::contacts_of(now.triggered);
-  for (std::size_t k = 0; k < now.mode_before.size(); ++k)
-    if (now.after.mode[k].state != now.mode_before[k].state) contacts.push_back(k);
+  for (std::size_t k = 0; k < now.states_before.size(); ++k)
+    if (now.after.states[k].state != now.states_before[k].state) contacts.push_back(k);
   return contacts;
 }
 
@@ -26,15 +26,16 @@ RunRecord::RunRecord(const Model& model, const RunSpec& run, const Method& metho
       recorder_(recorder),
       report_(report),
       faults_(faults),
-      witness_(exact_model(faults),
-               checked_engine(run, engine::tolerance_of(model, run), method.flow, engine.knows_low_flights),
-               recorder),
+      law_checker_(
+          exact_model(faults),
+          checked_engine(run, engine::tolerance_of(model, run), method.flow, engine.resolves_low_flights),
+          recorder),
       auditor_(model, structure),
       log_(model, recorder, report, share.whole()),
       samples_(model, run, auditor_, recorder, share.grid),
       motion_(model, run.t_end, recorder, share),
       curves_(model, run.t_end, recorder, share),
-      response_(model, run.t_end, recorder, name_of(run.engine).accuracy != Accuracy::step),
+      response_(model, run.t_end, recorder, engine_info(run.engine).accuracy != Accuracy::step),
       large_(model),
       warnings_(model),
       works_(model.contacts.size()) {}
@@ -49,23 +50,23 @@ const Model& RunRecord::exact_model(FaultInjector* faults) {
 void RunRecord::begin(const RunInstant& start) {
   const double t = start.t;
   point_ = *start.point_after;
-  for (std::string& sentence : cut_shears(model_, start.after))
+  for (std::string& sentence : shear_limit_warnings(model_, start.after))
     report_.warnings.push_back(std::move(sentence));
   warnings_.add(t, start.after, report_.warnings);
-  auditor_.begin(start.after, start.mode_before, start.forcing_after, *start.point_after);
-  log_.start({t, start.resolution, &start.after, &start.mode_before, false}, engine_);
-  zero_since_.decided(t, start.after, true);
+  auditor_.begin(start.after, start.states_before, start.forcing_after, *start.point_after);
+  log_.start({t, start.resolution, &start.after, &start.states_before, false}, engine_);
+  zero_since_.update(t, start.after, true);
   const motion::Point given{model_.u0, model_.v0, start.after.jet.forces.col(0)};
   RunLawChecker::Instant seen{t,
                               start.resolution,
                               &given,
-                              &start.mode_before,
+                              &start.states_before,
                               &start.forcing_before,
                               &start.forcing_after,
                               &start.after,
                               &log_.latest()};
   seen.start = true;
-  witness_.instant(seen);
+  law_checker_.instant(seen);
   after(start, std::nullopt);
 }
 
@@ -76,19 +77,21 @@ void RunRecord::step(const RunStep& step) {
   step.motion.integrate(begin, end, works_);
   auditor_.add(works_);
   rows(step);
-  response_.inside(step.motion, begin, end);
-  const bool each_alone = step.facts.contact_turns != nullptr && !motion_.wanted() && !curves_.wanted();
+  response_.search_step(step.motion, begin, end);
+  const bool each_alone =
+      step.facts.contact_turning_points != nullptr && !motion_.enabled() && !curves_.enabled();
   motion_.step(begin, end, each_alone ? std::span<const double>() : step.facts.turning_points);
   if (each_alone) turns(step);
-  const contact::ContactStates& mode = step.decision.mode;
+  const contact::ContactStates& states = step.decision.states;
   while (const auto moment = motion_.next()) {
     const double t = moment->t;
     step.motion.evaluate_watched(t, std::nullopt, point_);
-    if (moment->turns && sees_peaks_inside()) auditor_.observe(step.forcing, t, mode, point_);
-    if (moment->turns) witness_.passes(t, step.forcing, point_);
-    motion_.add(t, auditor_, step.forcing, mode, point_);
-    if (curves_.needs(t)) add_curves(t, mode, point_, &step);
-    motion_.adapt(t, curves_.asked());
+    if (moment->is_turning_point && records_interior_peaks())
+      auditor_.observe(step.forcing, t, states, point_);
+    if (moment->is_turning_point) law_checker_.observe(t, step.forcing, point_);
+    motion_.add(t, auditor_, step.forcing, states, point_);
+    if (curves_.needs_row(t)) add_curves(t, states, point_, &step);
+    motion_.adapt(t, curves_.requested_spacing());
   }
 }
 
@@ -100,16 +103,16 @@ void RunRecord::rows(const RunStep& step) {
     works_.clear();
     step.motion.integrate(t, step.step.end, works_);
     row(step, t, point);
-    witness_.passes(t, step.forcing, point);
+    law_checker_.observe(t, step.forcing, point);
   }
 }
 
 /// Records a row. works_: from t to the end of the step.
 void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
-  samples_.emit(t, works_, step.forcing, step.decision.mode, point);
-  if (response_.any()) {
+  samples_.emit(t, works_, step.forcing, step.decision.states, point);
+  if (response_.has_outputs()) {
     step.motion.accelerate(t, point);
-    std::vector<double> losses = auditor_.losses();
+    std::vector<double> losses = auditor_.friction_losses();
     for (std::size_t k = 0; k < losses.size(); ++k) losses[k] -= works_.friction[k];
     response_.row(t, motion::Side::before, point, losses);
   }
@@ -118,46 +121,47 @@ void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
 
 /// Checks each contact at its own turning points, for a motion that is not drawn.
 void RunRecord::turns(const RunStep& step) {
-  for (const events::TurningPoints::Turn& turn : *step.facts.contact_turns) {
+  for (const events::TurningPointDetector::TurningPoint& turn : *step.facts.contact_turning_points) {
     if (!std::isfinite(turn.time)) continue;
     const std::size_t contact = turn.contact();
     step.motion.evaluate_watched(turn.time, contact, point_);
-    if (sees_peaks_inside()) auditor_.observe(contact, step.forcing, turn.time, step.decision.mode, point_);
-    witness_.passes(contact, turn.time, step.forcing, point_);
+    if (records_interior_peaks())
+      auditor_.observe(contact, step.forcing, turn.time, step.decision.states, point_);
+    law_checker_.observe(contact, turn.time, step.forcing, point_);
   }
 }
 
 void RunRecord::reached(const RunStep& step, const RunPoint& end) {
-  large_.see(end.t, end.forcing, end.point);
+  large_.examine(end.t, end.forcing, end.point);
   if (step.step.kind == engine::Step::Kind::event) return;
-  if (motion_.needs(end.t)) motion_.add(end.t, auditor_, end.forcing, end.mode, end.point);
-  if (curves_.needs(end.t)) {
-    add_curves(end.t, end.mode, end.point);
-    motion_.adapt(end.t, curves_.asked());
+  if (motion_.needs_row(end.t)) motion_.add(end.t, auditor_, end.forcing, end.states, end.point);
+  if (curves_.needs_row(end.t)) {
+    add_curves(end.t, end.states, end.point);
+    motion_.adapt(end.t, curves_.requested_spacing());
   }
-  auditor_.observe(end.forcing, end.t, end.mode, end.point);
-  witness_.between(end.t, end.forcing, end.mode, end.point, condition_);
+  auditor_.observe(end.forcing, end.t, end.states, end.point);
+  law_checker_.between(end.t, end.forcing, end.states, end.point, condition_);
   if (std::exchange(residual_due_, false)) auditor_.equilibrium(end.t, step.motion.residual());
 }
 
 void RunRecord::before(const RunPoint& point) {
-  motion_.before(point.t, auditor_, point.forcing, point.mode, point.point);
-  if (curves_.wanted()) add_curves(point.t, point.mode, point.point);
+  motion_.before(point.t, auditor_, point.forcing, point.states, point.point);
+  if (curves_.enabled()) add_curves(point.t, point.states, point.point);
 }
 
 void RunRecord::instant(const RunInstant& now) {
   const double t = now.t;
-  if (now.breakpoint || now.after.mode != now.mode_before || !now.after.impulses.empty())
-    response_.before(t, *now.point_before, auditor_.losses());
-  auditor_.instant(t, now.after, now.mode_before, *now.point_before, now.forcing_after, now.load_jumps);
+  if (now.breakpoint || now.after.states != now.states_before || !now.after.impulses.empty())
+    response_.before(t, *now.point_before, auditor_.friction_losses());
+  auditor_.instant(t, now.after, now.states_before, *now.point_before, now.forcing_after, now.load_jumps);
   warnings_.add(t, now.after, report_.warnings);
-  log_.instant(
-      {t, now.resolution, &now.after, &now.mode_before, now.load_jumps, zero_since_.before(t, now.triggered)},
-      engine_);
-  zero_since_.decided(t, now.after, now.breakpoint);
-  witness_.instant({t, now.resolution, now.point_before, &now.mode_before, &now.forcing_before,
-                    &now.forcing_after, &now.after, &log_.latest(), false, now.breakpoint, now.load_jumps,
-                    now.adopted, condition_});
+  log_.instant({t, now.resolution, &now.after, &now.states_before, now.load_jumps,
+                zero_since_.zero_durations(t, now.triggered)},
+               engine_);
+  zero_since_.update(t, now.after, now.breakpoint);
+  law_checker_.instant({t, now.resolution, now.point_before, &now.states_before, &now.forcing_before,
+                        &now.forcing_after, &now.after, &log_.latest(), false, now.breakpoint, now.load_jumps,
+                        now.adopted, condition_});
   after(now, now.breakpoint ? std::nullopt : std::optional(changed_contacts(now)));
 }
 
@@ -169,48 +173,48 @@ void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std
   const motion::Point& point = *now.point_after;
   const motion::Forcing& forcing = now.forcing_after;
   if (decision.undecided) ++report_.undecided;
-  const bool open = decision.forgiven > 0.0 || decision.unresolved || !decision.at_limit.empty();
-  if (open && !report_.forgiven_at) report_.forgiven_at = t;
-  auditor_.observe(forcing, t, decision.mode, point);
-  last_energy_ = auditor_.energy(t, decision.mode, point);
+  const bool open = decision.tolerated_violation > 0.0 || decision.unresolved || !decision.at_limit.empty();
+  if (open && !report_.first_undecided) report_.first_undecided = t;
+  auditor_.observe(forcing, t, decision.states, point);
+  last_energy_ = auditor_.energy(t, decision.states, point);
   if (const double next = samples_.next(); next <= t) {
     works_.clear();
-    samples_.emit(next, works_, forcing, decision.mode, point);
+    samples_.emit(next, works_, forcing, decision.states, point);
     residual_due_ = true;
   }
-  response_.row(t, motion::Side::after, point, auditor_.losses());
-  motion_.after(t, auditor_, forcing, decision.mode, point, changed);
+  response_.row(t, motion::Side::after, point, auditor_.friction_losses());
+  motion_.after(t, auditor_, forcing, decision.states, point, changed);
   curves_.add(t, point.u, last_energy_);
 }
 
 /// Adds a row of curves. step: the one that contains t; the auditor has its works up to its end.
-void RunRecord::add_curves(double t, const contact::ContactStates& mode, const motion::Point& point,
+void RunRecord::add_curves(double t, const contact::ContactStates& states, const motion::Point& point,
                            const RunStep* step) {
   works_.clear();
   if (step != nullptr && t < step->step.end) step->motion.integrate(t, step->step.end, works_);
-  curves_.add(t, point.u, auditor_.energy_before(works_, mode, point));
+  curves_.add(t, point.u, auditor_.energy_before(works_, states, point));
 }
 
 Sample RunRecord::sample(const RunPoint& now) {
   works_.clear();
-  return samples_.sample(now.t, works_, now.forcing, now.mode, now.point);
+  return samples_.sample(now.t, works_, now.forcing, now.states, now.point);
 }
 
 void RunRecord::end(const RunPoint& last, const engine::StepperReport& engine) {
   report_.counters = engine.counters;
   log_.finish();
-  if (motion_.last() < last.t) motion_.add(last.t, auditor_, last.forcing, last.mode, last.point);
-  if (curves_.last() < last.t) add_curves(last.t, last.mode, last.point);
+  if (motion_.last() < last.t) motion_.add(last.t, auditor_, last.forcing, last.states, last.point);
+  if (curves_.last() < last.t) add_curves(last.t, last.states, last.point);
   motion_.write(recorder_);
   curves_.write(recorder_);
   report_.warnings.insert(report_.warnings.end(), engine.warnings.begin(), engine.warnings.end());
-  auditor_.finish(report_, last_energy_, last.t, last.mode);
+  auditor_.finish(report_, last_energy_, last.t, last.states);
   // Rows of a step without an instant at its end are kept, but it contributes no peaks.
-  if (report_.outcome.kind == Outcome::Kind::done) witness_.peaks(last.t, report_.peaks);
-  report_.witness = std::move(witness_.testimony());
+  if (report_.outcome.kind == Outcome::Kind::done) law_checker_.peaks(last.t, report_.peaks);
+  report_.law_checks = std::move(law_checker_.testimony());
   report_.response = response_.extremes();
   if (auto sentence = large_.warning()) report_.warnings.push_back(std::move(*sentence));
-  if (response_.coarse()) report_.warnings.push_back(*response_.coarse());
+  if (response_.coarse_warning()) report_.warnings.push_back(*response_.coarse_warning());
   if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();
 }
 

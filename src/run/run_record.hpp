@@ -14,12 +14,12 @@
 #include "run/event_log.hpp"
 #include "run/fault_injector.hpp"
 #include "run/motion_record.hpp"
+#include "run/output_monitor.hpp"
+#include "run/output_sampler.hpp"
 #include "run/part_rows.hpp"
-#include "run/response.hpp"
 #include "run/run_law_checker.hpp"
 #include "run/run_limits.hpp"
 #include "run/run_listener.hpp"
-#include "run/samples.hpp"
 #include "run/touch_tracker.hpp"
 #include "run/warnings.hpp"
 
@@ -41,27 +41,27 @@ class RunRecord final : public RunListener {
   void end(const RunPoint& last, const engine::StepperReport& engine) override;
 
   /// Records a point at which no states could be decided.
-  void refused(const RunPoint& point) { last_energy_ = auditor_.energy(point.t, point.mode, point.point); }
+  void refused(const RunPoint& point) { last_energy_ = auditor_.energy(point.t, point.states, point.point); }
   /// Updates outputs after a change of the model's loads.
   void loads_changed() { response_.loads_changed(); }
   /// Sample for a steering recorder, valid until the next row.
   [[nodiscard]] Sample sample(const RunPoint& point);
   /// Reason for ending the run: a violated law without an explanation. Empty: none.
-  [[nodiscard]] const std::string& law_violated() const { return witness_.unexplained(); }
+  [[nodiscard]] const std::string& law_violated() const { return law_checker_.unexplained(); }
   /// Energy after the last decision.
   [[nodiscard]] const Energy& energy() const { return last_energy_; }
   /// True if outputs need accelerations in the points before instants.
-  [[nodiscard]] bool needs_accelerations() const { return response_.any(); }
+  [[nodiscard]] bool needs_accelerations() const { return response_.has_outputs(); }
 
  private:
   [[nodiscard]] const Model& exact_model(FaultInjector* faults);
-  [[nodiscard]] bool sees_peaks_inside() const {
-    return faults_ == nullptr || !faults_->forgets_peaks_inside();
+  [[nodiscard]] bool records_interior_peaks() const {
+    return faults_ == nullptr || !faults_->skips_interior_peaks();
   }
   void rows(const RunStep& step);
   void row(const RunStep& step, double t, motion::Point& point);
   void turns(const RunStep& step);
-  void add_curves(double t, const contact::ContactStates& mode, const motion::Point& point,
+  void add_curves(double t, const contact::ContactStates& states, const motion::Point& point,
                   const RunStep* step = nullptr);
   void after(const RunInstant& instant, const std::optional<std::vector<std::size_t>>& changed);
 
@@ -71,14 +71,14 @@ class RunRecord final : public RunListener {
   Report& report_;
   FaultInjector* faults_;
   std::unique_ptr<Model> exact_model_;  // null: same as model_
-  RunLawChecker witness_;
+  RunLawChecker law_checker_;
   Auditor auditor_;
   EventLog log_;
-  Samples samples_;
+  OutputSampler samples_;
   MotionRecord motion_;
   CurveRecord curves_;
-  ResponseWatch response_;
-  LargeMotions large_;
+  OutputMonitor response_;
+  LargeMotionDetector large_;
   ZeroTracker zero_since_;
   DecisionWarnings warnings_;
   motion::Point point_;  // inside a step

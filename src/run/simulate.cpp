@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "model/assembly/loads.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "run/choose_engine.hpp"
 #include "run/cost_estimate.hpp"
 #include "run/independent_parts.hpp"
 #include "run/loop.hpp"
-#include "run/physical.hpp"
+#include "run/scene_units.hpp"
 #include "run/warnings.hpp"
 #include "scene/quantities.hpp"
 #include "scene/saved_state.hpp"
@@ -40,11 +40,12 @@ RunEnd run_whole(Model& model, const RunSpec& spec, const EngineRow& engine, Met
 
 /// Report in the units of the scene, with the warnings about a finished run.
 Report concluded(RunEnd ending, const Model& computed, const RunSpec& spec) {
-  Report report = physical(std::move(ending.report), computed);
-  if (report.witness.violated > 0 && !ending.law_violated)
-    report.warnings.push_back(sentence_of(report.witness, computed));
+  Report report = to_scene_units(std::move(ending.report), computed);
+  if (report.law_checks.violated > 0 && !ending.law_violated)
+    report.warnings.push_back(sentence_of(report.law_checks, computed));
   const double rounding = ending.energy_rounding * scene::factor_of(unit::energy, computed.unit);
-  if (const auto sentence = energy_lost(report.audit, report.method, rounding, exact_takes(computed, spec)))
+  if (const auto sentence =
+          energy_warning(report.audit, report.method, rounding, exact_accepts(computed, spec)))
     report.warnings.push_back(*sentence);
   return report;
 }
@@ -58,11 +59,11 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
   Method method = engine.method(model, spec);
   method.automatic = choice.automatic;
   method.reason = choice.reason;
-  const Factors to_machine = scene::inverse(model.machine);
+  const Factors to_machine = scene::inverse(model.internal_units);
   Model computed = model::rescaled(model, to_machine);
   spec = scene::rescaled(std::move(spec), to_machine);
-  PhysicalRecorder in_scene(computed, recorder);
-  hooks.rounds = physical(hooks.rounds, computed);
+  SceneUnitsRecorder in_scene(computed, recorder);
+  hooks.rounds = to_scene_units(hooks.rounds, computed);
   const auto clock = std::chrono::steady_clock::now();
   std::vector<assembly::PartModel> parts = parts_to_run(computed, method, recorder, hooks);
   RunEnd ending =
@@ -149,7 +150,8 @@ SavedState last_state(const Model& model, const Result& result) {
     if (!surface.is_constant())
       state.motions.emplace_back(model.contacts[k].name + ".surface", surface.value(last.t));
     if (!model.contacts[k].obeys_coulomb())
-      state.own.push_back({model.contacts[k].name, number_of(contact.state), contact.memory});
+      state.user_law_states.push_back(
+          {model.contacts[k].name, user_law_state_number(contact.state), contact.memory});
     if (!model.contacts[k].has_friction()) continue;
     state.shears.emplace_back(model.contacts[k].name, last.contacts[k].T);
     state.slips.emplace_back(model.contacts[k].name, slip_sign(last.contacts[k].state));
@@ -159,8 +161,8 @@ SavedState last_state(const Model& model, const Result& result) {
   state.motions.emplace_back(scene::saved_alpha, model.alpha);
   for (const Contact& contact : model.contacts)
     if (const CurvedSurface* surface = contact.curved_surface())
-      state.carried.emplace_back(contact.name, surface->carried);
-  if (model.geometric) state.frozen = model.geometric->forces;
+      state.pendulum_forces.emplace_back(contact.name, surface->nominal_force);
+  if (model.geometric) state.prestress = model.geometric->forces;
   return state;
 }
 

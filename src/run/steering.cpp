@@ -7,7 +7,7 @@
 
 #include "base/history/pieces.hpp"
 #include "base/text.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "motion/point.hpp"
 #include "run/choose_engine.hpp"
 #include "signorini/error.hpp"
@@ -31,7 +31,7 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
     throw SceneError(run_.place, "set_load",
                      fmt::format("found \"{}\", expected a force or a moment of the scene{}", name,
                                  base::suggestion(name, names)));
-  const History next = model::rescaled(history, found->of_history, scene::inverse(model_.unit));
+  const History next = model::rescaled(history, found->history_unit, scene::inverse(model_.unit));
   const double before = found->history.value(t_), after = next.value(t_);
   past_.push_back(std::exchange(found->history, found->history.then(t_, next)));
   for (std::vector<Output>* outputs : {&model_.outputs, &model_.reaction_sums})
@@ -44,8 +44,8 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
   if (method_.flow == "modal" && !choose_flow(model_, run_).modal)
     throw SceneError(run_.place, "set_load",
                      "the flow in modes follows loads that change in jumps only; use run.flow = \"taylor\"");
-  asked_.any = true;
-  asked_.jump = asked_.jump || before != after;
+  requested_.any = true;
+  requested_.jump = requested_.jump || before != after;
 }
 
 namespace {

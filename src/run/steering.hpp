@@ -20,13 +20,13 @@ class LoadChanges final : public Steering {
   void set_load(const std::string& name, const History& history) override;
 
   /// Sets the current time, in the units of the computation.
-  void at(double t) { t_ = t; }
+  void set_time(double t) { t_ = t; }
   /// Flags: a load has changed; a value jumps.
   struct Change {
     bool any = false, jump = false;
   };
   /// Puts the requests since the last call in force.
-  void apply() { change_ = std::exchange(asked_, {}); }
+  void apply() { change_ = std::exchange(requested_, {}); }
   /// Change at the current instant.
   [[nodiscard]] const Change& change() const { return change_; }
 
@@ -36,7 +36,7 @@ class LoadChanges final : public Steering {
   const EngineRow& engine_;
   const Method& method_;
   double t_ = 0.0;
-  Change asked_, change_;
+  Change requested_, change_;
   std::vector<History> past_;
 };
 

@@ -18,7 +18,7 @@ class TouchTracker {
 
   void instant(double t, const contact::ContactStates& before, const decide::Decision& decision) {
     for (std::size_t k = 0; k < times_.size(); ++k)
-      if (!before[k].is_open() || !decision.mode[k].is_open() ||
+      if (!before[k].is_open() || !decision.states[k].is_open() ||
           (!decision.impulses.empty() && decision.impulses[k].normal > 0.0))
         times_[k] = t;
   }
@@ -38,11 +38,11 @@ class TouchTracker {
 class ZeroTracker {
  public:
   /// Updates the times after a decision at t. changed: the forcing has another formula from here on.
-  void decided(double t, const decide::Decision& decision, bool changed) {
+  void update(double t, const decide::Decision& decision, bool changed) {
     since_.resize(decision.guards.size(), none);
     for (std::size_t slot = 0; slot < since_.size(); ++slot) {
       const decide::GuardStart& guard = decision.guards[slot];
-      if (guard.kind == Guard::none || !guard.at_zero || guard.leading >= 0)
+      if (guard.kind == Guard::none || !guard.at_zero || guard.leading_order >= 0)
         since_[slot] = none;
       else if (changed || !(since_[slot] <= t) || kinds_[slot] != guard.kind)
         since_[slot] = t;
@@ -52,12 +52,14 @@ class ZeroTracker {
   }
 
   /// Time for which the guards triggered at t had been zero, one entry per contact; empty: none had.
-  [[nodiscard]] std::vector<double> before(double t, const std::vector<decide::TriggeredGuard>& fired) const {
+  [[nodiscard]] std::vector<double> zero_durations(double t,
+                                                   const std::vector<decide::TriggeredGuard>& fired) const {
     std::vector<double> result;
     for (const decide::TriggeredGuard& f : fired)
       for (std::size_t slot = contact::guards_per_contact * f.contact;
            slot < contact::guards_per_contact * (f.contact + 1); ++slot) {
-        if (!f.unseen || slot >= since_.size() || kinds_[slot] != f.guard || !(since_[slot] < t)) continue;
+        if (!f.never_positive || slot >= since_.size() || kinds_[slot] != f.guard || !(since_[slot] < t))
+          continue;
         result.resize(since_.size() / contact::guards_per_contact, 0.0);
         result[f.contact] = t - since_[slot];
       }
@@ -76,24 +78,25 @@ class ZeroTracker {
 //
 // Forces are never impulses divided by a step: a hit without a closure has an impulse and a peak force of zero.
 
-class Landings {
+class LandingTracker {
  public:
-  explicit Landings(const Model& model)
+  explicit LandingTracker(const Model& model)
       : model_(model), ended_(model.contacts.size()), now_(model.contacts.size()) {}
 
-  void begin(double t, const contact::ContactStates& mode);
+  void begin(double t, const contact::ContactStates& states);
   /// Adds the integrals of -N since the last call.
   void add(const motion::WorkIntegrals& works);
   void observe(std::size_t contact, double N);
-  void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_mode);
+  void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states);
   /// Ends the landings that last at t. One list per contact.
-  [[nodiscard]] std::vector<std::vector<Landing>> finish(double t, const contact::ContactStates& mode) const;
+  [[nodiscard]] std::vector<std::vector<Landing>> finish(double t,
+                                                         const contact::ContactStates& states) const;
 
  private:
   const Model& model_;
   std::vector<std::vector<Landing>> ended_;  // one list per contact
   std::vector<Landing> now_;                 // one entry per contact; valid while its landing lasts
-  std::vector<bool> lasts_;
+  std::vector<bool> active_;
 };
 
 }  // namespace signorini::run

@@ -10,22 +10,22 @@
 #include "base/text.hpp"
 #include "contact/friction.hpp"
 #include "engine/newmark/newmark_step.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "run/engines.hpp"
 
 namespace signorini::run {
 namespace {
 
 // rad of a load's oscillation in a step: the impulse of a half wave is off by the square divided by 12, a twelfth.
-constexpr double most_turned = 1.0;
-constexpr double much_energy = 1e-3;        // fraction of the exchanged energy: a larger error is reported
-constexpr double least_energy = 1e-9;       // of the scene's scales, or of the stored energy: at rest only
-                                            // rounding is exchanged
-constexpr int most_warnings_of_a_kind = 5;  // limit for the warnings of one kind in a run
+constexpr double max_turned = 1.0;
+constexpr double much_energy = 1e-3;       // fraction of the exchanged energy: a larger error is reported
+constexpr double least_energy = 1e-9;      // of the scene's scales, or of the stored energy: at rest only
+                                           // rounding is exchanged
+constexpr int max_warnings_of_a_kind = 5;  // limit for the warnings of one kind in a run
 
 }  // namespace
 
-std::vector<std::string> cut_shears(const Model& model, const decide::Decision& start) {
+std::vector<std::string> shear_limit_warnings(const Model& model, const decide::Decision& start) {
   std::vector<std::string> sentences;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
@@ -34,7 +34,8 @@ std::vector<std::string> cut_shears(const Model& model, const decide::Decision& 
     const double limit = c.normal_spring() ? contact::static_friction(c) * c.normal_stiffness *
                                                  (std::abs(c.gap) + c.normal.magnitude(model.u0))
                                            : std::abs(asked);
-    const bool cut = std::abs(asked) - std::abs(found) > rounding::of_many * std::max(std::abs(asked), limit);
+    const bool cut =
+        std::abs(asked) - std::abs(found) > rounding::many_operations * std::max(std::abs(asked), limit);
     if (!start.visited[k] || !start.jumped[k] || !cut) continue;
     sentences.push_back(fmt::format(
         "contact '{}': initial_shear = {:.6g} {} is above the friction limit at t = 0; T starts at {:.6g} {}",
@@ -44,9 +45,9 @@ std::vector<std::string> cut_shears(const Model& model, const decide::Decision& 
   return sentences;
 }
 
-std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& run) {
+std::vector<std::string> fast_load_warnings(const Model& model, const RunSpec& run) {
   std::vector<std::string> sentences;
-  if (name_of(run.engine).accuracy != Accuracy::step || run.step != StepControl::fixed || !run.dt)
+  if (engine_info(run.engine).accuracy != Accuracy::step || run.step != StepControl::fixed || !run.dt)
     return sentences;
   for (const Load& load : model.loads) {
     double omega = 0.0;
@@ -55,10 +56,10 @@ std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& 
       const Piece& piece = load.history.pieces()[i];
       const double from = i == 0 ? 0.0 : std::max(0.0, starts[i - 1]),
                    to = i == starts.size() ? run.t_end : std::min(run.t_end, starts[i]);
-      if (piece.amplitude != 0.0 && to - from >= newmark::short_of_steps * *run.dt)
+      if (piece.amplitude != 0.0 && to - from >= newmark::short_segment_steps * *run.dt)
         omega = std::max(omega, std::abs(piece.omega));
     }
-    if (omega * *run.dt > most_turned)
+    if (omega * *run.dt > max_turned)
       sentences.push_back(fmt::format(
           "'{}' turns by {:.3g} rad in a step of run.dt = {:.6g}, which does not resolve it; use a "
           "smaller dt",
@@ -89,7 +90,7 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
           names.push_back(name);
   // Slip at the limit without a guard of the slip rate: other contacts hold the contact.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    bool asleep = slip_sign(decision.mode[c].state) != 0 && model.contacts[c].sticks_rigidly();
+    bool asleep = slip_sign(decision.states[c].state) != 0 && model.contacts[c].sticks_rigidly();
     for (std::size_t i = 0; i < contact::guards_per_contact; ++i)
       asleep = asleep && decision.guards[contact::guard_slot(c, i)].kind != Guard::sliding;
     if (asleep) names.push_back(model.contacts[c].name);
@@ -98,8 +99,8 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
   return fmt::format(
       "from t = {1:.6g} on {0} prevent the same motion: the motion is unique, but the friction forces are "
       "not; those with the least sum of squares within the friction limits are taken",
-      names.size() > 1 ? "contacts " + base::listed(names, 5)
-                       : "contact " + base::listed(names, 5) + " and others",
+      names.size() > 1 ? "contacts " + base::join_quoted(names, 5)
+                       : "contact " + base::join_quoted(names, 5) + " and others",
       t);
 }
 
@@ -111,15 +112,15 @@ std::string left_at_once(const Model& model, std::size_t c, double t) {
       model.contacts[c].name, t);
 }
 
-std::string rest_at_limit(const Model& model, const decide::AtLimit& found, double t) {
+std::string rest_at_limit(const Model& model, const decide::ContactAtLimit& found, double t) {
   const Contact& c = model.contacts[found.contact];
   return fmt::format(
       "contact '{}' sticks at its limit of friction from t = {:.9g} on: the force that it needs is {:.2g} {} "
       "{} the limit, and rounding may hide {:.2g} {}, so that no double tells whether it slips{}; it counts "
       "as sticking",
-      c.name, t, model::in_scene_units(model, std::abs(found.below), unit::force), model.units.force,
-      found.below < 0.0 ? "above" : "below", model::in_scene_units(model, found.noise, unit::force),
-      model.units.force, c.friction.drops() ? ", and there friction drops to the kinetic one" : "");
+      c.name, t, model::in_scene_units(model, std::abs(found.margin), unit::force), model.units.force,
+      found.margin < 0.0 ? "above" : "below", model::in_scene_units(model, found.noise, unit::force),
+      model.units.force, c.friction.has_static_drop() ? ", and there friction drops to the kinetic one" : "");
 }
 
 }  // namespace
@@ -127,20 +128,20 @@ std::string rest_at_limit(const Model& model, const decide::AtLimit& found, doub
 void DecisionWarnings::add(double t, const decide::Decision& decision, std::vector<std::string>& warnings) {
   const double at = model::time_in_scene_units(model_, t);
   for (const std::size_t c : decision.released)
-    if (++releases_ <= most_warnings_of_a_kind) warnings.push_back(left_at_once(model_, c, at));
+    if (++releases_ <= max_warnings_of_a_kind) warnings.push_back(left_at_once(model_, c, at));
   if (!shares_)
     if (auto sentence = shared_motion(model_, decision, at)) {
       warnings.push_back(std::move(*sentence));
       shares_ = true;
     }
-  for (const decide::AtLimit& found : decision.at_limit)
-    if (++at_limit_ <= most_warnings_of_a_kind) warnings.push_back(rest_at_limit(model_, found, at));
-  if (decision.impact_gains && ++gains_ <= most_warnings_of_a_kind)
+  for (const decide::ContactAtLimit& found : decision.at_limit)
+    if (++at_limit_ <= max_warnings_of_a_kind) warnings.push_back(rest_at_limit(model_, found, at));
+  if (decision.impact_gains && ++gains_ <= max_warnings_of_a_kind)
     warnings.push_back(impact_gain(at, model::in_scene_units(model_, -decision.impact_loss, unit::energy)));
 }
 
-std::optional<std::string> energy_lost(const Audit& audit, const Method& method, double rounding,
-                                       bool other) {
+std::optional<std::string> energy_warning(const Audit& audit, const Method& method, double rounding,
+                                          bool other) {
   const double off = audit.energy.value;
   const double scale = std::max(audit.force_scale * audit.length_scale, audit.initial.stored());
   if (!(off > much_energy * audit.energy_scale && off > least_energy * scale && off > rounding))
@@ -151,9 +152,9 @@ std::optional<std::string> energy_lost(const Audit& audit, const Method& method,
           : fmt::format("{:.2g} of what was exchanged", off / audit.energy_scale);
   const std::string warning =
       fmt::format("the energy balance has an error of {} (at t = {:.6g}); ", much, audit.energy.t);
-  if (name_of(method.engine).accuracy == Accuracy::rounding)
+  if (engine_info(method.engine).accuracy == Accuracy::rounding)
     return warning + "signorini verify compares this run with two other engines";
-  const bool steps = name_of(method.engine).accuracy == Accuracy::step;
+  const bool steps = engine_info(method.engine).accuracy == Accuracy::step;
   return warning + (steps ? "use a smaller run.dt" : "use a smaller rtol, or an atol that fits the motion") +
          (other ? fmt::format(", or engine \"{}\"", to_string(engine_for(EngineRole::closed_form))) : "");
 }

@@ -9,11 +9,12 @@
 namespace signorini::run {
 
 /// Warnings about an initial_shear beyond the friction limit, with the value that remains. `start`: the first decision.
-[[nodiscard]] std::vector<std::string> cut_shears(const Model& model, const decide::Decision& start);
+[[nodiscard]] std::vector<std::string> shear_limit_warnings(const Model& model,
+                                                            const decide::Decision& start);
 
 /// Warnings about loads that oscillate by more than a radian in a step of given length. Short pulses have steps of
 /// their own.
-[[nodiscard]] std::vector<std::string> swings_within_steps(const Model& model, const RunSpec& run);
+[[nodiscard]] std::vector<std::string> fast_load_warnings(const Model& model, const RunSpec& run);
 
 /// Warnings about the decisions of a run, some of each kind: impacts that gain energy, contacts that massless parts
 /// leave instantaneously, contacts that hold one motion together, rest at a limit of friction within rounding.
@@ -32,7 +33,7 @@ class DecisionWarnings {
 
 /// Warning if the balance of a finished audit is off by more than 1e-3 of the exchanged energy, and by more than
 /// `rounding`, the rounding of the stored energy. other: `exact` accepts the scene.
-[[nodiscard]] std::optional<std::string> energy_lost(const Audit& audit, const Method& method,
-                                                     double rounding, bool other);
+[[nodiscard]] std::optional<std::string> energy_warning(const Audit& audit, const Method& method,
+                                                        double rounding, bool other);
 
 }  // namespace signorini::run

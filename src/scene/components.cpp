@@ -8,7 +8,8 @@ namespace {
 constexpr std::string_view against_key = "against";
 constexpr double beside = 1e-9;  // relative to the segment's length: rounding of coordinates in a file
 
-std::string node_name(Table& contact, const toml::node& item, const Space& space, const std::string& node) {
+std::string node_name(Table& contact, const toml::node& item, const NameScope& space,
+                      const std::string& node) {
   if (!item.is_string()) contact.wrong(against_key, describe_type(*find_key("contacts[]", against_key)));
   const std::string name = item.as_string()->get();
   check_known(name, space.names, "node", place_of(item), contact.path(against_key));
@@ -16,14 +17,15 @@ std::string node_name(Table& contact, const toml::node& item, const Space& space
   return name;
 }
 
-const Node& find(const Scene& scene, const Space& space, const std::string& name) {
+const Node& find(const Scene& scene, const NameScope& space, const std::string& name) {
   return scene.nodes[*space.names.index(name)];
 }
 
 }  // namespace
 
-std::vector<std::pair<std::string, double>> read_touched(Table& contact, const Scene& scene,
-                                                         const Space& space, const std::string& node) {
+std::vector<std::pair<std::string, double>> read_counterpart(Table& contact, const Scene& scene,
+                                                             const NameScope& space,
+                                                             const std::string& node) {
   const toml::node* found = contact.raw(against_key);
   if (const toml::array* array = found->as_array(); array != nullptr && array->size() == 2) {
     const std::string b = node_name(contact, (*array)[0], space, node);

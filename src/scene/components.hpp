@@ -89,8 +89,8 @@ struct NamedMotion {
 
 /// Nodes and weights from the key `against`. Errors: SceneError for unknown or equal nodes, a segment of length zero, a
 /// point beside the segment.
-[[nodiscard]] std::vector<std::pair<std::string, double>> read_touched(Table& contact, const Scene& scene,
-                                                                       const Space& space,
-                                                                       const std::string& node);
+[[nodiscard]] std::vector<std::pair<std::string, double>> read_counterpart(Table& contact, const Scene& scene,
+                                                                           const NameScope& space,
+                                                                           const std::string& node);
 
 }  // namespace signorini::scene

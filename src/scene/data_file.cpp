@@ -56,7 +56,7 @@ std::string upper(const std::string& line) {
   return result;
 }
 
-bool says(const std::string& line, const std::string& word) {
+bool contains_word(const std::string& line, const std::string& word) {
   return upper(line).find(word) != std::string::npos;
 }
 
@@ -112,9 +112,9 @@ class TableReader {
     if (in_.bad()) fail("cannot be read");
     if (table_.times.size() < 2)
       fail(fmt::format("found {}, expected two or more",
-                       base::count_of(table_.times.size(), values_only ? "value" : "row")));
+                       base::count_text(table_.times.size(), values_only ? "value" : "row")));
     if (layout_.peer && table_.times.size() != points_)
-      fail(fmt::format("found {}, expected {} as NPTS says", base::count_of(table_.times.size(), "value"),
+      fail(fmt::format("found {}, expected {} as NPTS says", base::count_text(table_.times.size(), "value"),
                        points_));
     return std::move(table_);
   }
@@ -130,8 +130,8 @@ class TableReader {
       ++number_;
       if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // byte order mark
       if (is_binary(line_)) fail("found binary data, expected lines of time and value");
-      if (line_.size() > longest_line)
-        fail(fmt::format("found a line of more than {} characters", longest_line));
+      if (line_.size() > max_line_length)
+        fail(fmt::format("found a line of more than {} characters", max_line_length));
       words_ = words_of(line_);
       if (!words_.empty()) return true;
     }
@@ -168,7 +168,7 @@ class TableReader {
       if (const auto value = base::parse_number(word)) numbers.push_back(*value);
     const bool whole = numbers.size() >= 2 && numbers[0] >= 2.0 &&
                        numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
-    if (!says(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
+    if (!contains_word(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
       fail("found no \"NPTS= 5372, DT= .0050\", expected it in the fourth line of a PEER file");
     points_ = static_cast<std::size_t>(numbers[0]);
     layout_.time_step = numbers[1] * layout_.second;
@@ -203,11 +203,12 @@ class TableReader {
     }
     const std::size_t n = table_.times.size();
     if (n > 0 && *t < table_.times[n - 1]) {
-      fail(fmt::format("found time {} after {}, expected ascending times", base::shortest(*t),
-                       base::shortest(table_.times[n - 1])));
+      fail(fmt::format("found time {} after {}, expected ascending times", base::format_number(*t),
+                       base::format_number(table_.times[n - 1])));
     }
     if (n > 1 && *t == table_.times[n - 2]) {
-      fail(fmt::format("found time {} three times, expected at most twice (a jump)", base::shortest(*t)));
+      fail(
+          fmt::format("found time {} three times, expected at most twice (a jump)", base::format_number(*t)));
     }
     add(*t, *value);
   }
@@ -236,7 +237,7 @@ bool read_line(std::istream& in, std::string& line) {
   char c = 0;
   while (in.get(c) && c != '\n') {
     line += c;
-    if (line.size() > longest_line) return true;
+    if (line.size() > max_line_length) return true;
   }
   return in || !line.empty();
 }
@@ -253,7 +254,7 @@ void refuse_file(const Table& table, std::string_view key, const fs::path& path,
 }
 
 std::ifstream open_data_file(const Table& table, std::string_view key, const fs::path& path) {
-  if (const std::string why = base::why_no_input_file(path); !why.empty())
+  if (const std::string why = base::input_file_error(path); !why.empty())
     refuse_file(table, key, path, why + ", expected a file");
   errno = 0;
   std::ifstream in(path);

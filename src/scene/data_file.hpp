@@ -25,8 +25,8 @@
 namespace signorini::scene {
 
 /// Longest allowed line of numbers.
-inline constexpr std::size_t longest_line = 200;
-/// Reads the next line, at most `longest_line` + 1 bytes of it: a file without line breaks must not fill memory.
+inline constexpr std::size_t max_line_length = 200;
+/// Reads the next line, at most `max_line_length` + 1 bytes of it: a file without line breaks must not fill memory.
 bool read_line(std::istream& in, std::string& line);
 
 /// Throws a FileError with the place of the key.

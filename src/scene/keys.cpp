@@ -156,8 +156,8 @@ constexpr Key table_of_keys[] = {
     {"members[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix; \"lumped\" makes rotations massless."},
     {"members[]", "release", texts, "", "[]", "", "End nodes at which a beam is hinged: its first node, its last, or both. The beam end then rotates independently of the node."},
     {"members[]", "thermal_expansion", number, "1/temperature", "0.0", "", "Coefficient of thermal expansion: strain for each unit of temperature, in whichever unit that is."},
-    {"members[]", "temperature", standing_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, all over the member; a number or a history."},
-    {"members[]", "initial_strain", standing_history, "", "0.0", "", "Stress-free axial strain; positive if the member is too long; a number or a history."},
+    {"members[]", "temperature", number_or_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, all over the member; a number or a history."},
+    {"members[]", "initial_strain", number_or_history, "", "0.0", "", "Stress-free axial strain; positive if the member is too long; a number or a history."},
 
     {"members[]", "bend", table, "", "", "", "The pieces are arcs of a circle, of at most half a turn, which the elements follow as chords."},
 
@@ -182,7 +182,7 @@ constexpr Key table_of_keys[] = {
     {"bodies[]", "plane", choice, "", "required", "stress strain", "Plane stress or plane strain."},
     {"bodies[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix."},
     {"bodies[]", "thermal_expansion", number, "1/temperature", "0.0", "", "Coefficient of thermal expansion: strain for each unit of temperature, in whichever unit that is."},
-    {"bodies[]", "temperature", standing_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, all over the body; a number or a history."},
+    {"bodies[]", "temperature", number_or_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, all over the body; a number or a history."},
 
     {"bodies[].rectangle", "from", vector, "length", "[0.0, 0.0]", "", "Position [x, y] of the lower left corner."},
     {"bodies[].rectangle", "size", vector, "length", "required", "", "Width and height, both > 0."},
@@ -242,8 +242,8 @@ constexpr Key table_of_keys[] = {
     {"supports[]", "node", name, "", "", "", "Node that is held; or nodes."},
     {"supports[]", "nodes", texts, "", "", "", "Nodes with the same support; \"P0..P9\" as in members."},
     {"supports[]", "fix", texts, "", "required", "", "Fixed directions: any of \"ux\", \"uy\", \"rz\"."},
-    {"supports[]", "motion", standing_history, "length", "", "", "Prescribed displacement (rz: rotation in rad); a number or a history. `fix` must then have exactly one direction. Default: no motion."},
-    {"supports[]", "acceleration", standing_history, "length/time^2", "", "", "Prescribed acceleration, instead of motion; the support starts at rest and at zero displacement."},
+    {"supports[]", "motion", number_or_history, "length", "", "", "Prescribed displacement (rz: rotation in rad); a number or a history. `fix` must then have exactly one direction. Default: no motion."},
+    {"supports[]", "acceleration", number_or_history, "length/time^2", "", "", "Prescribed acceleration, instead of motion; the support starts at rest and at zero displacement."},
 
     {"springs[]", "node", name, "", "required", "", "Node at one end."},
     {"springs[]", "against", name, "", "", "", "Node at the other end; the ground where absent."},
@@ -275,9 +275,9 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "normal_stiffness", positive, "force/length", "", "", "Stiffness normal to the contact; required for \"compliant\" without a seam"},
     {"contacts[]", "tangential_stiffness", positive, "force/length", "", "", "Stiffness along the contact; required for \"compliant\" with friction and without a seam; a slider without it is rigid in stick."},
     {"contacts[]", "seam", table, "", "", "", "Material between the surfaces of a compliant contact, from which its stiffnesses follow: kn = E area / thickness, kt = G area / thickness; instead of normal_stiffness and tangential_stiffness."},
-    {"contacts[]", "normal_force", standing_history, "force", "", "", "Compression of a slider, positive; a number or a history."},
+    {"contacts[]", "normal_force", number_or_history, "force", "", "", "Compression of a slider, positive; a number or a history."},
     {"contacts[]", "friction", KeyType::friction, "", "0.0", "", "Coefficient of friction, or { static, kinetic }, or { slow, fast, velocity }, or { light, heavy, force }."},
-    {"contacts[]", "surface_velocity", standing_history, "length/time", "0.0", "", "Velocity of the touched surface along the tangent; a number or a history."},
+    {"contacts[]", "surface_velocity", number_or_history, "length/time", "0.0", "", "Velocity of the touched surface along the tangent; a number or a history."},
     {"contacts[]", "initial_shear", number, "force", "0.0", "", "Shear force at t = 0 in the tangential stiffness."},
     {"contacts[]", "restitution", fraction, "", "0.0", "", "Newton's coefficient of restitution of a rigid contact, 0 to 1."},
     {"contacts[]", "capture_velocity", non_negative, "length/time", "", "", "Rebounds of a rigid contact slower than this come to rest. Default: rtol times the velocity scale, or run.atol.velocity if given."},
@@ -309,13 +309,13 @@ constexpr Key table_of_keys[] = {
     {"pendulums[]", "against", name, "", "", "", "Node that has the curved surface, instead of the ground."},
     {"pendulums[]", "normal", vector, "", "[0.0, 1.0]", "", "Direction of the force of the surface on the node when u = 0; it is made a unit vector. The tangent is (ny, -nx)."},
     {"pendulums[]", "radius", positive, "length", "required", "", "Radius of the surface: the restoring force is N u / radius."},
-    {"pendulums[]", "normal_force", standing_history, "force", "", "", "Compression, positive; a number or a history (engine \"ida\" where it varies). With normal_stiffness: the load at rest; a static or frictional start computes it."},
+    {"pendulums[]", "normal_force", number_or_history, "force", "", "", "Compression, positive; a number or a history (engine \"ida\" where it varies). With normal_stiffness: the load at rest; a static or frictional start computes it."},
     {"pendulums[]", "normal_stiffness", positive, "force/length", "", "", "Vertical stiffness of the bearing: its load then follows from the structure, and it can lift off; engine \"ida\"."},
     {"pendulums[]", "stop", positive, "length", "", "", "Distance to the rim on each side. Default: no rim."},
     {"pendulums[]", "stop_stiffness", positive, "force/length", "", "", "Stiffness of the rim; rigid where absent."},
 
     {"base_motion", "direction", direction, "", "required", "", "Direction of the ground motion; it is made a unit vector with [nodes], taken as given with [matrices]."},
-    {"base_motion", "acceleration", standing_history, "length/time^2", "required", "", "Acceleration of the ground; a number or a history."},
+    {"base_motion", "acceleration", number_or_history, "length/time^2", "required", "", "Acceleration of the ground; a number or a history."},
 
     {"loads[]", "name", name, "", "", "", "Name in results and in stages; \"load 1\", \"load 2\", ... where absent."},
     {"loads[]", "node", name, "", "", "", "Node that is loaded; required with [nodes], except for distributed loads, tractions and pressures."},
@@ -491,7 +491,7 @@ std::vector<std::string> choices_of(const Key& key) {
   std::string choices(key.choices);
   if (key.choices == engines_and_auto) {
     choices = to_string(Engine::automatic);
-    for (const EngineName& engine : all_engines) choices.append(" ").append(engine.name);
+    for (const EngineInfo& engine : all_engines) choices.append(" ").append(engine.name);
   }
   std::vector<std::string> words;
   for (std::string_view rest = choices; !rest.empty();) {
@@ -569,7 +569,7 @@ std::string describe_type(const Key& key) {
       return "an array [x, y], or with [matrices] a table { degree of freedom = number }";
     case KeyType::history:
       return "a table { type = ... }";
-    case standing_history:
+    case number_or_history:
       return "a number or a table { type = ... }";
     case matrix:
       break;

@@ -43,7 +43,7 @@ enum class KeyType {
   direction,
   one_or_many,
   history,
-  standing_history,
+  number_or_history,
   term,
   matrix
 };
@@ -51,10 +51,10 @@ enum class KeyType {
 struct Key {
   std::string_view table, name;
   KeyType type;
-  std::string_view unit;      ///< in units of force, mass, length, time; "" for none
-  std::string_view fallback;  ///< TOML text of the default; "required"; "" for none
-  std::string_view choices;   ///< allowed words, separated by blanks; choices_of()
-  std::string_view meaning;   ///< one sentence
+  std::string_view unit;           ///< in units of force, mass, length, time; "" for none
+  std::string_view default_value;  ///< TOML text of the default; "required"; "" for none
+  std::string_view choices;        ///< allowed words, separated by blanks; choices_of()
+  std::string_view meaning;        ///< one sentence
 };
 
 [[nodiscard]] std::span<const Key> all_keys();

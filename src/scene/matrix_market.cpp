@@ -43,8 +43,8 @@ class Reader {
   bool next_line() {
     ++number_;
     if (!read_line(in_, line_)) return false;
-    const bool cut = line_.size() > longest_line;
-    if (cut && line_[0] != '%') fail(fmt::format("found a line of more than {} characters", longest_line));
+    const bool cut = line_.size() > max_line_length;
+    if (cut && line_[0] != '%') fail(fmt::format("found a line of more than {} characters", max_line_length));
     for (char& c : line_) {
       const auto code = static_cast<unsigned char>(c);
       if (code == '\t' || code == '\r') c = ' ';
@@ -111,8 +111,8 @@ class Reader {
       fail(fmt::format("found \"{}\", expected {}", base::excerpt(line_),
                        coordinate_ ? "rows, columns and number of entries" : "rows and columns"));
     }
-    const long long rows = index(0, 1, most_dofs, "a number of rows");
-    const long long columns = index(1, 1, most_dofs, "a number of columns");
+    const long long rows = index(0, 1, max_dofs, "a number of rows");
+    const long long columns = index(1, 1, max_dofs, "a number of columns");
     if (vector_ && (columns != 1 || symmetric_))
       fail(fmt::format("found {} columns, expected one of a general matrix", columns));
     if (!vector_ && rows != columns)

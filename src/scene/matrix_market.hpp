@@ -16,7 +16,7 @@
 
 namespace signorini::scene {
 
-inline constexpr int most_dofs = 1'000'000;
+inline constexpr int max_dofs = 1'000'000;
 
 /// Sorted by row and column, duplicates added, zeros dropped.
 void tidy(MatrixSpec& matrix);

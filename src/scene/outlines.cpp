@@ -14,7 +14,7 @@ std::vector<std::array<int, 2>> mesh_lines(const Scene& scene) {
   for (const BodySpec& body : scene.bodies) mesh::add_edges(body.mesh.elements, edges);
   std::vector<std::array<int, 2>> lines;
   for (const auto& [ends, edge] : edges) {
-    if (edges.size() > most_mesh_edges && edge.elements > 1) continue;
+    if (edges.size() > max_mesh_edges && edge.elements > 1) continue;
     const bool middle = edge.nodes.size() == 3;
     lines.push_back({edge.nodes[0], edge.nodes[middle ? 2 : 1]});
     if (middle) lines.push_back({edge.nodes[2], edge.nodes[1]});

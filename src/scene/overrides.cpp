@@ -66,7 +66,7 @@ std::size_t tables_in(const toml::table& root, const std::string& kind) {
 class Change {
  public:
   Change(const Override& change, const Override& given) : change_(change), given_(given) {
-    if (const std::string text = text_of(given_); !base::is_plain_text(text))
+    if (const std::string text = override_text(given_); !base::is_plain_text(text))
       throw UsageError(base::excerpt(text) + ": found bytes that are no plain UTF-8 text");
     std::string segment;
     for (const char c : change.path + ".") {
@@ -93,7 +93,7 @@ class Change {
   using Segments = std::span<const std::string>;
 
   [[noreturn]] void fail(const std::string& message) const {
-    throw UsageError(text_of(given_) + ": " + message);
+    throw UsageError(override_text(given_) + ": " + message);
   }
 
   /// Puts a fresh value at its place on each call, because a copied toml++ node loses its source place.
@@ -111,7 +111,7 @@ class Change {
 
   /// Parses `value = VALUE`.
   toml::table parsed() const {
-    const std::string file = override_mark + text_of(given_);
+    const std::string file = override_mark + override_text(given_);
     const auto parse = [&](const std::string& value) {
       return toml::parse("value = " + value, std::string_view(file));
     };
@@ -132,8 +132,8 @@ class Change {
   /// Default of the value that contains the omitted part of a key: a list of numbers, or an empty table.
   std::string left_out(Segments rest) const {
     const Key* key = rest.size() == segments_.size() ? find_key("", rest[0]) : nullptr;
-    const bool numbers = key != nullptr && key->fallback.starts_with('[');
-    return numbers ? std::string(key->fallback) : "{}";
+    const bool numbers = key != nullptr && key->default_value.starts_with('[');
+    return numbers ? std::string(key->default_value) : "{}";
   }
 
   void into_table(toml::table& table, Segments rest) {
@@ -151,7 +151,7 @@ class Change {
       return;
     }
     if (!table.contains(rest[0])) {
-      toml::table nested = toml::parse("value = " + left_out(rest), override_mark + text_of(given_));
+      toml::table nested = toml::parse("value = " + left_out(rest), override_mark + override_text(given_));
       table.insert_or_assign(key, std::move(*nested.get("value")));
     }
     toml::node* next = table.get(rest[0]);
@@ -164,7 +164,7 @@ class Change {
     const double value = *table.get("friction")->value<double>();
     const toml::source_path_ptr& file = table.get("friction")->source().path;
     toml::table both =
-        toml::parse(fmt::format("value = {{ static = {0}, kinetic = {0} }}", base::shortest(value)),
+        toml::parse(fmt::format("value = {{ static = {0}, kinetic = {0} }}", base::format_number(value)),
                     file ? std::string_view(*file) : std::string_view());
     return table.insert_or_assign("friction", std::move(*both.get("value"))).first->second;
   }
@@ -249,11 +249,11 @@ std::vector<std::string> places_of_one(const toml::table& root, const std::strin
 
 }  // namespace
 
-std::string text_of(const Override& change) {
+std::string override_text(const Override& change) {
   return change.shown_as.empty() ? "--set " + change.path + "=" + change.value : change.shown_as;
 }
 
-std::vector<std::string> paths_meant(const toml::table& root, const std::string& path) {
+std::vector<std::string> matching_paths(const toml::table& root, const std::string& path) {
   const toml::array* stops = root["stops"].as_array();
   if (!path.starts_with(all_contacts) || !stops) return {path};
   const std::string key = path.substr(all_contacts.size());
@@ -270,7 +270,7 @@ std::vector<std::string> paths_meant(const toml::table& root, const std::string&
 
 std::vector<std::string> places_of(const toml::table& root, const std::string& path) {
   std::vector<std::string> places;
-  for (const std::string& meant : paths_meant(root, path)) {
+  for (const std::string& meant : matching_paths(root, path)) {
     std::vector<std::string> more = places_of_one(root, meant);
     places.insert(places.end(), more.begin(), more.end());
   }
@@ -290,13 +290,13 @@ std::string tables_met(const toml::table& root, const std::string& path) {
   return text;
 }
 
-bool lies_in(const std::string& a, const std::string& b) {
+bool is_within_path(const std::string& a, const std::string& b) {
   return a.starts_with(b) && (a.size() == b.size() || a[b.size()] == '.');
 }
 
 void apply_overrides(toml::table& root, const std::vector<Override>& overrides) {
   for (const Override& change : overrides)
-    for (const std::string& path : paths_meant(root, change.path)) {
+    for (const std::string& path : matching_paths(root, change.path)) {
       const Override one{path, change.value};
       Change(one, change).apply(root);
     }
@@ -321,12 +321,12 @@ const Key* key_of(const std::string& path) {
 KeyRange range_of(const Key& key) {
   switch (key.type) {
     case KeyType::positive:
-      return {.least = 0.0, .open = true};
+      return {.min = 0.0, .excludes_min = true};
     case KeyType::non_negative:
     case KeyType::friction:
-      return {.least = 0.0};
+      return {.min = 0.0};
     case KeyType::fraction:
-      return {.least = 0.0, .greatest = 1.0};
+      return {.min = 0.0, .max = 1.0};
     default:
       return {};
   }

@@ -26,7 +26,7 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 [[nodiscard]] std::vector<std::string> places_in(const std::string& scene, const std::string& path);
 
 /// Expansion of a path: contacts.*.KEY is itself and stops.NAME.KEY for each stop that can have the key.
-[[nodiscard]] std::vector<std::string> paths_meant(const toml::table& root, const std::string& path);
+[[nodiscard]] std::vector<std::string> matching_paths(const toml::table& root, const std::string& path);
 /// Number of tables that a path with * selects: "3 of [[contacts]], 6 of [[stops]]"; empty for a path
 /// without *.
 [[nodiscard]] std::string tables_met(const toml::table& root, const std::string& path);
@@ -34,10 +34,10 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 [[nodiscard]] std::string tables_met_in(const std::string& scene, const std::vector<Override>& before,
                                         const std::string& path);
 /// True if a is b or lies inside of b.
-[[nodiscard]] bool lies_in(const std::string& a, const std::string& b);
+[[nodiscard]] bool is_within_path(const std::string& a, const std::string& b);
 
 /// "--set run.rtol=1e-10", or the override as the user typed it.
-[[nodiscard]] std::string text_of(const Override& change);
+[[nodiscard]] std::string override_text(const Override& change);
 
 // The key of a scene that a path refers to, and its allowed values.
 //
@@ -49,11 +49,11 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 
 /// Numbers from `least` to `greatest`, in the key's unit; `open`: `least` itself is excluded.
 struct KeyRange {
-  double least = -std::numeric_limits<double>::infinity();
-  double greatest = std::numeric_limits<double>::infinity();
-  bool open = false;
-  [[nodiscard]] bool has(double value) const {
-    return (open ? value > least : value >= least) && value <= greatest;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool excludes_min = false;
+  [[nodiscard]] bool contains(double value) const {
+    return (excludes_min ? value > min : value >= min) && value <= max;
   }
 };
 

@@ -58,9 +58,9 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
   for (auto& [name, value] : initial.saved->motions)
     visit(value, name == saved_alpha ? rate : motion_named(name).unit());
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
-  for (SavedState::Own& own : initial.saved->own) visit(own.memory, length);
-  for (auto& [name, carried] : initial.saved->carried) visit(carried, force);
-  for (SavedState::Left& left : initial.saved->left) {
+  for (SavedState::UserLawMemory& own : initial.saved->user_law_states) visit(own.memory, length);
+  for (auto& [name, carried] : initial.saved->pendulum_forces) visit(carried, force);
+  for (SavedState::FinalContact& left : initial.saved->final_contacts) {
     visit_optional(left.gap, length, visit);
     visit(left.ut, length);
     visit(left.vt, velocity);
@@ -68,7 +68,7 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     visit(left.N, force);
     visit(left.T, force);
   }
-  if (initial.saved->frozen) visit_frozen(*initial.saved->frozen, visit);
+  if (initial.saved->prestress) visit_frozen(*initial.saved->prestress, visit);
   if (!initial.saved->scales) return;
   const std::array units{length, plain, velocity, rate, force};
   for (std::size_t i = 0; i < units.size(); ++i) visit((*initial.saved->scales)[i], units[i]);
@@ -136,9 +136,9 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit(c.gap, length);
   visit(c.normal_stiffness, stiffness);
   visit_optional(c.tangential_stiffness, stiffness, visit);
-  if (c.bowl) {
-    visit(c.bowl->radius, length);
-    visit(c.bowl->carried, force);
+  if (c.pendulum_surface) {
+    visit(c.pendulum_surface->radius, length);
+    visit(c.pendulum_surface->nominal_force, force);
   }
   visit(c.normal_damping, damping);
   visit(c.tangential_damping, damping);
@@ -148,7 +148,7 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit_history(c.surface_velocity, velocity, visit);
   visit(c.initial_shear, force);
   visit_optional(c.capture_velocity, velocity, visit);
-  if (c.own) c.own = visited(*c.own, visit);
+  if (c.user_law) c.user_law = visit_law_constants(*c.user_law, visit);
 }
 
 /// Exponent of length in a load's amplitude: force times length to this power.
@@ -195,7 +195,7 @@ void visit_numbers(History& history, const Unit& of, const Visit& visit) {
     visit(piece.amplitude, of);
     visit(piece.omega, rate);
     if (!piece.function) continue;
-    visit(piece.stretch, rate);
+    visit(piece.time_scale, rate);
     for (double& b : piece.rates) visit(b, of);
   }
   history = History(std::move(starts), std::move(pieces));

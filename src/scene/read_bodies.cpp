@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "mesh/gmsh_file.hpp"
 #include "mesh/grids.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 #include "scene/data_file.hpp"
 #include "scene/readers.hpp"
 
@@ -58,7 +58,7 @@ PlaneMesh read_ring(Table& table) {
   ring.outer = keys.number("outer");
   if (!(ring.outer > ring.inner))
     keys.fail("outer", fmt::format("found the number {}, expected more than the inner radius, {}",
-                                   base::shortest(ring.outer), base::shortest(ring.inner)));
+                                   base::format_number(ring.outer), base::format_number(ring.inner)));
   const auto [start, end] = keys.vector("degrees");
   if (!(end > start && end - start <= 360.0))
     keys.wrong("degrees", "[start, end], end at most 360 beyond start");
@@ -85,8 +85,9 @@ PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
     std::vector<std::string> there;
     for (const PlaneMesh::Group& group : mesh.groups) there.push_back(group.name);
     if (std::find(there.begin(), there.end(), wanted) != there.end()) continue;
-    table.fail("groups", fmt::format("{} has no physical curve or point \"{}\" on this body; known: {}",
-                                     path.string(), wanted, there.empty() ? "none" : base::listed(there, 8)));
+    table.fail("groups",
+               fmt::format("{} has no physical curve or point \"{}\" on this body; known: {}", path.string(),
+                           wanted, there.empty() ? "none" : base::join_quoted(there, 8)));
   }
   return mesh;
 }
@@ -114,12 +115,12 @@ void read_material(Table& table, BodySpec& body, const Scene& scene) {
   if (!(body.nu >= 0.0 && body.nu < 0.5)) table.wrong("nu", "a number >= 0 and < 0.5");
   body.density = table.number("density");
   body.thickness = table.number("thickness");
-  body.strain = table.choice("plane") == "strain";
+  body.plane_strain = table.choice("plane") == "strain";
   body.mass = table.choice("mass") == "lumped" ? MassKind::lumped : MassKind::consistent;
   if (table.has("temperature") && !table.has("thermal_expansion"))
     table.fail("temperature", "needs thermal_expansion beside it");
   body.thermal_expansion = table.number("thermal_expansion");
-  body.temperature = read_standing_history(table, "temperature", scene);
+  body.temperature = read_number_or_history(table, "temperature", scene);
 }
 
 /// Names the nodes at given places.
@@ -176,7 +177,7 @@ void take_mesh(PlaneMesh mesh, BodySpec& body, Scene& scene) {
 
 }  // namespace
 
-void read_bodies(Table& top, Scene& scene, RecordedScene& record) {
+void read_bodies(Table& top, Scene& scene, ResolvedScene& record) {
   Names names;
   for (const Node& node : scene.nodes) names.add(node.name);
   for (Table& table : tables_of(top, "bodies")) {
@@ -205,7 +206,7 @@ BoundaryRef find_boundary(const Table& table, std::string_view key, const std::s
       if (there.back() == name) return {b, &group};
     }
   table.fail(key, fmt::format("no boundary is named \"{}\"; known: {}", name,
-                              there.empty() ? "none" : base::listed(there, 8)));
+                              there.empty() ? "none" : base::join_quoted(there, 8)));
 }
 
 }  // namespace signorini::scene

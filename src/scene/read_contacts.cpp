@@ -58,8 +58,9 @@ constexpr VaryingFriction by_force = {
 void read_rising_friction(Table& table, Friction& friction) {
   rising.read(table, friction);
   if (friction.kinetic < friction.static_)
-    table.fail("fast", fmt::format("found the number {}, expected at least the slow coefficient {}",
-                                   base::shortest(friction.kinetic), base::shortest(friction.static_)));
+    table.fail("fast",
+               fmt::format("found the number {}, expected at least the slow coefficient {}",
+                           base::format_number(friction.kinetic), base::format_number(friction.static_)));
 }
 
 void read_falling_friction(Table& table, Friction& friction) {
@@ -68,8 +69,9 @@ void read_falling_friction(Table& table, Friction& friction) {
   friction.kinetic = table.optional_number("kinetic").value_or(friction.static_);
   friction.stribeck_velocity = table.optional_number("stribeck_velocity");
   if (friction.kinetic > friction.static_) {
-    table.fail("kinetic", fmt::format("found the number {}, expected at most the static coefficient {}",
-                                      base::shortest(friction.kinetic), base::shortest(friction.static_)));
+    table.fail("kinetic",
+               fmt::format("found the number {}, expected at most the static coefficient {}",
+                           base::format_number(friction.kinetic), base::format_number(friction.static_)));
   }
 }
 
@@ -90,8 +92,10 @@ Friction read_friction(Table& contact) {
     if (value < 0.0) contact.wrong("friction", expected);
     friction = {value, value};
   }
-  Record record;
-  const VaryingFriction* law = friction.by_force() ? &by_force : friction.rises() ? &rising : nullptr;
+  ResolvedTable record;
+  const VaryingFriction* law = friction.is_load_dependent()       ? &by_force
+                               : friction.is_rate_strengthening() ? &rising
+                                                                  : nullptr;
   record.set(law ? law->keys[0] : "static", toml_number(friction.static_));
   record.set(law ? law->keys[1] : "kinetic", toml_number(friction.kinetic));
   for (const FrictionConstant& constant : friction_constants)
@@ -103,11 +107,11 @@ Friction read_friction(Table& contact) {
   return friction;
 }
 
-void check_pressing(const Table& table, const HistorySpec& spec, double t_end) {
+void check_applied_normal_force(const Table& table, const HistorySpec& spec, double t_end) {
   const History history = make_history(spec, table.path("normal_force"));
-  const double t = history::negative_at(history, t_end);
+  const double t = history::find_negative_time(history, t_end);
   if (t < 0.0) return;
-  const std::string found = history.is_constant() ? base::shortest(history.value(t))
+  const std::string found = history.is_constant() ? base::format_number(history.value(t))
                                                   : fmt::format("{:.6g} at time {:.6g}", history.value(t), t);
   table.fail("normal_force", fmt::format("found {}, expected a compression >= 0", found));
 }
@@ -121,7 +125,7 @@ Direction tangent_of(const Direction& normal) {
 namespace {
 
 /// Normal, tangent and gap of a contact that can open.
-void read_gap(Table& table, ContactSpec& contact, const Space& space, const std::string& law) {
+void read_gap(Table& table, ContactSpec& contact, const NameScope& space, const std::string& law) {
   const char* key = table.is("stops[]") ? "direction" : "normal";
   table.require(key, " (required for law = \"" + law + "\")");
   contact.normal = read_direction(table, key, space);
@@ -141,7 +145,7 @@ void read_gap(Table& table, ContactSpec& contact, const Space& space, const std:
   if (!table.is("stops[]") || !table.has("gaps")) contact.gap = table.number("gap");
 }
 
-void read_rigid(Table& table, ContactSpec& contact, const Space& space) {
+void read_rigid(Table& table, ContactSpec& contact, const NameScope& space) {
   read_gap(table, contact, space, "rigid");
   contact.restitution = table.number("restitution");
   contact.capture_velocity = table.optional_number("capture_velocity");
@@ -165,7 +169,7 @@ void read_seam(Table& table, ContactSpec& contact) {
   table.record("seam", seam.record().inline_table());
 }
 
-void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
+void read_compliant(Table& table, ContactSpec& contact, const NameScope& space) {
   read_gap(table, contact, space, "compliant");
   if (table.has("seam")) {
     read_seam(table, contact);
@@ -180,7 +184,7 @@ void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
 }
 
 /// Keys that are not read here have no meaning: such a law has all it needs in its constants.
-void read_data_law(Table& table, ContactSpec& contact, const Space& space, const DataLaw& law) {
+void read_data_law(Table& table, ContactSpec& contact, const NameScope& space, const DataLaw& law) {
   const std::string required = fmt::format(" (required for law = \"{}\")", law.name);
   read_gap(table, contact, space, std::string(law.name));
   table.require("normal_stiffness", required);
@@ -188,15 +192,15 @@ void read_data_law(Table& table, ContactSpec& contact, const Space& space, const
   contact.normal_stiffness = table.number("normal_stiffness");
   std::vector<double> constants;
   for (const DataLawConstant& constant : law.constants) constants.push_back(table.number(constant.key));
-  if (const auto objection = law.objection(contact.normal_stiffness, constants))
+  if (const auto objection = law.validate(contact.normal_stiffness, constants))
     table.fail(objection->first, objection->second);
-  contact.own = std::make_shared<const UserContactLaw>(law.make(contact.normal_stiffness, constants));
+  contact.user_law = std::make_shared<const UserContactLaw>(law.make(contact.normal_stiffness, constants));
 }
 
 /// Counterpart of the contact's node: another node or a segment instead of the ground.
-void read_against(Table& table, ContactSpec& contact, const Scene& scene, const Space& space,
+void read_against(Table& table, ContactSpec& contact, const Scene& scene, const NameScope& space,
                   const std::string& node) {
-  const auto touched = read_touched(table, scene, space, node);
+  const auto touched = read_counterpart(table, scene, space, node);
   if (contact.normal) contact.normal->against = touched;
   if (contact.tangent) contact.tangent->against = touched;
 }
@@ -221,7 +225,7 @@ void read_elements(Table& table, ContactSpec& contact) {
 
 namespace {
 
-void read_slider(Table& table, ContactSpec& contact, const Space& space, const Scene& scene) {
+void read_slider(Table& table, ContactSpec& contact, const NameScope& space, const Scene& scene) {
   const bool from_normal = !space.matrices && table.has("normal");
   if (from_normal && table.has("tangent")) {
     table.fail("normal", "cannot be combined with tangent; give only one of them");
@@ -230,12 +234,12 @@ void read_slider(Table& table, ContactSpec& contact, const Space& space, const S
   contact.tangent = from_normal ? tangent_of(read_direction(table, "normal", space))
                                 : read_direction(table, "tangent", space);
   table.require("normal_force", " (required for law = \"slider\")");
-  contact.normal_force = read_standing_history(table, "normal_force", scene);
-  check_pressing(table, contact.normal_force, scene.run.t_end);
+  contact.normal_force = read_number_or_history(table, "normal_force", scene);
+  check_applied_normal_force(table, contact.normal_force, scene.run.t_end);
 }
 
 /// Reads a contact except its name and nodes; `table` is that of a contact or of a stop.
-ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, const std::string& law) {
+ContactSpec read_laws(Table& table, const NameScope& space, const Scene& scene, const std::string& law) {
   ContactSpec contact;
   contact.place = table.place();
   contact.table = table.path();
@@ -259,7 +263,7 @@ ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, cons
       break;
   }
   if (!contact.capabilities().takes_impulses) read_elements(table, contact);
-  contact.surface_velocity = read_standing_history(table, "surface_velocity", scene);
+  contact.surface_velocity = read_number_or_history(table, "surface_velocity", scene);
   return contact;
 }
 
@@ -270,7 +274,7 @@ void set_node(ContactSpec& contact, const std::string& node) {
 
 }  // namespace
 
-Names names_of(const Scene& scene) {
+Names contact_names(const Scene& scene) {
   Names names;
   for (const ContactSpec& contact : scene.contacts) names.add(contact.name);
   return names;
@@ -307,8 +311,8 @@ ContactSpec mirrored(ContactSpec contact) {
 
 }  // namespace
 
-void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
+void read_contacts(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
   Names names;
   std::size_t number = 0;
   for (Table& table : tables_of(top, "contacts")) {
@@ -337,9 +341,9 @@ void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
-void read_stops(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
-  Names names = names_of(scene);
+void read_stops(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
+  Names names = contact_names(scene);
   std::size_t number = 0;
   for (Table& table : tables_of(top, "stops")) {
     const std::string name = read_contact_name(table, "stop", ++number);
@@ -407,8 +411,8 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   if (!bears) table.require("normal_force", " (required without normal_stiffness)");
   const bool given = table.has("normal_force");
   if (given) {
-    contact.normal_force = read_standing_history(table, "normal_force", scene);
-    check_pressing(table, contact.normal_force, scene.run.t_end);
+    contact.normal_force = read_number_or_history(table, "normal_force", scene);
+    check_applied_normal_force(table, contact.normal_force, scene.run.t_end);
   }
   const History history = make_history(contact.normal_force, table.path("normal_force"));
   const double carried = history.value(0.0);
@@ -416,7 +420,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
     contact.law = Law::slider;
     contact.normal.reset();
     if (history.is_constant()) return carried;
-    contact.bowl = CurvedSurface{radius, carried};
+    contact.pendulum_surface = CurvedSurface{radius, carried};
     return carried;
   }
   if (given && !history.is_constant())
@@ -428,7 +432,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   contact.normal_force = constant_history(0.0);
   if (contact.friction.any())
     table.require("tangential_stiffness", " (required for normal_stiffness with friction)");
-  contact.bowl = CurvedSurface{radius, carried};
+  contact.pendulum_surface = CurvedSurface{radius, carried};
   return carried;
 }
 
@@ -453,9 +457,9 @@ void read_rim(Table& table, const ContactSpec& contact, Names& names, Scene& sce
 
 }  // namespace
 
-void read_pendulums(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
-  Names names = names_of(scene);
+void read_pendulums(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
+  Names names = contact_names(scene);
   std::size_t number = 0;
   for (Table& table : tables_of(top, "pendulums")) {
     if (space.matrices)

@@ -32,7 +32,7 @@ void read_ratios(Table& table, DampingSpec& damping) {
   const double w1 = 2.0 * std::numbers::pi * f1, w2 = 2.0 * std::numbers::pi * f2;
   // A difference of rounding size is zero: damping by mass or by stiffness alone.
   const auto difference = [](double a, double b) {
-    return std::abs(a - b) <= rounding::of_few * std::max(a, b) ? 0.0 : a - b;
+    return std::abs(a - b) <= rounding::few_operations * std::max(a, b) ? 0.0 : a - b;
   };
   const double bottom = (w2 - w1) * (w2 + w1);
   damping.alpha = 2.0 * w1 * w2 * difference(z1 * w2, z2 * w1) / bottom;
@@ -41,14 +41,14 @@ void read_ratios(Table& table, DampingSpec& damping) {
     const double r = std::max(f1, f2) / std::min(f1, f2);
     table.fail("ratios", fmt::format("these ratios give alpha = {0:.6g} and beta = {1:.6g}, expected both >= "
                                      "0; choose a ratio between {3:.6g} and {4:.6g} at the frequency {2}",
-                                     damping.alpha, damping.beta, base::shortest(f2), z1 / r, z1 * r));
+                                     damping.alpha, damping.beta, base::format_number(f2), z1 / r, z1 * r));
   }
 }
 
 }  // namespace
 
-void read_masses(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
+void read_masses(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
   for (Table& table : tables_of(top, "masses")) {
     PointMass mass;
     mass.place = table.place();
@@ -64,15 +64,15 @@ void read_masses(Table& top, Scene& scene, RecordedScene& record) {
 namespace {
 
 /// A key of a table, as the place of a message.
-struct Blamed {
+struct ConflictingKey {
   const Table& table;
   const char* key;
 };
 
 /// Refuses contradictory keys: the message is placed at the one given by --set, else at the first.
-[[noreturn]] void contradict(std::initializer_list<Blamed> keys, const std::string& message) {
-  const Blamed* at = keys.begin();
-  for (const Blamed& one : keys)
+[[noreturn]] void contradict(std::initializer_list<ConflictingKey> keys, const std::string& message) {
+  const ConflictingKey* at = keys.begin();
+  for (const ConflictingKey& one : keys)
     if (one.table.has(one.key) && one.table.place(one.key).line == SourcePlace::command_line) {
       at = &one;
       break;
@@ -91,7 +91,7 @@ void read_hanger(Table& table, Spring& spring) {
   const std::optional<double> cold = hanger.optional_number("cold"),
                               travel = hanger.optional_number("travel");
   const bool stiff = table.has("stiffness");
-  const Blamed hot_key{hanger, "hot"}, cold_key{hanger, "cold"}, travel_key{hanger, "travel"},
+  const ConflictingKey hot_key{hanger, "hot"}, cold_key{hanger, "cold"}, travel_key{hanger, "travel"},
       stiffness_key{table, "stiffness"};
   if ((cold ? 1 : 0) + (travel ? 1 : 0) + (stiff ? 1 : 0) != 2)
     contradict(
@@ -119,8 +119,8 @@ void read_hanger(Table& table, Spring& spring) {
 
 }  // namespace
 
-void read_springs(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
+void read_springs(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
   for (Table& table : tables_of(top, "springs")) {
     Spring spring;
     spring.place = table.place();
@@ -162,14 +162,14 @@ void read_support_motion(Table& table, Support& support, std::size_t held, const
                          held));
   if (acceleration && support.rz) table.fail("acceleration", "has no meaning for rz, expected motion");
   support.motion =
-      acceleration ? read_acceleration(table, key, scene) : read_standing_history(table, key, scene);
+      acceleration ? read_acceleration(table, key, scene) : read_number_or_history(table, key, scene);
   support.motion_is_acceleration = acceleration;
 }
 
 }  // namespace
 
-void read_supports(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
+void read_supports(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
   for (Table& table : tables_of(top, "supports")) {
     Support support;
     support.place = table.place();
@@ -194,7 +194,7 @@ void read_supports(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
-void read_damping(Table& top, Scene& scene, RecordedScene& record) {
+void read_damping(Table& top, Scene& scene, ResolvedScene& record) {
   Table table = top.child("damping");
   DampingSpec& damping = scene.damping;
   damping.place = table.place();

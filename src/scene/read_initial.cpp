@@ -15,7 +15,7 @@ namespace signorini::scene {
 
 namespace {
 
-void read_list(Table& table, std::string_view key, const Space& space, std::vector<double>& values) {
+void read_list(Table& table, std::string_view key, const NameScope& space, std::vector<double>& values) {
   if (const toml::node* node = table.raw(key); node && node->is_string()) {
     values = read_vector_file(table, key, space);
     table.record(key, toml_numbers(values));
@@ -26,12 +26,12 @@ void read_list(Table& table, std::string_view key, const Space& space, std::vect
   const std::size_t size = space.names.size();
   if (given->size() != size) {
     table.fail(key, fmt::format("found {}, expected one for each of the {} degrees of freedom",
-                                base::count_of(given->size(), "number"), size));
+                                base::count_text(given->size(), "number"), size));
   }
   values = *given;
 }
 
-void read_nodes_state(Table& table, InitialSpec& initial, const Space& space) {
+void read_nodes_state(Table& table, InitialSpec& initial, const NameScope& space) {
   for (const Entry& entry : entries_of(table.node())) {
     const auto group = space.groups.find(entry.name);
     if (group == space.groups.end())
@@ -136,7 +136,8 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
     refuse_file(table, "run", directory, "not a directory; give the directory of a run");
   base::Json model;
   try {
-    base::check_run_files(directory, {"states.csv", "contacts.csv", frozen_file, "summary.json", "run.toml"});
+    base::check_run_files(directory,
+                          {"states.csv", "contacts.csv", prestress_file, "summary.json", "run.toml"});
     model = model_of_run(directory);
   } catch (const FileError& error) {
     refuse_file(table, "run", error);
@@ -145,19 +146,19 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   const std::optional<double> t = table.optional_number("t");
   table.finish("has no meaning beside run");
   SavedStates found = read_saved_states(in, path.string(), table.path("run"), t);
-  if (!found.wanted && !t) table.fail("run", fmt::format("found no state in {}", path.string()));
-  if (!found.wanted)
-    table.fail("t",
-               fmt::format("found the number {}, expected one of the times in {}: {}", base::shortest(*t),
-                           path.string(), found.times.empty() ? "none" : base::listed_plainly(found.times)));
-  initial.saved = std::move(*found.wanted);
+  if (!found.state && !t) table.fail("run", fmt::format("found no state in {}", path.string()));
+  if (!found.state)
+    table.fail(
+        "t", fmt::format("found the number {}, expected one of the times in {}: {}", base::format_number(*t),
+                         path.string(), found.times.empty() ? "none" : base::join_texts(found.times)));
+  initial.saved = std::move(*found.state);
   initial.saved->run = directory.string();
-  initial.saved->left = read_left_contacts(directory / "contacts.csv", initial.saved->t);
-  initial.saved->frozen = read_prestress(directory / frozen_file, table.path("run"));
+  initial.saved->final_contacts = read_final_contacts(directory / "contacts.csv", initial.saved->t);
+  initial.saved->prestress = read_prestress(directory / prestress_file, table.path("run"));
   initial.saved->scales = scales_of_run(model);
-  initial.saved->carried = carried_in_run(model);
+  initial.saved->pendulum_forces = carried_in_run(model);
   if (const auto alpha = alpha_of_run(model)) initial.saved->motions.emplace_back(saved_alpha, *alpha);
-  Record record;
+  ResolvedTable record;
   record.set("run", toml_string(std::filesystem::absolute(directory).lexically_normal().string()));
   if (t) record.set("t", toml_number(*t));
   run.record("initial", record.inline_table());
@@ -195,7 +196,7 @@ void read_initial(Table& run, Scene& scene) {
     return;
   }
 
-  const Space space = space_of(scene);
+  const NameScope space = name_scope(scene);
   if (space.matrices) {
     Table table = run.child("initial");
     for (const Entry& entry : entries_of(table.node())) {

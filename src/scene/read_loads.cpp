@@ -12,7 +12,7 @@
 namespace signorini::scene {
 namespace {
 
-void read_force(Table& table, LoadSpec& load, const Space& space) {
+void read_force(Table& table, LoadSpec& load, const NameScope& space) {
   if (!space.matrices) table.require("node", "");
   const std::string node = space.matrices ? "" : read_node(table, "node", space);
   table.require("direction", "");
@@ -22,7 +22,7 @@ void read_force(Table& table, LoadSpec& load, const Space& space) {
   load.amplitude = table.number("amplitude");
 }
 
-void read_moment(Table& table, LoadSpec& load, const Space& space) {
+void read_moment(Table& table, LoadSpec& load, const NameScope& space) {
   load.type = LoadType::moment;
   table.require("node", " (required for a moment)");
   load.direction.node = read_node(table, "node", space);
@@ -30,7 +30,7 @@ void read_moment(Table& table, LoadSpec& load, const Space& space) {
   load.amplitude = table.number("moment");
 }
 
-void read_distributed(Table& table, LoadSpec& load, const Space& space) {
+void read_distributed(Table& table, LoadSpec& load, const NameScope& space) {
   load.type = LoadType::distributed;
   table.require("nodes", " (required for a distributed load)");
   load.pieces = read_node_names(table, "nodes", space);
@@ -42,7 +42,7 @@ void read_distributed(Table& table, LoadSpec& load, const Space& space) {
 }
 
 /// A load on a boundary of a body.
-void read_traction(Table& table, LoadSpec& load, const Space& space, const Scene& scene) {
+void read_traction(Table& table, LoadSpec& load, const NameScope& space, const Scene& scene) {
   load.type = LoadType::traction;
   load.pressure = table.has("pressure");
   table.require("group", load.pressure ? " (required for a pressure)" : " (required for a traction)");
@@ -58,7 +58,7 @@ void read_traction(Table& table, LoadSpec& load, const Space& space, const Scene
 BaseMotionSpec read_one_motion(Table& table, const Scene& scene) {
   BaseMotionSpec motion;
   motion.place = table.place();
-  motion.direction = read_direction(table, "direction", space_of(scene));
+  motion.direction = read_direction(table, "direction", name_scope(scene));
   table.require("acceleration", "");
   motion.acceleration = read_acceleration(table, "acceleration", scene);
   table.finish();
@@ -97,8 +97,8 @@ void refuse_given_names(const std::vector<Table>& tables, const std::vector<Load
 
 }  // namespace
 
-void read_loads(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
+void read_loads(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
   Names names;
   std::vector<Table> tables = tables_of(top, "loads");
   for (Table& table : tables) {
@@ -136,7 +136,7 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
   refuse_given_names(tables, scene.loads);
 }
 
-void read_base_motion(Table& top, Scene& scene, RecordedScene& record) {
+void read_base_motion(Table& top, Scene& scene, ResolvedScene& record) {
   const toml::node* node = top.raw("base_motion");
   if (!node) return;
   if (node->is_table()) {
@@ -195,7 +195,7 @@ void read_span(Table& table, HistorySpec& spec) {
     spec.end = *end;
     if (spec.end <= spec.start) {
       table.fail("end", fmt::format("found the number {}, expected a time after the start at {}",
-                                    base::shortest(spec.end), base::shortest(spec.start)));
+                                    base::format_number(spec.end), base::format_number(spec.start)));
     }
   }
 }
@@ -223,7 +223,7 @@ double metric_acceleration(const Units& units) {
 }
 
 /// Use of a history: a load has its amplitude outside; an acceleration may be given in g.
-enum class Role { load, alone, acceleration };
+enum class Role { load, standalone, acceleration };
 
 /// Layout of the values in the file. The caller records it with the file.
 TableLayout read_layout(Table& table, const std::filesystem::path& path) {
@@ -296,17 +296,18 @@ void read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
   if (spec.times.empty()) table.wrong("times", "at least one time");
   if (spec.values.size() != spec.times.size()) {
     table.fail("values", fmt::format("found {}, expected one for each of the {}",
-                                     base::count_of(spec.values.size(), "value"),
-                                     base::count_of(spec.times.size(), "time")));
+                                     base::count_text(spec.values.size(), "value"),
+                                     base::count_text(spec.times.size(), "time")));
   }
   for (std::size_t i = 1; i < spec.times.size(); ++i) {
     if (spec.times[i] < spec.times[i - 1]) {
-      table.fail("times", fmt::format("found {} after {}, expected ascending times",
-                                      base::shortest(spec.times[i]), base::shortest(spec.times[i - 1])));
+      table.fail("times",
+                 fmt::format("found {} after {}, expected ascending times",
+                             base::format_number(spec.times[i]), base::format_number(spec.times[i - 1])));
     }
     if (i > 1 && spec.times[i] == spec.times[i - 2]) {
       table.fail("times", fmt::format("found {} three times, expected at most twice (a jump)",
-                                      base::shortest(spec.times[i])));
+                                      base::format_number(spec.times[i])));
     }
   }
 }
@@ -320,16 +321,16 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   if (!tabulated && !spec.start_given) table.fail("period", "needs a start, from which it counts");
   const double start = tabulated ? spec.times.front() : spec.start;
   const double length = (tabulated ? spec.times.back() : std::isinf(spec.end) ? start : spec.end) - start;
-  if (*period < length * (1.0 - rounding::of_few))
+  if (*period < length * (1.0 - rounding::few_operations))
     table.fail("period", fmt::format("found the number {}, expected at least {}, the duration of the shape",
-                                     base::shortest(*period), base::shortest(length)));
+                                     base::format_number(*period), base::format_number(length)));
   constexpr double most_pieces = 1e5;
   const double first = start + spec.shift;
   const double rounds = std::max(1.0, std::ceil((t_end - first) / *period));
   const double each = tabulated ? static_cast<double>(spec.times.size()) : 3.0;
   if (!(rounds * each <= most_pieces))
     table.fail("period", fmt::format("found the number {}, expected at most {:.0e} pieces up to t_end = {}",
-                                     base::shortest(*period), most_pieces, base::shortest(t_end)));
+                                     base::format_number(*period), most_pieces, base::format_number(t_end)));
   spec.period = *period;
   spec.rounds = static_cast<int>(rounds);
 }
@@ -395,9 +396,9 @@ HistorySpec read_load_history(Table& table, std::string_view key, const Scene& s
   return read_history(table, key, Role::load, scene);
 }
 
-HistorySpec read_standing_history(Table& table, std::string_view key, const Scene& scene) {
+HistorySpec read_number_or_history(Table& table, std::string_view key, const Scene& scene) {
   const toml::node* node = table.raw(key);
-  if (node && node->is_table()) return read_history(table, key, Role::alone, scene);
+  if (node && node->is_table()) return read_history(table, key, Role::standalone, scene);
   if (node && !node->is_number()) table.wrong(key, "a number or a table { type = ... }");
   HistorySpec spec = constant_history(table.optional_number(key).value_or(0.0));
   spec.place = table.place(key);
@@ -407,7 +408,7 @@ HistorySpec read_standing_history(Table& table, std::string_view key, const Scen
 HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& scene) {
   const toml::node* node = table.raw(key);
   if (node && node->is_table()) return read_history(table, key, Role::acceleration, scene);
-  return read_standing_history(table, key, scene);
+  return read_number_or_history(table, key, scene);
 }
 
 }  // namespace signorini::scene

@@ -23,7 +23,7 @@ MatrixSpec from_file(const Table& table, std::string_view key, const std::filesy
 
 MatrixSpec from_rows(const Table& table, std::string_view key, const toml::array& rows) {
   MatrixSpec matrix;
-  matrix.size = static_cast<int>(std::min<std::size_t>(rows.size(), most_dofs));
+  matrix.size = static_cast<int>(std::min<std::size_t>(rows.size(), max_dofs));
   if (rows.empty()) table.wrong(key, "at least one row");
   int i = 0;
   for (const toml::node& node : rows) {
@@ -88,7 +88,7 @@ void check_symmetric(const Table& table, std::string_view key, const MatrixSpec&
       const std::string& a = dofs[static_cast<std::size_t>(e.row)];
       const std::string& b = dofs[static_cast<std::size_t>(e.column)];
       table.fail(key, fmt::format("found {} in ({}, {}) and {} in ({}, {}), expected a symmetric matrix",
-                                  base::shortest(e.value), a, b, base::shortest(mirrored), b, a));
+                                  base::format_number(e.value), a, b, base::format_number(mirrored), b, a));
     }
   }
 }
@@ -102,7 +102,7 @@ void check_mass(const Table& table, const MatrixSpec& mass, const std::vector<st
     const auto row = static_cast<std::size_t>(e.row);
     if (diagonal[row] < 0.0 || (diagonal[row] == 0.0 && e.row != e.column)) {
       table.fail("mass", fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
-                                     base::shortest(diagonal[row]), dofs[row],
+                                     base::format_number(diagonal[row]), dofs[row],
                                      diagonal[row] < 0.0 ? "" : ", and > 0 where it is coupled"));
     }
   }
@@ -119,7 +119,7 @@ std::vector<std::string> read_dofs(Table& table, int size) {
     }
     if (dofs.size() != static_cast<std::size_t>(size)) {
       table.fail("dofs", fmt::format("found {}, expected one for each of the {} rows of the mass matrix",
-                                     base::count_of(dofs.size(), "name"), size));
+                                     base::count_text(dofs.size(), "name"), size));
     }
     return dofs;
   }
@@ -130,7 +130,7 @@ std::vector<std::string> read_dofs(Table& table, int size) {
 
 }  // namespace
 
-void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
+void read_matrices(Table& top, Scene& scene, ResolvedScene& record) {
   const std::filesystem::path directory = directory_of(scene);
   Table table = top.child("matrices");
   for (const char* other : {"gravity", "nodes", "lines", "members", "masses", "rigid", "springs", "damping",
@@ -158,7 +158,7 @@ void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
   for (const auto& [key, matrix] : all) {
     if (matrix->size != matrices.mass.size) {
       table.fail(key, fmt::format("found {}, expected {} as in the mass matrix",
-                                  base::count_of(static_cast<std::size_t>(matrix->size), "row"),
+                                  base::count_text(static_cast<std::size_t>(matrix->size), "row"),
                                   matrices.mass.size));
     }
     check_symmetric(table, key, *matrix, matrices.dofs);

@@ -10,8 +10,8 @@
 
 namespace signorini::scene {
 
-Space space_of(const Scene& scene) {
-  Space space;
+NameScope name_scope(const Scene& scene) {
+  NameScope space;
   space.matrices = scene.matrices.has_value();
   space.directory = directory_of(scene);
   if (scene.matrices) {
@@ -40,7 +40,7 @@ std::array<double, 2> read_unit_vector(Table& table, std::string_view key) {
   return {x / length, y / length};
 }
 
-std::string read_node(Table& table, std::string_view key, const Space& space) {
+std::string read_node(Table& table, std::string_view key, const NameScope& space) {
   const std::string name = table.text(key);
   check_known(name, space.names, "node", table.place(key), table.path(key));
   return name;
@@ -56,7 +56,7 @@ std::pair<std::string, long long> numbered(const std::string& name) {
 }
 
 /// Adds "P0", "P3", ... of "P0..P9:3".
-void add_range(const std::string& text, const Table& table, std::string_view key, const Space& space,
+void add_range(const std::string& text, const Table& table, std::string_view key, const NameScope& space,
                std::vector<std::string>& names) {
   const std::size_t dots = text.find(".."), colon = text.find(':', dots);
   const auto [first, from] = numbered(text.substr(0, dots));
@@ -75,7 +75,7 @@ void add_range(const std::string& text, const Table& table, std::string_view key
 
 }  // namespace
 
-std::vector<std::string> read_node_names(Table& table, std::string_view key, const Space& space) {
+std::vector<std::string> read_node_names(Table& table, std::string_view key, const NameScope& space) {
   std::vector<std::string> names;
   constexpr std::size_t most = 1'000'000;
   for (const std::string& text : table.texts(key)) {
@@ -92,7 +92,7 @@ std::vector<std::string> read_node_names(Table& table, std::string_view key, con
   return names;
 }
 
-std::vector<std::string> read_one_or_more_nodes(Table& table, const Space& space) {
+std::vector<std::string> read_one_or_more_nodes(Table& table, const NameScope& space) {
   if (!table.has("nodes")) {
     table.require("node", "");
     return {read_node(table, "node", space)};
@@ -103,18 +103,18 @@ std::vector<std::string> read_one_or_more_nodes(Table& table, const Space& space
   return names;
 }
 
-std::vector<double> read_vector_file(Table& table, std::string_view key, const Space& space) {
+std::vector<double> read_vector_file(Table& table, std::string_view key, const NameScope& space) {
   const std::size_t size = space.names.size();
   const std::filesystem::path path = space.directory / table.raw(key)->value_or(std::string());
   std::ifstream in = open_data_file(table, key, path);
   std::vector<double> values = read_market_vector(in, path.string(), table.path(key));
   if (values.size() != size)
     table.fail(key, fmt::format("found a file of {}, expected one for each of the {} degrees of freedom",
-                                base::count_of(values.size(), "row"), size));
+                                base::count_text(values.size(), "row"), size));
   return values;
 }
 
-Direction read_direction(Table& table, std::string_view key, const Space& space) {
+Direction read_direction(Table& table, std::string_view key, const NameScope& space) {
   const toml::node* node = table.raw(key);
   if (!node) table.require(key, "");
   Direction direction;
@@ -124,7 +124,7 @@ Direction read_direction(Table& table, std::string_view key, const Space& space)
     direction.vector = read_unit_vector(table, key);
     return direction;
   }
-  Record record;
+  ResolvedTable record;
   if (node->is_string()) {
     const std::vector<double> values = read_vector_file(table, key, space);
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -36,13 +36,13 @@ std::vector<std::string> read_places(Table& table, std::size_t count, const char
   return names;
 }
 
-void check_nodes(const Table& table, const std::vector<std::string>& names, const Space& space) {
+void check_nodes(const Table& table, const std::vector<std::string>& names, const NameScope& space) {
   for (const std::string& name : names)
     check_known(name, space.names, "node", table.place("at"), table.path("at"));
 }
 
 /// A direction, or a rotation.
-void read_motion(Table& table, OutputSpec& output, const Space& space) {
+void read_motion(Table& table, OutputSpec& output, const NameScope& space) {
   output.rotation = !space.matrices && table.flag("rotation");
   if (!output.rotation) {
     if (!table.has("direction"))
@@ -144,7 +144,7 @@ void read_fibre(Table& table, OutputSpec& output) {
   output.intensification = table.optional_number("sif");
 }
 
-void read_envelope(Table& table, OutputSpec& output, const Space& space) {
+void read_envelope(Table& table, OutputSpec& output, const NameScope& space) {
   table.require("nodes", "");
   output.at = read_node_names(table, "nodes", space);
   if (output.at.size() < 2) table.wrong("nodes", "the names of two or more nodes");
@@ -163,7 +163,7 @@ void read_spring(Table& table, OutputSpec& output, const Scene& scene) {
 }
 
 /// A stress component at a node of a body, in axes of which x points along `direction`.
-void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, const Space& space) {
+void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, const NameScope& space) {
   output.at = read_places(table, 1, "the name of a node");
   const std::size_t node =
       check_known(output.at[0], space.names, "node", table.place("at"), table.path("at"));
@@ -177,7 +177,7 @@ void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, cons
   if (table.has("direction")) output.direction = read_direction(table, "direction", space);
 }
 
-void read_by_kind(Table& table, OutputSpec& output, const Scene& scene, const Space& space) {
+void read_by_kind(Table& table, OutputSpec& output, const Scene& scene, const NameScope& space) {
   switch (output.kind) {
     case OutputKind::displacement:
     case OutputKind::velocity:
@@ -224,8 +224,8 @@ bool of_nodes_only(OutputKind kind) {
 
 }  // namespace
 
-void read_outputs(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
+void read_outputs(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
   Names names{"t"};
   for (Table& table : tables_of(top, "output")) {
     OutputSpec output;

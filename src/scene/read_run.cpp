@@ -18,12 +18,12 @@ constexpr double most_output_rows = 1e8;
 void check_times(const Table& table, std::string_view key, const std::vector<double>& times, double t_end) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] < 0.0 || times[i] > t_end) {
-      table.fail(key, fmt::format("found {}, expected times from 0 to t_end = {}", base::shortest(times[i]),
-                                  base::shortest(t_end)));
+      table.fail(key, fmt::format("found {}, expected times from 0 to t_end = {}",
+                                  base::format_number(times[i]), base::format_number(t_end)));
     }
     if (i > 0 && times[i] <= times[i - 1]) {
       table.fail(key, fmt::format("found {} after {}, expected strictly ascending times",
-                                  base::shortest(times[i]), base::shortest(times[i - 1])));
+                                  base::format_number(times[i]), base::format_number(times[i - 1])));
     }
   }
 }
@@ -40,7 +40,7 @@ void read_output(Table& table, RunSpec& run) {
   }
   if (run.output_dt && !(run.t_end / *run.output_dt <= most_output_rows)) {
     table.fail("output_dt", fmt::format("found the number {}, expected at most 1e8 rows up to t_end = {}",
-                                        base::shortest(*run.output_dt), base::shortest(run.t_end)));
+                                        base::format_number(*run.output_dt), base::format_number(run.t_end)));
   }
   if (run.output_times) check_times(table, "output_times", *run.output_times, run.t_end);
 }
@@ -95,7 +95,7 @@ void read_certification(Table& table, RunSpec& run) {
 
 /// Keys of the engines with a given step.
 void read_steps(Table& table, RunSpec& run) {
-  const EngineName* engine = run.engine == Engine::automatic ? nullptr : &name_of(run.engine);
+  const EngineInfo* engine = run.engine == Engine::automatic ? nullptr : &engine_info(run.engine);
   const bool steps = engine != nullptr && engine->accuracy == Accuracy::step;
   if (steps) table.require("dt", fmt::format(" (required for engine \"{}\")", engine->name));
   run.dt = table.optional_number("dt");
@@ -108,20 +108,20 @@ void read_steps(Table& table, RunSpec& run) {
   run.relaxation = table.number("relaxation");
   if (run.relaxation > 1.0)
     table.fail("relaxation",
-               fmt::format("found the number {}, expected at most 1", base::shortest(run.relaxation)));
+               fmt::format("found the number {}, expected at most 1", base::format_number(run.relaxation)));
   run.max_iterations = table.integer("max_iterations");
 }
 
 }  // namespace
 
-void read_run(Table& top, Scene& scene, RecordedScene& record) {
+void read_run(Table& top, Scene& scene, ResolvedScene& record) {
   top.require("run", "");
   Table table = top.child("run");
   RunSpec& run = scene.run;
   run.place = table.place();
   run.t_end = table.number("t_end");
   read_initial(table, scene);
-  run.engine = engine_called(table.choice("engine")).value_or(Engine::automatic);
+  run.engine = find_engine(table.choice("engine")).value_or(Engine::automatic);
   const std::string flow = table.choice("flow");
   run.flow = flow == "modal" ? Flow::modal : flow == "taylor" ? Flow::taylor : Flow::automatic;
   run.geometric = table.flag("geometric");
@@ -171,7 +171,7 @@ namespace signorini::scene {
 
 // [reduction]: the cutoff, in cycles or in radians per time, or the tolerance from which it is found.
 
-void read_reduction(Table& top, Scene& scene, RecordedScene& record) {
+void read_reduction(Table& top, Scene& scene, ResolvedScene& record) {
   if (!top.has("reduction")) return;
   Table table = top.child("reduction");
   if (table.has("cutoff_frequency") && table.has("cutoff_omega"))
@@ -209,7 +209,7 @@ bool same(double a, double b) { return std::abs(a - b) < 1e-9 * std::abs(b); }
 
 }  // namespace
 
-void read_units(Table& top, Scene& scene, RecordedScene& record) {
+void read_units(Table& top, Scene& scene, ResolvedScene& record) {
   top.require("units", "");
   Table table = top.child("units");
   Units& units = scene.units;
@@ -238,22 +238,22 @@ void read_units(Table& top, Scene& scene, RecordedScene& record) {
 namespace signorini {
 
 std::string_view to_string(Engine engine) {
-  return engine == Engine::automatic ? "auto" : name_of(engine).name;
+  return engine == Engine::automatic ? "auto" : engine_info(engine).name;
 }
 
-const EngineName& name_of(Engine engine) {
+const EngineInfo& engine_info(Engine engine) {
   return *std::find_if(all_engines.begin(), all_engines.end(),
-                       [&](const EngineName& e) { return e.engine == engine; });
+                       [&](const EngineInfo& e) { return e.engine == engine; });
 }
 
-std::optional<Engine> engine_called(std::string_view name) {
-  for (const EngineName& e : all_engines)
+std::optional<Engine> find_engine(std::string_view name) {
+  for (const EngineInfo& e : all_engines)
     if (e.name == name) return e.engine;
   return std::nullopt;
 }
 
-bool has_key(const EngineName& engine, std::string_view key) {
-  std::string_view rest = engine.own_keys;
+bool has_key(const EngineInfo& engine, std::string_view key) {
+  std::string_view rest = engine.specific_keys;
   while (!rest.empty()) {
     const std::size_t blank = std::min(rest.find(' '), rest.size());
     if (rest.substr(0, blank) == key) return true;

@@ -111,14 +111,14 @@ void compare_with_run(Scene& scene) {
                      fmt::format("found a run in {}, expected one in the units of this scene, {}",
                                  units_of(run), units_of(here)));
   const bool froze = run.at_path("run.geometric").value_or(false);
-  if (froze && scene.run.geometric && !scene.initial.saved->frozen)
+  if (froze && scene.run.geometric && !scene.initial.saved->prestress)
     throw SceneError(
         scene.initial.place, "run.initial.run",
         fmt::format(
             "found no {}, expected the forces of that run, which had run.geometric = true (run.toml): "
             "others would be another structure",
-            (std::filesystem::path(scene.initial.saved->run) / frozen_file).string()));
-  scene.initial.saved->differing = differing_structure(run, here);
+            (std::filesystem::path(scene.initial.saved->run) / prestress_file).string()));
+  scene.initial.saved->structure_differences = differing_structure(run, here);
 }
 
 Scene build(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
@@ -127,7 +127,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
   check_schema(root, file);
 
   Scene scene;
-  RecordedScene record;
+  ResolvedScene record;
   scene.file = file;
   Table top(&root, "", "", {file, 1, 1});
   record.top.set("schema", std::to_string(top.integer("schema")));
@@ -200,7 +200,7 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
     message = error.what();
   }
   std::string all;
-  for (const Override& change : overrides) all += (all.empty() ? "" : " ") + scene::text_of(change);
+  for (const Override& change : overrides) all += (all.empty() ? "" : " ") + scene::override_text(change);
   throw UsageError(all + ": " + message);
 }
 

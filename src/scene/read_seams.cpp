@@ -42,7 +42,7 @@ std::vector<SurfaceNode> read_surface_nodes(Table& table, const Names& dofs) {
   for (const auto& [key, count] : counts)
     if (count != x->size())
       table.fail(key, fmt::format("found {}, expected one for each of the {} places of x",
-                                  base::count_of(count, "entry"), x->size()));
+                                  base::count_text(count, "entry"), x->size()));
   std::vector<SurfaceNode> nodes;
   for (std::size_t i = 0; i < x->size(); ++i) {
     for (const auto& [key, name] : {std::pair{"ux", &ux[i]}, std::pair{"uy", &uy[i]}})
@@ -59,9 +59,9 @@ std::vector<PlaneMesh::Edge> edges_of(Table& table, std::vector<int> nodes) {
   if (closed) nodes.push_back(nodes.front());
   const std::size_t step = quadratic ? 2 : 1;
   if (nodes.size() < step + 1 || (nodes.size() - 1) % step != 0)
-    table.fail("x",
-               fmt::format("found {}, expected {}", base::count_of(nodes.size() - (closed ? 1 : 0), "place"),
-                           quadratic ? "an end, a middle, an end and so on" : "two or more"));
+    table.fail(
+        "x", fmt::format("found {}, expected {}", base::count_text(nodes.size() - (closed ? 1 : 0), "place"),
+                         quadratic ? "an end, a middle, an end and so on" : "two or more"));
   std::vector<PlaneMesh::Edge> edges;
   for (std::size_t i = 0; i + step < nodes.size(); i += step) {
     edges.push_back({{nodes[i], nodes[i + step]}});
@@ -72,7 +72,7 @@ std::vector<PlaneMesh::Edge> edges_of(Table& table, std::vector<int> nodes) {
 
 }  // namespace
 
-void read_surfaces(Table& top, Scene& scene, RecordedScene& record) {
+void read_surfaces(Table& top, Scene& scene, ResolvedScene& record) {
   Names names, dofs;
   if (scene.matrices)
     for (const std::string& name : scene.matrices->dofs) dofs.add(name);
@@ -159,7 +159,7 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
   contact.table = table.path();
   contact.law = table.choice("law") == "rigid" ? Law::rigid : Law::compliant;
   contact.friction = read_friction(table);
-  if (contact.friction.by_force())
+  if (contact.friction.is_load_dependent())
     table.fail("friction",
                "found light, heavy and force, expected one coefficient: the force at a node of a seam "
                "depends on its mesh");
@@ -173,7 +173,7 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
     read_springs_of(table, law);
   }
   law.gap = table.optional_number("gap");
-  contact.surface_velocity = read_standing_history(table, "surface_velocity", scene);
+  contact.surface_velocity = read_number_or_history(table, "surface_velocity", scene);
   return law;
 }
 
@@ -195,7 +195,7 @@ Boundary find_side(const Table& table, std::string_view key, const std::string& 
     there.push_back(surface.name);
   }
   table.fail(key, fmt::format("no surface is named \"{}\"; known: {}", name,
-                              there.empty() ? "none" : base::listed(there, 8)));
+                              there.empty() ? "none" : base::join_quoted(there, 8)));
 }
 
 /// All edges of the slave's body, or of its surface.
@@ -243,7 +243,7 @@ void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& 
 
 /// Reads and checks the mortar of a table.
 mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
-  const mesh::PlaceOf place = [&](int n) { return place_in(scene, n); };
+  const mesh::NodePosition place = [&](int n) { return place_in(scene, n); };
   if (table.has("master") == table.has("line"))
     table.fail("master", table.has("line") ? "cannot be combined with line; give only one of them"
                                            : "missing, expected master or line");
@@ -267,12 +267,12 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
         "slave",
         fmt::format("node {} lies at the end of a quadratic edge of which the master covers a part, and "
                     "would have no length: end the master at a node of the slave, or exchange the two",
-                    base::listed(mesh_names(seam.negative, scene), 3)));
+                    base::join_quoted(mesh_names(seam.negative, scene), 3)));
   if (!seam.corners.empty())
     table.fail("slave",
                fmt::format("the boundary has a corner of more than 45 degrees at node {}: give each side a "
                            "seam of its own",
-                           base::listed(mesh_names(seam.corners, scene), 3)));
+                           base::join_quoted(mesh_names(seam.corners, scene), 3)));
   if (seam.nodes.empty()) table.fail("master", "it faces no part of the slave boundary");
   leave_out_shared(table, scene, seam);
   return seam;
@@ -341,8 +341,8 @@ void read_tied(Table& table, const std::string& name, Scene& scene) {
 
 }  // namespace
 
-void read_seams(Table& top, Scene& scene, RecordedScene& record) {
-  Names names = names_of(scene), seams;
+void read_seams(Table& top, Scene& scene, ResolvedScene& record) {
+  Names names = contact_names(scene), seams;
   for (Table& table : tables_of(top, "seams")) {
     SeamSpec seam;
     seam.place = table.place();

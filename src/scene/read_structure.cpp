@@ -42,7 +42,7 @@ std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
     const toml::array& array = *node->as_array();
     if (array.size() != pieces) {
       table.fail("elements", fmt::format("found {}, expected one number, or one for each of the {}",
-                                         describe(*node), base::count_of(pieces, "piece")));
+                                         describe(*node), base::count_text(pieces, "piece")));
     }
     for (std::size_t i = 0; i < pieces; ++i) elements[i] = count(array[i]);
   } else if (node) {
@@ -70,7 +70,7 @@ void check_bar(const Table& table, const Member& member) {
 
 }  // namespace
 
-void read_nodes(Table& top, Scene& scene, RecordedScene& record) {
+void read_nodes(Table& top, Scene& scene, ResolvedScene& record) {
   Table nodes = top.child("nodes");
   for (const Entry& entry : entries_of(nodes.node())) {
     check_name(entry.name, entry.place(), nodes.path(entry.name));
@@ -80,7 +80,7 @@ void read_nodes(Table& top, Scene& scene, RecordedScene& record) {
   if (!scene.nodes.empty()) record.add("nodes", "[nodes]", nodes.record());
 }
 
-void read_lines(Table& top, Scene& scene, RecordedScene& record) {
+void read_lines(Table& top, Scene& scene, ResolvedScene& record) {
   Names names;
   for (const Node& node : scene.nodes) names.add(node.name);
   for (Table& table : tables_of(top, "lines")) {
@@ -123,8 +123,8 @@ void read_strains(Table& table, Member& member, const Scene& scene) {
   if (table.has("temperature") && !table.has("thermal_expansion"))
     table.fail("temperature", "needs thermal_expansion beside it");
   member.thermal_expansion = table.number("thermal_expansion");
-  member.temperature = read_standing_history(table, "temperature", scene);
-  member.initial_strain = read_standing_history(table, "initial_strain", scene);
+  member.temperature = read_number_or_history(table, "temperature", scene);
+  member.initial_strain = read_number_or_history(table, "initial_strain", scene);
 }
 
 /// Bend factors of a pipe, ASME B31: h = t R / r^2, flexibility 1.65 / h, in-plane intensification 0.9 / h^(2/3), not
@@ -144,10 +144,10 @@ Bend read_bend(Table& table, const Member& member, const Section& section, const
     const Node &a = scene.nodes[*nodes.index(member.nodes[i])],
                &b = scene.nodes[*nodes.index(member.nodes[i + 1])];
     const double half = 0.5 * std::hypot(b.x - a.x, b.y - a.y);
-    if (!(std::abs(radius) >= half * (1.0 - rounding::of_many)))
+    if (!(std::abs(radius) >= half * (1.0 - rounding::many_operations)))
       keys.fail("radius",
                 fmt::format("found {}, expected at least half the distance of \"{}\" and \"{}\", {:.9g}",
-                            base::shortest(radius), a.name, b.name, half));
+                            base::format_number(radius), a.name, b.name, half));
   }
   Bend bend = section.pipe_wall > 0.0 ? factors_of_pipe(section, radius) : Bend{radius};
   bend.flexibility = keys.optional_number("flexibility").value_or(bend.flexibility);
@@ -159,8 +159,8 @@ Bend read_bend(Table& table, const Member& member, const Section& section, const
 
 }  // namespace
 
-void read_members(Table& top, Scene& scene, RecordedScene& record) {
-  const Space space = space_of(scene);
+void read_members(Table& top, Scene& scene, ResolvedScene& record) {
+  const NameScope space = name_scope(scene);
   Names sections;
   for (const Section& section : scene.sections) sections.add(section.name);
   long total = 0;
@@ -226,8 +226,8 @@ double ring(double thickness, double inner_diameter) {
 double wall_within(Table& table, const char* key, double width, const char* of) {
   const double wall = table.number(key);
   if (!(2.0 * wall < width))
-    table.fail(key, fmt::format("found {}, expected less than half the {} {}", base::shortest(wall), of,
-                                base::shortest(width)));
+    table.fail(key, fmt::format("found {}, expected less than half the {} {}", base::format_number(wall), of,
+                                base::format_number(width)));
   return wall;
 }
 
@@ -267,8 +267,8 @@ Shape read_i(Table& table) {
   const double b = table.number("width"), h = table.number("height");
   const double t = wall_within(table, "flange", h, "height"), s = table.number("web"), between = h - 2.0 * t;
   if (!(s <= b))
-    table.fail("web",
-               fmt::format("found {}, expected at most the width {}", base::shortest(s), base::shortest(b)));
+    table.fail("web", fmt::format("found {}, expected at most the width {}", base::format_number(s),
+                                  base::format_number(b)));
   const double area = 2.0 * b * t + between * s;
   if (table.choice("axis") == "weak")
     return {area, (2.0 * t * b * b * b + between * s * s * s) / 12.0, 0.5 * b};
@@ -295,7 +295,7 @@ void read_shape(Table& table, const std::string& name, Section& section) {
 
 }  // namespace
 
-void read_sections(Table& top, Scene& scene, RecordedScene& record) {
+void read_sections(Table& top, Scene& scene, ResolvedScene& record) {
   Table sections = top.child("sections");
   for (const Entry& entry : entries_of(sections.node())) {
     check_name(entry.name, entry.place(), sections.path(entry.name));
@@ -363,10 +363,10 @@ std::string read_centre(Table& table, const std::string& name, Scene& scene, Nam
 
 }  // namespace
 
-void read_rigid(Table& top, Scene& scene, RecordedScene& record) {
+void read_rigid(Table& top, Scene& scene, ResolvedScene& record) {
   Names bodies;
   for (Table& table : tables_of(top, "rigid")) {
-    const Space space = space_of(scene);
+    const NameScope space = name_scope(scene);
     Names nodes = space.names;
     RigidBody body;
     body.name = table.text("name");

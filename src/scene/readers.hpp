@@ -17,63 +17,64 @@
 namespace signorini::scene {
 
 /// Names that can be referred to: nodes, or degrees of freedom of [matrices].
-struct Space {
+struct NameScope {
   bool matrices = false;
   Names names;
   std::unordered_map<std::string, std::vector<std::string>> groups;  ///< "BODY.GROUP": its nodes
   std::filesystem::path directory;                                   ///< directory of relative file names
 };
-[[nodiscard]] Space space_of(const Scene& scene);
+[[nodiscard]] NameScope name_scope(const Scene& scene);
 
 /// Directory of the scene's own file, in which relative file names are looked up.
 [[nodiscard]] std::filesystem::path directory_of(const Scene& scene);
 
-void read_units(Table& top, Scene& scene, RecordedScene& record);
-void read_run(Table& top, Scene& scene, RecordedScene& record);
+void read_units(Table& top, Scene& scene, ResolvedScene& record);
+void read_run(Table& top, Scene& scene, ResolvedScene& record);
 /// Part of [run]; `run` is that table.
 void read_initial(Table& run, Scene& scene);
-void read_damping(Table& top, Scene& scene, RecordedScene& record);
-void read_reduction(Table& top, Scene& scene, RecordedScene& record);
-void read_sections(Table& top, Scene& scene, RecordedScene& record);
-void read_nodes(Table& top, Scene& scene, RecordedScene& record);
-void read_lines(Table& top, Scene& scene, RecordedScene& record);
+void read_damping(Table& top, Scene& scene, ResolvedScene& record);
+void read_reduction(Table& top, Scene& scene, ResolvedScene& record);
+void read_sections(Table& top, Scene& scene, ResolvedScene& record);
+void read_nodes(Table& top, Scene& scene, ResolvedScene& record);
+void read_lines(Table& top, Scene& scene, ResolvedScene& record);
 /// After all named nodes, because meshes add nodes.
-void read_bodies(Table& top, Scene& scene, RecordedScene& record);
+void read_bodies(Table& top, Scene& scene, ResolvedScene& record);
 /// After the matrices.
-void read_surfaces(Table& top, Scene& scene, RecordedScene& record);
+void read_surfaces(Table& top, Scene& scene, ResolvedScene& record);
 /// After contacts, stops and pendulums, because seams add contacts.
-void read_seams(Table& top, Scene& scene, RecordedScene& record);
+void read_seams(Table& top, Scene& scene, ResolvedScene& record);
 /// Before tables that refer to centres, which may be new nodes.
-void read_rigid(Table& top, Scene& scene, RecordedScene& record);
-void read_members(Table& top, Scene& scene, RecordedScene& record);
-void read_masses(Table& top, Scene& scene, RecordedScene& record);
-void read_springs(Table& top, Scene& scene, RecordedScene& record);
-void read_supports(Table& top, Scene& scene, RecordedScene& record);
-void read_matrices(Table& top, Scene& scene, RecordedScene& record);
-void read_contacts(Table& top, Scene& scene, RecordedScene& record);
+void read_rigid(Table& top, Scene& scene, ResolvedScene& record);
+void read_members(Table& top, Scene& scene, ResolvedScene& record);
+void read_masses(Table& top, Scene& scene, ResolvedScene& record);
+void read_springs(Table& top, Scene& scene, ResolvedScene& record);
+void read_supports(Table& top, Scene& scene, ResolvedScene& record);
+void read_matrices(Table& top, Scene& scene, ResolvedScene& record);
+void read_contacts(Table& top, Scene& scene, ResolvedScene& record);
 /// After the contacts: each stop adds two contacts.
-void read_stops(Table& top, Scene& scene, RecordedScene& record);
+void read_stops(Table& top, Scene& scene, ResolvedScene& record);
 /// After the stops: each pendulum adds a contact, a spring and two stops.
-void read_pendulums(Table& top, Scene& scene, RecordedScene& record);
-void read_loads(Table& top, Scene& scene, RecordedScene& record);
+void read_pendulums(Table& top, Scene& scene, ResolvedScene& record);
+void read_loads(Table& top, Scene& scene, ResolvedScene& record);
 /// After all tables that outputs refer to.
-void read_outputs(Table& top, Scene& scene, RecordedScene& record);
-void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
+void read_outputs(Table& top, Scene& scene, ResolvedScene& record);
+void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
 
 /// Reads a vector [x, y] and normalises it.
 [[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);
 /// The name of a node, required.
-[[nodiscard]] std::string read_node(Table& table, std::string_view key, const Space& space);
+[[nodiscard]] std::string read_node(Table& table, std::string_view key, const NameScope& space);
 /// Node names with "P0..P9", "P0..P9:3" and groups "BODY.GROUP" expanded; recorded as given.
 [[nodiscard]] std::vector<std::string> read_node_names(Table& table, std::string_view key,
-                                                       const Space& space);
+                                                       const NameScope& space);
 /// Reads `node` or `nodes`; one of the two is required.
-[[nodiscard]] std::vector<std::string> read_one_or_more_nodes(Table& table, const Space& space);
+[[nodiscard]] std::vector<std::string> read_one_or_more_nodes(Table& table, const NameScope& space);
 /// With [nodes] a unit vector (the node's name is left empty); with [matrices] degrees of freedom by name, or the name
 /// of a file with one column.
-[[nodiscard]] Direction read_direction(Table& table, std::string_view key, const Space& space);
+[[nodiscard]] Direction read_direction(Table& table, std::string_view key, const NameScope& space);
 /// The column of numbers in the Matrix Market file that the key names, `size` of them.
-[[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key, const Space& space);
+[[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key,
+                                                   const NameScope& space);
 
 /// A boundary of a body, "BODY.GROUP", with edges. Errors: SceneError that lists the existing groups.
 struct BoundaryRef {
@@ -86,8 +87,8 @@ struct BoundaryRef {
 /// A load's history: offset 0, amplitude 1. The scene provides the directory of files, t_end and the units.
 [[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key, const Scene& scene);
 /// A history outside a load: a number, or a table with offset and amplitude. Absent: the default, or zero.
-[[nodiscard]] HistorySpec read_standing_history(Table& table, std::string_view key, const Scene& scene);
-/// Same as read_standing_history; values may be in units of g.
+[[nodiscard]] HistorySpec read_number_or_history(Table& table, std::string_view key, const Scene& scene);
+/// Same as read_number_or_history; values may be in units of g.
 [[nodiscard]] HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& scene);
 [[nodiscard]] HistorySpec constant_history(double value);
 
@@ -100,12 +101,12 @@ struct BoundaryRef {
 /// Reads the spring and the dashpot along the tangent; to be called after the friction.
 void read_elements(Table& table, ContactSpec& contact);
 /// Refuses a normal force that would be tensile at any time of the run.
-void check_pressing(const Table& table, const HistorySpec& spec, double t_end);
+void check_applied_normal_force(const Table& table, const HistorySpec& spec, double t_end);
 /// The tangent (ny, -nx) of a normal.
 [[nodiscard]] Direction tangent_of(const Direction& normal);
 
 /// Names of all contacts read so far.
-[[nodiscard]] Names names_of(const Scene& scene);
+[[nodiscard]] Names contact_names(const Scene& scene);
 /// The given name, or the default name by number; recorded.
 [[nodiscard]] std::string read_contact_name(Table& table, const char* kind, std::size_t number);
 /// Adds the contact; refuses a name that another contact has.

@@ -13,7 +13,7 @@
 namespace signorini::scene {
 
 std::string toml_number(double value) {
-  std::string text = base::shortest(value);
+  std::string text = base::format_number(value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }
@@ -57,20 +57,20 @@ std::string toml_strings(const std::vector<std::string>& texts) {
   return toml_array(items);
 }
 
-Record Record::arranged(const std::vector<std::string>& order) const {
+ResolvedTable ResolvedTable::arranged(const std::vector<std::string>& order) const {
   std::unordered_map<std::string_view, std::size_t> ranks;
   for (const std::string& key : order) ranks.emplace(key, ranks.size());
   const auto rank = [&](const auto& item) {
     const auto found = ranks.find(item.first);
     return found == ranks.end() ? ranks.size() : found->second;
   };
-  Record result = *this;
+  ResolvedTable result = *this;
   std::stable_sort(result.items_.begin(), result.items_.end(),
                    [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   return result;
 }
 
-std::string Record::inline_table() const {
+std::string ResolvedTable::inline_table() const {
   if (items_.empty()) return "{}";
   std::string result;
   for (const auto& [key, value] : items_)
@@ -78,17 +78,17 @@ std::string Record::inline_table() const {
   return result + " }";
 }
 
-std::string Record::lines() const {
+std::string ResolvedTable::lines() const {
   std::string result;
   for (const auto& [key, value] : items_) result += toml_key(key) + " = " + value + "\n";
   return result;
 }
 
-void RecordedScene::add(std::string_view table, std::string header, const Record& record) {
+void ResolvedScene::add(std::string_view table, std::string header, const ResolvedTable& record) {
   sections_.push_back({std::string(table), "\n" + std::move(header) + "\n" + record.lines()});
 }
 
-std::string RecordedScene::text(const std::vector<std::string>& order) const {
+std::string ResolvedScene::text(const std::vector<std::string>& order) const {
   const auto rank = [&](const Section& section) {
     return std::find(order.begin(), order.end(), section.table) - order.begin();
   };

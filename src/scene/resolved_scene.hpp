@@ -25,11 +25,11 @@ namespace signorini::scene {
 [[nodiscard]] std::string toml_strings(const std::vector<std::string>& texts);
 
 /// Keys and TOML values in the order of reading.
-class Record {
+class ResolvedTable {
  public:
   void set(std::string_view key, std::string value) { items_.emplace_back(key, std::move(value)); }
   /// A copy with these keys first, in this order.
-  [[nodiscard]] Record arranged(const std::vector<std::string>& order) const;
+  [[nodiscard]] ResolvedTable arranged(const std::vector<std::string>& order) const;
   [[nodiscard]] std::string inline_table() const;  ///< { a = 1.0, b = 2.0 }
   [[nodiscard]] std::string lines() const;         ///< a = 1.0 \n b = 2.0 \n
 
@@ -38,12 +38,12 @@ class Record {
 };
 
 /// The sections of a scene file; sections of one top-level table stay together.
-class RecordedScene {
+class ResolvedScene {
  public:
-  Record top;  ///< schema, title, units, gravity
+  ResolvedTable top;  ///< schema, title, units, gravity
 
   /// `table` is the top-level key, `header` the whole line: "[sections.pipe]".
-  void add(std::string_view table, std::string header, const Record& record);
+  void add(std::string_view table, std::string header, const ResolvedTable& record);
   /// Tables in `order` (top-level keys as in the file), then all others.
   [[nodiscard]] std::string text(const std::vector<std::string>& order) const;
 

@@ -22,18 +22,18 @@ std::string contact_in(const std::string& name, std::string_view end) {
 }
 
 /// Reads states and memories of user laws. False: the column is something else.
-bool take_own(const std::string& name, double value, std::vector<SavedState::Own>& own) {
+bool take_own(const std::string& name, double value, std::vector<SavedState::UserLawMemory>& own) {
   if (!name.ends_with(of_own) && !name.ends_with(of_memory)) return false;
   const bool memory = name.ends_with(of_memory);
   const std::string contact = contact_in(name, memory ? of_memory : of_own);
-  auto found =
-      std::find_if(own.begin(), own.end(), [&](const SavedState::Own& o) { return o.contact == contact; });
+  auto found = std::find_if(own.begin(), own.end(),
+                            [&](const SavedState::UserLawMemory& o) { return o.contact == contact; });
   if (found == own.end()) found = own.insert(own.end(), {contact});
   if (memory)
     found->memory = value;
   else
     found->state =
-        value >= 0.0 && value < most_own_states ? static_cast<std::size_t>(value) : most_own_states;
+        value >= 0.0 && value < max_user_law_states ? static_cast<std::size_t>(value) : max_user_law_states;
   return true;
 }
 
@@ -80,13 +80,13 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
         time = *value;
       else if (names[i].ends_with(of_shear))
         state.shears.emplace_back(contact_in(names[i], of_shear), *value);
-      else if (!take_own(names[i], *value, state.own))
+      else if (!take_own(names[i], *value, state.user_law_states))
         state.motions.emplace_back(names[i], *value);
     }
     state.t = time;
-    found.times.push_back(base::shortest(time));
+    found.times.push_back(base::format_number(time));
     // The file has the run's digits; the scene may have fewer.
-    if (!t || std::abs(time - *t) <= 1e-9 * std::abs(*t)) found.wanted = std::move(state);
+    if (!t || std::abs(time - *t) <= 1e-9 * std::abs(*t)) found.state = std::move(state);
   }
   return found;
 }
@@ -96,8 +96,8 @@ namespace {
 const std::vector<std::string> heading = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"};
 
 /// nullopt: a cell is not a number.
-std::optional<SavedState::Left> row_of(const std::vector<std::string>& cells) {
-  SavedState::Left left;
+std::optional<SavedState::FinalContact> row_of(const std::vector<std::string>& cells) {
+  SavedState::FinalContact left;
   left.contact = cells[1];
   left.state = cells[2];
   if (!cells[3].empty() && !(left.gap = base::parse_number(cells[3]))) return std::nullopt;
@@ -112,24 +112,25 @@ std::optional<SavedState::Left> row_of(const std::vector<std::string>& cells) {
 
 }  // namespace
 
-std::vector<SavedState::Left> read_left_contacts(const std::filesystem::path& path, double t) {
+std::vector<SavedState::FinalContact> read_final_contacts(const std::filesystem::path& path, double t) {
   std::ifstream in(path, std::ios::binary);
   std::vector<std::string> cells;
-  std::vector<SavedState::Left> rows;
+  std::vector<SavedState::FinalContact> rows;
   if (!in || !base::read_csv_row(in, cells)) return {};
   if (cells.size() < heading.size() || !std::equal(heading.begin(), heading.end(), cells.begin())) return {};
   const std::size_t width = cells.size();
   while (base::read_csv_row(in, cells)) {
     const std::optional<double> time = base::parse_number(cells[0]);
-    if (cells.size() != width || !time || std::abs(*time - t) > rounding::of_few * std::abs(t)) continue;
-    std::optional<SavedState::Left> row = row_of(cells);
+    if (cells.size() != width || !time || std::abs(*time - t) > rounding::few_operations * std::abs(t))
+      continue;
+    std::optional<SavedState::FinalContact> row = row_of(cells);
     if (!row) return {};
     rows.push_back(std::move(*row));
   }
   return rows;
 }
 
-const std::vector<std::string>& frozen_heading() {
+const std::vector<std::string>& prestress_columns() {
   static const std::vector<std::string> heading = {"what", "from", "to", "N_from", "N_to", "stiffness"};
   return heading;
 }
@@ -142,9 +143,9 @@ std::optional<Prestress> read_prestress(const std::filesystem::path& path, const
     throw SceneError({path.string(), line, 0}, key, message);
   };
   std::vector<std::string> cells;
-  if (!base::read_csv_row(in, cells) || cells != frozen_heading())
+  if (!base::read_csv_row(in, cells) || cells != prestress_columns())
     fail(fmt::format("found no heading \"{}\", expected the frozen forces of a run",
-                     fmt::join(frozen_heading(), ",")));
+                     fmt::join(prestress_columns(), ",")));
   const auto number = [&](const std::string& cell) {
     const auto value = base::parse_number(cell);
     if (!value || !std::isfinite(*value))
@@ -154,8 +155,8 @@ std::optional<Prestress> read_prestress(const std::filesystem::path& path, const
   Prestress forces;
   while (base::read_csv_row(in, cells)) {
     ++line;
-    if (cells.size() != frozen_heading().size())
-      fail(fmt::format("found {} cells, expected {}", cells.size(), frozen_heading().size()));
+    if (cells.size() != prestress_columns().size())
+      fail(fmt::format("found {} cells, expected {}", cells.size(), prestress_columns().size()));
     if (cells[0] == "member")
       forces.elements.push_back({cells[1], cells[2], number(cells[3]), number(cells[4])});
     else if (cells[0] == "rigid")

@@ -26,7 +26,7 @@ inline constexpr const char* saved_alpha = "alpha";
 [[nodiscard]] std::optional<double> saved_motion(const SavedState& state, const std::string& name);
 
 struct SavedStates {
-  std::optional<SavedState> wanted;
+  std::optional<SavedState> state;
   std::vector<std::string> times;  ///< times of all states, as written in the file
 };
 
@@ -41,7 +41,8 @@ struct SavedStates {
 // A continued motion does not depend on these rows; the witness compares it with them (src/law_check).
 
 /// The rows at t. Empty: there are none, or the file is not that of a run.
-[[nodiscard]] std::vector<SavedState::Left> read_left_contacts(const std::filesystem::path& path, double t);
+[[nodiscard]] std::vector<SavedState::FinalContact> read_final_contacts(const std::filesystem::path& path,
+                                                                        double t);
 
 // Geometric.csv, the forces whose stiffness acted in a run with run.geometric.
 //
@@ -51,8 +52,8 @@ struct SavedStates {
 //
 // The file has one row for each finite element and each rigid body, in model order. A continued run reads them here.
 
-inline constexpr const char* frozen_file = "geometric.csv";
-[[nodiscard]] const std::vector<std::string>& frozen_heading();
+inline constexpr const char* prestress_file = "geometric.csv";
+[[nodiscard]] const std::vector<std::string>& prestress_columns();
 
 /// nullopt: the file does not exist. Errors: SceneError at the line of the file; `key` begins the message.
 [[nodiscard]] std::optional<Prestress> read_prestress(const std::filesystem::path& path,

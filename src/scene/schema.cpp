@@ -11,7 +11,7 @@ namespace signorini::scene {
 namespace {
 
 base::Json default_json(const Key& key) {
-  const toml::table parsed = toml::parse("value = " + std::string(key.fallback));
+  const toml::table parsed = toml::parse("value = " + std::string(key.default_value));
   return json_of(*parsed.get("value"));
 }
 
@@ -94,7 +94,7 @@ base::Json table_type(const Key& key) {
       return any_of(number_type(KeyType::number), reference(below(key)));
     case KeyType::history:
       return reference("history");
-    case KeyType::standing_history:
+    case KeyType::number_or_history:
       return any_of(number_type(KeyType::number), reference("history"));
     default:
       return reference(below(key));
@@ -146,7 +146,7 @@ base::Json value_type(const Key& key) {
     case KeyType::initial:
     case KeyType::friction:
     case KeyType::history:
-    case KeyType::standing_history:
+    case KeyType::number_or_history:
     case KeyType::term:
       return table_type(key);
     default:
@@ -161,7 +161,7 @@ base::Json key_schema(const Key& key) {
   if (json.contains("$ref")) json = {{"allOf", base::Json::array({json})}};
   json["description"] =
       std::string(key.meaning) + (key.unit.empty() ? "" : " Unit: " + std::string(key.unit) + ".");
-  if (!key.fallback.empty() && key.fallback != "required") json["default"] = default_json(key);
+  if (!key.default_value.empty() && key.default_value != "required") json["default"] = default_json(key);
   return json;
 }
 
@@ -173,7 +173,7 @@ base::Json table_schema(std::string_view table) {
     properties[name] = key_schema(key);
     // A user's name may equal that of a key.
     if (any) properties[name] = any_of(properties[name], value_type(*any));
-    if (key.fallback == "required") required.push_back(name);
+    if (key.default_value == "required") required.push_back(name);
   }
   base::Json json = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (any) json["additionalProperties"] = key_schema(*any);

@@ -44,8 +44,8 @@ const toml::node* default_of(const Key& key) {
   static const std::vector<toml::table> parsed = [] {
     std::vector<toml::table> all;
     for (const Key& row : all_keys()) {
-      const bool has_one = !row.fallback.empty() && row.fallback != "required";
-      all.push_back(has_one ? toml::parse(fmt::format("value = {}", row.fallback)) : toml::table());
+      const bool has_one = !row.default_value.empty() && row.default_value != "required";
+      all.push_back(has_one ? toml::parse(fmt::format("value = {}", row.default_value)) : toml::table());
     }
     return all;
   }();
@@ -153,8 +153,8 @@ const toml::node* Table::raw(std::string_view name) {
 
 const toml::node* Table::value(const Key& key, std::string_view name) {
   if (const toml::node* found = raw(name)) return found;
-  if (key.fallback == "required") require(name, "");
-  if (key.fallback.empty()) return nullptr;
+  if (key.default_value == "required") require(name, "");
+  if (key.default_value.empty()) return nullptr;
   return default_of(key);
 }
 
@@ -267,7 +267,7 @@ Table Table::child(std::string_view name) {
 
 void Table::require(std::string_view name, const std::string& why) {
   const Key& row = key(name);
-  if (has(name) || (!row.fallback.empty() && row.fallback != "required")) return;
+  if (has(name) || (!row.default_value.empty() && row.default_value != "required")) return;
   refuse(place_, path(name), fmt::format("missing{}, expected {}", why, describe_type(row)));
 }
 
@@ -293,7 +293,7 @@ void Table::finish(const std::string& why) const {
     if (!is_read(*entry.node)) refuse(entry.place(), path(entry.name), why);
 }
 
-Record Table::record() const {
+ResolvedTable Table::record() const {
   std::vector<std::string> order;
   for (const Entry& entry : entries_of(*node_)) order.push_back(entry.name);
   return record_.arranged(order);

@@ -66,7 +66,7 @@ class Table {
 
   void record(std::string_view key, std::string value) { record_.set(key, std::move(value)); }
   /// Values read: keys in the order of the file, then defaults.
-  [[nodiscard]] Record record() const;
+  [[nodiscard]] ResolvedTable record() const;
 
  private:
   const Key& key(std::string_view name) const;
@@ -77,7 +77,7 @@ class Table {
   std::string kind_, path_;
   SourcePlace place_;
   std::vector<const toml::node*> read_;
-  Record record_;
+  ResolvedTable record_;
 };
 
 /// The tables under [[key]] of the top level; messages call them "contacts.first" by name, or "loads.1".

@@ -60,7 +60,7 @@ std::string describe(const toml::node& node) {
   if (const auto* value = node.as_floating_point()) return "the number " + toml_number(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "the boolean true" : "the boolean false";
   if (const auto* array = node.as_array()) {
-    return "an array of " + base::count_of(array->size(), "value");
+    return "an array of " + base::count_text(array->size(), "value");
   }
   if (node.is_table()) return "a table";
   return "a date or time";
@@ -84,7 +84,7 @@ std::vector<Entry> entries_of(const toml::table& table) {
 
 std::string scene_text(const std::string& path) {
   constexpr std::size_t longest_file = 64u << 20;
-  if (const std::string why = base::why_no_input_file(path); !why.empty())
+  if (const std::string why = base::input_file_error(path); !why.empty())
     throw FileError(path, why + ", expected a scene file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);

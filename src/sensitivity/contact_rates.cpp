@@ -132,16 +132,16 @@ LawRates law_rates(const Contact& contact, std::size_t c, const ContactState& st
 void check_tangent_laws(const Scene& scene, const Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    const bool rises = c.friction.rises();
+    const bool rises = c.friction.is_rate_strengthening();
     const bool remembers = c.law->has_memory();
     const bool multiplies = !c.law->capabilities.linear_guards;
-    const char* what = remembers                    ? "a law of contact with a memory"
-                       : multiplies                 ? "a law of contact whose guards hold products"
-                       : c.curved_surface()         ? "a pendulum whose normal force varies"
-                       : rises && c.sliding_point() ? "friction that rises with the slip rate beside a "
-                                                      "tangential_stiffness"
-                       : c.friction.by_force()      ? contact::named_friction(c)
-                       : c.compliance_split()       ? "a rigid contact on parts without mass"
+    const char* what = remembers                        ? "a law of contact with a memory"
+                       : multiplies                     ? "a law of contact whose guards hold products"
+                       : c.curved_surface()             ? "a pendulum whose normal force varies"
+                       : rises && c.sliding_point()     ? "friction that rises with the slip rate beside a "
+                                                          "tangential_stiffness"
+                       : c.friction.is_load_dependent() ? contact::friction_description(c)
+                       : c.compliance_split()           ? "a rigid contact on parts without mass"
                        : rises && c.takes_impulses()
                            ? "friction that rises with the slip rate at a rigid contact"
                            : nullptr;

@@ -16,7 +16,7 @@ std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.step == StepControl::doubling) return "the lengths of steps follow their errors";
   if (linear::has_massless(model)) return "parts without mass have no discrete derivative";
   for (const Contact& c : model.contacts)
-    if (contact::friction_varies(c)) return std::string("there is ") + contact::named_friction(c);
+    if (contact::friction_varies(c)) return std::string("there is ") + contact::friction_description(c);
   return {};
 }
 
@@ -49,8 +49,8 @@ DiscreteRun::DiscreteRun(const Model& model, const RunSpec& run,
 
 void DiscreteRun::stop(const std::string& reason, double t) {
   for (TangentState& state : states_)
-    if (std::exchange(state.alive, false)) {
-      state.until = t;
+    if (std::exchange(state.valid, false)) {
+      state.valid_until = t;
       state.reason = reason;
     }
 }
@@ -58,12 +58,12 @@ void DiscreteRun::stop(const std::string& reason, double t) {
 void DiscreteRun::begin(const run::RunInstant& start) {
   for (TangentState& state : states_) {
     const ModelDerivative& d = state.derivative;
-    Moved& moved = moved_.emplace_back();
+    NodeDerivative& moved = node_derivatives_.emplace_back();
     moved.u = d.u0;
     moved.v = d.v0;
     moved.a = Vector::Zero(model_.size());
     moved.forces = Vector::Zero(model_.force_count());
-    const ForcingRatesSeries series = forcing_at(moved_.size() - 1, 0.0);
+    const ForcingRatesSeries series = forcing_at(node_derivatives_.size() - 1, 0.0);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = d.contacts[c];
@@ -89,7 +89,7 @@ void DiscreteRun::factorise(double h) {
   if (factored_ == h) return;
   const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
   const bool done =
-      matrix_.set(linear::rows_of(model_, mode_),
+      matrix_.set(linear::rows_of(model_, contact_states_),
                   std::vector<linear::Weights>(static_cast<std::size_t>(model_.size()), weights), true);
   factored_ = done ? h : -1.0;
   if (!done) stop("the matrix of a step is singular", node_.t);
@@ -105,7 +105,7 @@ DiscreteRun::Node DiscreteRun::redone(const motion::Forcing& forcing, double t) 
 
 /// Derivative of a contact's motion at a node, along the moving node.
 ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const motion::Forcing& forcing, const Node& at,
-                                 const Moved& moved, const ForcingRatesSeries& series) const {
+                                 const NodeDerivative& moved, const ForcingRatesSeries& series) const {
   const Contact& contact = model_.contacts[c];
   const DrivenRates driven = driven_rates(series, 1.0, c, 0.0);
   ContactMotion m = parameter_rate(contact, states_[p].derivative.contacts[c], model_.layout, c,
@@ -120,7 +120,7 @@ ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const motion::For
 
 /// The contacts' right-hand sides; `known`: without contributions of the new accelerations and forces.
 void DiscreteRun::add_rows(std::size_t p, const motion::Forcing& forcing, const Ends& ends,
-                           const Moved& known) {
+                           const NodeDerivative& known) {
   const ModelDerivative& d = states_[p].derivative;
   const motion::Point& end = ends.to.point;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -130,11 +130,11 @@ void DiscreteRun::add_rows(std::size_t p, const motion::Forcing& forcing, const 
     rates.tangent.add_to(x_, -end.T(model_.layout, c));
     const ContactMotion m = motion::motion_of(contact, c, forcing, ends.to.t, end);
     const ContactMotion D = along(p, c, forcing, ends.to, known, ends.forcing);
-    const Rows row = contact::rows(contact, mode_[c]);
-    const Rows& by = rates.rows[index_of(mode_[c].state)];
+    const Rows row = contact::rows(contact, contact_states_[c]);
+    const Rows& by = rates.rows[index_of(contact_states_[c].state)];
     double r = row.normal.rate(D) + by.normal.value(m), q = row.tangent.rate(D) + by.tangent.value(m);
-    if (mode_[c].state == State::stick && contact.tangential_stiffness)
-      q += rates.tangential_stiffness * mode_[c].anchor +
+    if (contact_states_[c].state == State::stick && contact.tangential_stiffness)
+      q += rates.tangential_stiffness * contact_states_[c].anchor +
            *contact.tangential_stiffness * ends.moved.anchors[c];
     const auto n = static_cast<Eigen::Index>(model_.size());
     x_[n + static_cast<Eigen::Index>(model_.layout.normal(c))] = -r;
@@ -142,14 +142,15 @@ void DiscreteRun::add_rows(std::size_t p, const motion::Forcing& forcing, const 
   }
 }
 
-DiscreteRun::Moved DiscreteRun::advance(std::size_t p, const motion::Forcing& forcing, const Ends& ends,
-                                        double Dt) {
+DiscreteRun::NodeDerivative DiscreteRun::advance(std::size_t p, const motion::Forcing& forcing,
+                                                 const Ends& ends, double Dt) {
   const ModelDerivative& d = states_[p].derivative;
   const double h = ends.to.t - ends.from.t, Dh = Dt - ends.moved.t;
   const motion::Point &a = ends.from.point, &b = ends.to.point;
-  const Moved& from = ends.moved;
+  const NodeDerivative& from = ends.moved;
   factorise(h);
-  Moved known{Dt, {}, {}, Vector::Zero(model_.size()), Vector::Zero(from.forces.size()), from.anchors};
+  NodeDerivative known{Dt,          {}, {}, Vector::Zero(model_.size()), Vector::Zero(from.forces.size()),
+                       from.anchors};
   if (factored_ != h) return known;
   known.u = from.u + h * from.v + 0.25 * h * h * from.a + Dh * (a.v + 0.5 * h * (a.a + b.a));
   known.v = from.v + 0.5 * h * from.a + 0.5 * Dh * (a.a + b.a);
@@ -179,14 +180,14 @@ double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& 
   }
   const auto& first = step.step.triggered.front();
   const std::size_t c = first.contact;
-  const ContactState& state = mode_[c];
+  const ContactState& state = contact_states_[c];
   const auto forms = contact::guards(model_.contacts[c], state);
   std::size_t i = 0;
   while (i + 1 < forms.size() && forms[i].kind != first.guard) ++i;
   const Form& by = states_[p].derivative.contacts[c].guards[index_of(state.state)][i];
   const ContactMotion m = motion::motion_of(model_.contacts[c], c, step.forcing, ends.to.t, ends.to.point);
   const auto guard = [&](double Dt) {
-    const Moved moved = advance(p, step.forcing, ends, Dt);
+    const NodeDerivative moved = advance(p, step.forcing, ends, Dt);
     return forms[i].form.rate(along(p, c, step.forcing, ends.to, moved, ends.forcing)) + by.value(m);
   };
   const double h = ends.to.t - ends.from.t;
@@ -197,14 +198,14 @@ double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& 
 /// Row between nodes: the step redone to that time, which does not move.
 void DiscreteRun::row(const run::RunStep& step, double t) {
   const Node at = redone(step.forcing, t);
-  TangentSample sample{t, step.forcing, mode_, point_of(at.point), {}, {}, {}, {}};
+  TangentSample sample{t, step.forcing, contact_states_, point_of(at.point), {}, {}, {}, {}};
   for (std::size_t p = 0; p < states_.size(); ++p) {
     sample.tangents.emplace_back();
     sample.driven.emplace_back();
-    sample.anchors.push_back(moved_[p].anchors);
-    if (!states_[p].alive) continue;
+    sample.anchors.push_back(node_derivatives_[p].anchors);
+    if (!states_[p].valid) continue;
     const ForcingRatesSeries series = forcing_at(p, t);
-    const Moved moved = advance(p, step.forcing, {node_, at, moved_[p], series}, 0.0);
+    const NodeDerivative moved = advance(p, step.forcing, {node_, at, node_derivatives_[p], series}, 0.0);
     sample.tangents.back() = {moved.u, moved.v, moved.a, moved.forces, Vector::Zero(moved.forces.size())};
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       sample.driven.back().push_back(driven_rates(series, 1.0, c, 0.0));
@@ -215,15 +216,15 @@ void DiscreteRun::row(const run::RunStep& step, double t) {
 void DiscreteRun::step(const run::RunStep& step) {
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_) row(step, grid_[next_]);
   const Node end = redone(step.forcing, step.step.end);
-  std::vector<Moved> next = moved_;
+  std::vector<NodeDerivative> next = node_derivatives_;
   for (std::size_t p = 0; p < states_.size(); ++p) {
-    if (!states_[p].alive) continue;
+    if (!states_[p].valid) continue;
     const ForcingRatesSeries series = forcing_at(p, end.t);
-    const Ends ends{node_, end, moved_[p], series};
+    const Ends ends{node_, end, node_derivatives_[p], series};
     next[p] = advance(p, step.forcing, ends, end_of(p, step, ends));
   }
   node_ = end;
-  moved_ = std::move(next);
+  node_derivatives_ = std::move(next);
 }
 
 /// Velocities after a hit.
@@ -237,11 +238,11 @@ void DiscreteRun::hit(std::size_t p, const run::RunInstant& now) {
   const ForcingRatesSeries series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
     surface.push_back(driven_rates(series, 1.0, c, 0.0).surface[1] +
-                      moved_[p].t * now.forcing_before.surface(c, now.t, 2));
-  ImpactRates rates = impact_rates(systems_, states_[p].derivative, now.mode_before, now.after, now.v_before,
-                                   moved_[p].v, surface);
+                      node_derivatives_[p].t * now.forcing_before.surface(c, now.t, 2));
+  ImpactRates rates = impact_rates(systems_, states_[p].derivative, now.states_before, now.after,
+                                   now.v_before, node_derivatives_[p].v, surface);
   if (!rates.known) return stop("the equations of the impact are singular", now.t);
-  moved_[p].v = std::move(rates.v);
+  node_derivatives_[p].v = std::move(rates.v);
   impulse_n_[p] = std::move(rates.normal);
   impulse_t_[p] = std::move(rates.tangent);
 }
@@ -251,19 +252,20 @@ void DiscreteRun::hold(std::size_t p, const run::RunInstant& now) {
   const ForcingRatesSeries series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const ContactState &old = now.mode_before[c], &state = now.after.mode[c];
+    const ContactState &old = now.states_before[c], &state = now.after.states[c];
     if (!contact.tangential_stiffness || state.state != State::stick) continue;
     if (old.state == State::stick && old.anchor == state.anchor) continue;
     const ContactMotion m = motion::motion_of(contact, c, now.forcing_before, now.t, node_.point);
-    const ContactMotion D = along(p, c, now.forcing_before, node_, moved_[p], series);
-    moved_[p].anchors[c] = slip_by(contact, states_[p].derivative.contacts[c], m, D);
+    const ContactMotion D = along(p, c, now.forcing_before, node_, node_derivatives_[p], series);
+    node_derivatives_[p].anchors[c] = slip_derivative(contact, states_[p].derivative.contacts[c], m, D);
   }
 }
 
-void DiscreteRun::fill(std::size_t p, const run::RunInstant& now, const Node& before, const Moved& was) {
+void DiscreteRun::fill(std::size_t p, const run::RunInstant& now, const Node& before,
+                       const NodeDerivative& was) {
   TangentState& state = states_[p];
   const ForcingRatesSeries series = forcing_at(p, now.t);
-  const Moved& is = moved_[p];
+  const NodeDerivative& is = node_derivatives_[p];
   state.dt = is.t;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
@@ -271,7 +273,7 @@ void DiscreteRun::fill(std::size_t p, const run::RunInstant& now, const Node& be
     const ContactMotion to = along(p, c, now.forcing_after, node_, is, series);
     EventRates& rates = state.rates[c];
     rates.t = is.t;
-    rates.gap = contact.gap_if_any(to.gap).value_or(rates.gap);
+    rates.gap = contact.optional_gap(to.gap).value_or(rates.gap);
     rates.N = from.N;
     rates.T = from.T;
     rates.vn = from.vn;
@@ -288,18 +290,18 @@ void DiscreteRun::fill(std::size_t p, const run::RunInstant& now, const Node& be
 
 void DiscreteRun::pass(const run::RunInstant& now) {
   const Node before = node_;
-  const std::vector<Moved> was = moved_;
+  const std::vector<NodeDerivative> was = node_derivatives_;
   for (std::size_t p = 0; p < states_.size(); ++p) {
-    if (!states_[p].alive) continue;
+    if (!states_[p].valid) continue;
     hit(p, now);
     hold(p, now);
   }
-  mode_ = now.after.mode;
+  contact_states_ = now.after.states;
   factored_ = -1.0;
   node_ = {now.t, {now.after.u, now.after.v, now.after.jet.forces.col(0), now.after.jet.a()}};
   newmark::NewmarkStep::Key key;
-  for (const State s : contact::states_of(mode_)) key.push_back(static_cast<int>(s));
-  step_.set(std::move(key), linear::rows_of(model_, mode_));
+  for (const State s : contact::states_of(contact_states_)) key.push_back(static_cast<int>(s));
+  step_.set(std::move(key), linear::rows_of(model_, contact_states_));
   const SeriesPoint from = point_of(before.point), to = point_of(node_.point);
   const motion::Series none;
   InstantMotion motion{now, from, to, none, {}, {}, {}, {}};
@@ -311,11 +313,11 @@ void DiscreteRun::pass(const run::RunInstant& now) {
     TangentState& state = states_[p];
     state.rates.assign(model_.contacts.size(), EventRates{});
     state.dt = EventRates::none;
-    if (!state.alive) continue;
+    if (!state.valid) continue;
     const ForcingRatesSeries series = forcing_at(p, now.t);
-    const Moved here = moved_[p];
-    moved_[p] = advance(p, now.forcing_after, {node_, node_, here, series}, here.t);
-    state.now.point.u = moved_[p].u - moved_[p].t * node_.point.v;
+    const NodeDerivative here = node_derivatives_[p];
+    node_derivatives_[p] = advance(p, now.forcing_after, {node_, node_, here, series}, here.t);
+    state.now.point.u = node_derivatives_[p].u - node_derivatives_[p].t * node_.point.v;
     fill(p, now, before, was[p]);
   }
   listener_.at_instant(motion, states_);
@@ -329,10 +331,11 @@ void DiscreteRun::instant(const run::RunInstant& instant) {
 /// An output row at the instant itself contains the values just after.
 void DiscreteRun::rows_at(const run::RunInstant& instant) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
-    TangentSample sample{grid_[next_], instant.forcing_after, mode_, point_of(node_.point), {}, {}, {}, {}};
+    TangentSample sample{
+        grid_[next_], instant.forcing_after, contact_states_, point_of(node_.point), {}, {}, {}, {}};
     for (std::size_t p = 0; p < states_.size(); ++p) {
-      const Moved& m = moved_[p];
-      const bool known = states_[p].alive && m.t == 0.0;  // at a moving instant a row has two sides
+      const NodeDerivative& m = node_derivatives_[p];
+      const bool known = states_[p].valid && m.t == 0.0;  // at a moving instant a row has two sides
       sample.tangents.push_back(known ? SeriesPoint{m.u, m.v, m.a, m.forces, Vector::Zero(m.forces.size())}
                                       : SeriesPoint{});
       sample.driven.emplace_back();

@@ -41,7 +41,7 @@ class DiscreteRun final : public run::RunListener {
     double t = 0.0;
     motion::Point point;
   };
-  struct Moved {
+  struct NodeDerivative {
     double t = 0.0;
     Vector u, v, a, forces;
     std::vector<double> anchors;
@@ -49,7 +49,7 @@ class DiscreteRun final : public run::RunListener {
   /// A step with known ends, for one parameter.
   struct Ends {
     const Node &from, &to;
-    const Moved& moved;
+    const NodeDerivative& moved;
     const ForcingRatesSeries& forcing;  ///< at the end of the step, with scale 1
   };
   struct Rest;
@@ -58,19 +58,21 @@ class DiscreteRun final : public run::RunListener {
   void factorise(double h);
   [[nodiscard]] Node redone(const motion::Forcing& forcing, double t);
   [[nodiscard]] ForcingRatesSeries forcing_at(std::size_t parameter, double t) const;
-  [[nodiscard]] Moved advance(std::size_t parameter, const motion::Forcing& forcing, const Ends& ends,
-                              double Dt);
-  void add_rows(std::size_t parameter, const motion::Forcing& forcing, const Ends& ends, const Moved& known);
+  [[nodiscard]] NodeDerivative advance(std::size_t parameter, const motion::Forcing& forcing,
+                                       const Ends& ends, double Dt);
+  void add_rows(std::size_t parameter, const motion::Forcing& forcing, const Ends& ends,
+                const NodeDerivative& known);
   [[nodiscard]] ContactMotion along(std::size_t parameter, std::size_t contact,
-                                    const motion::Forcing& forcing, const Node& at, const Moved& moved,
-                                    const ForcingRatesSeries& series) const;
+                                    const motion::Forcing& forcing, const Node& at,
+                                    const NodeDerivative& moved, const ForcingRatesSeries& series) const;
   [[nodiscard]] double end_of(std::size_t parameter, const run::RunStep& step, const Ends& ends);
   void row(const run::RunStep& step, double t);
   void hit(std::size_t parameter, const run::RunInstant& instant);
   void hold(std::size_t parameter, const run::RunInstant& instant);
   void pass(const run::RunInstant& instant);
   void rows_at(const run::RunInstant& instant);
-  void fill(std::size_t parameter, const run::RunInstant& instant, const Node& before, const Moved& was);
+  void fill(std::size_t parameter, const run::RunInstant& instant, const Node& before,
+            const NodeDerivative& was);
 
   const Model& model_;
   linear::SystemMatrices structure_;
@@ -83,9 +85,9 @@ class DiscreteRun final : public run::RunListener {
   newmark::NewmarkStep step_;
   linear::SystemMatrix matrix_;
   double factored_ = -1.0;  // step length of matrix_; -1: not factored
-  contact::ContactStates mode_;
+  contact::ContactStates contact_states_;
   Node node_;
-  std::vector<Moved> moved_;  // derivatives of node_, one per parameter
+  std::vector<NodeDerivative> node_derivatives_;  // derivatives of node_, one per parameter
   std::vector<std::vector<double>> impulse_n_, impulse_t_;
   Vector x_, work_;
 };

@@ -20,7 +20,7 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_iterations = 50;
-constexpr int most_restarts = 8;  // limit of restarts from the other side of a kink; chosen value
+constexpr int max_restarts = 8;  // limit of restarts from the other side of a kink; chosen value
 // Convergence limits for relative changes of the keys and of the sum of squares: above the rounding of the derivatives,
 // far below the resolution of measurements.
 constexpr double key_tolerance = 1e-9, gradient_tolerance = 1e-12, sum_tolerance = 0.0;
@@ -33,7 +33,7 @@ constexpr double opposite = 1e-3;
 constexpr double least_probability = 1e-6;
 // Without sigmas: largest norm of the residuals relative to the measured numbers. Chosen value: a wrong unit leaves
 // about 1.
-constexpr double most_left = 0.5;
+constexpr double max_left = 0.5;
 
 /// During its lifetime GSL returns errors instead of aborting.
 class GslErrorsReturned {
@@ -122,7 +122,7 @@ class Fitter {
     place_ = descend(problem_, start);
     iterations_ = place_.iterations;
     int restarts = 0;
-    while (look_beside() && ++restarts < most_restarts) {
+    while (look_beside() && ++restarts < max_restarts) {
     }
   }
 
@@ -138,7 +138,7 @@ class Fitter {
     for (std::size_t p = 0; p < result.keys.size() && !settled(); ++p)
       if (at_bound_[p]) bounds += (bounds.empty() ? "" : ", ") + result.keys[p].path;
     result.reason = bounds.empty() ? reason(known) : "at its bound: " + bounds + beyond;
-    if (!known || !settled()) result.doubts.push_back(result.reason);
+    if (!known || !settled()) result.issues.push_back(result.reason);
     if (known) take_keys(result);
     explain(result);
   }
@@ -165,7 +165,8 @@ class Fitter {
     for (std::size_t p = 0; p < keys.size(); ++p) {
       if (!here_.determined[p]) continue;
       const double sigma = std::sqrt(factor() * here_.covariance[p][p]);
-      const double near = std::max(sensitivity::FitProblem::beside * problem_.size()[p], of_sigma * sigma);
+      const double near =
+          std::max(sensitivity::FitProblem::kink_offset * problem_.size()[p], of_sigma * sigma);
       if (!(std::abs(keys[p] + here_.step[p] - place_.keys[p]) <= near)) return false;
     }
     return true;
@@ -180,7 +181,7 @@ class Fitter {
     for (std::size_t p = 0; p < problem_.keys(); ++p)
       for (const double side : {1.0, -1.0}) {
         std::vector<double> keys = place_.keys;
-        keys[p] += side * sensitivity::FitProblem::beside * problem_.size()[p];
+        keys[p] += side * sensitivity::FitProblem::kink_offset * problem_.size()[p];
         if (!problem_.complete(keys)) {
           walls_.emplace_back(p, side);
           continue;
@@ -241,7 +242,7 @@ class Fitter {
       result.keys[i].sigma = at_bound_[i] ? none : std::sqrt(result.covariance[i][i]);
     }
     if (!loose.empty())
-      result.doubts.push_back(
+      result.issues.push_back(
           fmt::format("the measurements do not determine {}: {} can be changed without a change of "
                       "what was measured; fix one, or measure something else",
                       loose, loose.find(',') == std::string::npos ? "it" : "they"));
@@ -254,7 +255,7 @@ class Fitter {
     if (measured_.has_sigma) {
       result.probability = gsl_cdf_chisq_Q(result.chi_squared, static_cast<double>(result.freedom));
       if (!(result.probability >= least_probability))
-        result.doubts.push_back(fmt::format(
+        result.issues.push_back(fmt::format(
             "chi squared is {:.3g} for {} degrees of freedom: the measurements are further from the run "
             "than their sigmas; {}, or leave sigma out",
             result.chi_squared, result.freedom, advice));
@@ -262,8 +263,8 @@ class Fitter {
     }
     const double measured = problem_.measured_norm();
     const double left = measured > 0.0 ? std::sqrt(result.chi_squared) / measured : 0.0;
-    if (!(left <= most_left))
-      result.doubts.push_back(fmt::format(
+    if (!(left <= max_left))
+      result.issues.push_back(fmt::format(
           "what is left is {:.2g} of what was measured: the run does not explain it; {}", left, advice));
   }
 
@@ -303,7 +304,7 @@ Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Me
   if (problem.failure()) std::rethrow_exception(problem.failure());
   if (problem.size().empty()) {  // before the first run
     result.reason = "it was interrupted";
-    result.doubts = {result.reason};
+    result.issues = {result.reason};
     result.residuals.assign(measured.rows.size(), EventRates::none);
     return result;
   }
@@ -311,7 +312,7 @@ Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Me
   fitter.run(start);
   fitter.take_into(result);
   for (std::size_t i = 0; i < problem.rows(); ++i) result.residuals.push_back(problem.residual(i));
-  result.converged = result.doubts.empty();
+  result.converged = result.issues.empty();
   result.runs = problem.runs();
   return result;
 }
@@ -341,7 +342,7 @@ class MeasuredTable {
     result.has_sigma = sigma_ != none;
     result.file = path_;
     for (line_ = 2; reader_.next_of_any_length(); ++line_) {
-      if (const std::string why = reader_.misfit(); !why.empty()) fail(line_, why);
+      if (const std::string why = reader_.row_length_error(); !why.empty()) fail(line_, why);
       if (event_ != none && !reader_.cell(event_).empty()) result.rows.push_back(event_row());
       add_columns(result.rows);
     }
@@ -371,7 +372,7 @@ class MeasuredTable {
                ? fmt::format("event_index: found {} again, expected each event once; it stands in line {}",
                              m.event, first->second)
                : fmt::format("{}: found t = {} again, expected each time once; it stands in line {}",
-                             base::excerpt(m.column), base::shortest(m.t), first->second));
+                             base::excerpt(m.column), base::format_number(m.t), first->second));
     }
   }
   [[nodiscard]] std::size_t place(const std::string& name) const {
@@ -389,7 +390,8 @@ class MeasuredTable {
   [[nodiscard]] double time() const {
     const double t = number_at(t_);
     if (t < 0.0)
-      fail_at(t_, fmt::format("found {}, expected a time from 0, the start of the run", base::shortest(t)));
+      fail_at(t_,
+              fmt::format("found {}, expected a time from 0, the start of the run", base::format_number(t)));
     return t;
   }
   [[nodiscard]] double sigma() const {

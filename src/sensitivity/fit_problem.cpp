@@ -56,7 +56,7 @@ void FitProblem::start(std::vector<double>& keys) {
     size_[p] = keys[p] != 0.0 ? std::abs(keys[p]) : steps_of_size * std::abs(last_.parameters[p].step);
   }
   std::size_t row = 0;
-  if (const std::string why = not_there(row); !why.empty()) refuse(row, "at the start " + why);
+  if (const std::string why = missing_quantity(row); !why.empty()) refuse(row, "at the start " + why);
   const std::string why = missing_rate();
   if (why.empty()) return;
   // Two events may coincide at the very start, as for equal contacts that begin with the same friction; beside it they
@@ -64,7 +64,7 @@ void FitProblem::start(std::vector<double>& keys) {
   for (std::size_t p = 0; p < keys.size(); ++p)
     for (const double side : {1.0, -1.0}) {
       std::vector<double> near = keys;
-      near[p] += side * beside * size_[p];
+      near[p] += side * kink_offset * size_[p];
       if (!run(near) || !complete(near)) continue;
       keys = near;
       return;
@@ -75,25 +75,25 @@ void FitProblem::start(std::vector<double>& keys) {
 bool FitProblem::residuals(const std::vector<double>& keys, gsl_vector& f) {
   if (!run(keys)) return false;
   for (std::size_t i = 0; i < rows(); ++i) {
-    const double rest = impossible_ ? EventRates::none : residual(i);
-    gsl_vector_set(&f, i, std::isfinite(rest) ? rest / measured_.rows[i].sigma : missing);
+    const double rest = scene_refused_ ? EventRates::none : residual(i);
+    gsl_vector_set(&f, i, std::isfinite(rest) ? rest / measured_.rows[i].sigma : missing_event_residual);
   }
   return true;
 }
 
 bool FitProblem::complete(const std::vector<double>& keys) {
   std::size_t row = 0;
-  return run(keys) && !impossible_ && not_there(row).empty() && missing_rate().empty();
+  return run(keys) && !scene_refused_ && missing_quantity(row).empty() && missing_rate().empty();
 }
 
 bool FitProblem::derivatives(const std::vector<double>& keys, gsl_matrix& J) {
   no_derivative_.clear();
   if (!complete(keys)) {
-    if (failure_ || impossible_) return false;
+    if (failure_ || scene_refused_) return false;
     no_derivative_ = missing_rate();
     std::vector<double> near = keys;
     for (std::size_t p = 0; p < near.size() && !known_.empty(); ++p)
-      near[p] += std::clamp(known_[p] - keys[p], -beside * size_[p], beside * size_[p]);
+      near[p] += std::clamp(known_[p] - keys[p], -kink_offset * size_[p], kink_offset * size_[p]);
     if (near == keys || !complete(near)) return false;
   }
   known_ = keys_;
@@ -112,7 +112,7 @@ double FitProblem::residual(std::size_t i) const {
   return has(m) ? last_.events[m.event - 1].t - m.value : EventRates::none;
 }
 
-std::string FitProblem::not_there(std::size_t& row) const {
+std::string FitProblem::missing_quantity(std::size_t& row) const {
   for (row = 0; row < rows(); ++row) {
     const Measurement& m = measured_.rows[row];
     if (m.event == 0) {
@@ -120,7 +120,7 @@ std::string FitProblem::not_there(std::size_t& row) const {
         return fmt::format("the run, which ends at t = {}, has no {} at {}", last_.report.outcome.t, m.column,
                            m.t);
     } else if (m.event > last_.events.size()) {
-      return fmt::format("the run has {}, and no event {}", base::count_of(last_.events.size(), "event"),
+      return fmt::format("the run has {}, and no event {}", base::count_text(last_.events.size(), "event"),
                          m.event);
     } else if (!has(m)) {
       const std::string what = m.type.empty() ? "an event" : m.type;
@@ -183,10 +183,10 @@ bool FitProblem::run(const std::vector<double>& keys) {
         sensitivities([&](const std::vector<Override>& changes) { return scene_at(keys, changes); }, paths_);
     for (const Measurement& m : measured_.rows)
       if (m.event == 0) static_cast<void>(place_of(m));
-    impossible_ = false;
+    scene_refused_ = false;
   } catch (const Error&) {  // no exception may pass through GSL's frames
     if (runs_ == 0) failure_ = std::current_exception();
-    impossible_ = true;
+    scene_refused_ = true;
   }
   ++runs_;
   return !failure_;
@@ -197,7 +197,7 @@ Scene FitProblem::scene_at(const std::vector<double>& keys, const std::vector<Ov
   for (std::size_t p = 0; p < paths_.size(); ++p) all.push_back(set_to(paths_[p], keys[p]));
   if (!times_.empty()) {
     std::string list;
-    for (const double t : times_) list += (list.empty() ? "[" : ", ") + base::shortest(t);
+    for (const double t : times_) list += (list.empty() ? "[" : ", ") + base::format_number(t);
     all.push_back({"run.output_times", list + "]"});
   }
   all.insert(all.end(), changes.begin(), changes.end());

@@ -20,10 +20,10 @@ namespace signorini::sensitivity {
 class FitProblem {
  public:
   /// In sigmas, for an event that a trial lacks: such a trial is never an improvement.
-  static constexpr double missing = 1e8;
+  static constexpr double missing_event_residual = 1e8;
   /// Distance to the other side of a kink, relative to a key's size. Far above the rounding of the derivatives, 1e-9,
   /// and of the keys at the end of a fit; far below the resolution of measurements.
-  static constexpr double beside = 1e-6;
+  static constexpr double kink_offset = 1e-6;
 
   /// All arguments must outlive the object.
   FitProblem(const SceneReader& read, const std::vector<std::string>& paths, const Measurements& measured,
@@ -52,7 +52,7 @@ class FitProblem {
   /// x_i - m_i of the last run; NaN: the run lacks it.
   [[nodiscard]] double residual(std::size_t row) const;
   /// A measured quantity that the last run lacks; empty: none. `row`: its row.
-  [[nodiscard]] std::string not_there(std::size_t& row) const;
+  [[nodiscard]] std::string missing_quantity(std::size_t& row) const;
   /// Throws an error at a row of the measurements.
   [[noreturn]] void refuse(std::size_t row, const std::string& message) const;
 
@@ -76,7 +76,7 @@ class FitProblem {
   std::exception_ptr failure_;
   std::string no_derivative_;
   int runs_ = 0;
-  bool impossible_ = false;  // the scene is refused with these keys
+  bool scene_refused_ = false;  // the scene is refused with these keys
 };
 
 // Linearised least-squares problem at one point.

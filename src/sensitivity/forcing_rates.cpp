@@ -131,7 +131,7 @@ Vector static_load_rate(const Model& model, const ModelDerivative& derivative) {
 
 std::optional<Vector> static_rate(const Model& model, const ModelDerivative& derivative) {
   Vector p = static_load_rate(model, derivative) - derivative.stiffness * model.u0;
-  std::vector<statics::HeldRow> rows;
+  std::vector<statics::ConstraintRow> rows;
   std::vector<double> places;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -141,7 +141,7 @@ std::optional<Vector> static_rate(const Model& model, const ModelDerivative& der
     const double moved = rates.gap + rates.normal.dot(model.u0);
     rates.normal.add_to(p, -N);
     if (contact.takes_impulses()) {
-      rows.push_back({contact.normal, statics::own_stiffness(model.stiffness, contact.normal), true});
+      rows.push_back({contact.normal, statics::structural_stiffness(model.stiffness, contact.normal), true});
       places.push_back(-moved);
     } else {
       const double kn_rate = -rates.rows[index_of(State::closed)].normal.gap;
@@ -162,9 +162,9 @@ std::optional<Vector> static_rate(const Model& model, const ModelDerivative& der
   for (std::size_t c = 0; !w && c < model.contacts.size(); ++c) {
     const Combination& tangent = model.contacts[c].tangent;
     if (tangent.terms.empty() ||
-        std::abs(tangent.dot(model.u0)) > rounding::of_elimination * model.u0.cwiseAbs().maxCoeff())
+        std::abs(tangent.dot(model.u0)) > rounding::elimination * model.u0.cwiseAbs().maxCoeff())
       continue;
-    rows.push_back({tangent, statics::own_stiffness(model.stiffness, tangent), true});
+    rows.push_back({tangent, statics::structural_stiffness(model.stiffness, tangent), true});
     places.push_back(-derivative.contacts[c].tangent.dot(model.u0));
     w = solve();
   }

@@ -12,30 +12,31 @@
 namespace signorini::sensitivity {
 
 /// Limit of alpha t for one part, as in engine/exact/modal/oscillators.hpp.
-inline constexpr double longest_decay_of_part = 4.0;
+inline constexpr double max_part_decay = 4.0;
 /// Limit of the constant part p/l relative to a mode's amplitude: costs three digits.
-inline constexpr double most_still = 4096.0;
+inline constexpr double max_static_ratio = 4096.0;
 class ModalStretch {
  public:
   virtual ~ModalStretch() = default;
-  virtual TangentsAt at(double t, bool whole) = 0;
-  [[nodiscard]] virtual TangentsAt motion(double t) const = 0;
+  virtual MotionAndTangents at(double t, bool whole) = 0;
+  [[nodiscard]] virtual MotionAndTangents motion(double t) const = 0;
 };
 
 template <class S>
 class ModalStretchOf final : public ModalStretch {
  public:
   ModalStretchOf(const Model& model, const std::vector<const ModelDerivative*>& derivatives,
-                 ModalStore& store, modal::ModalSystem& modes, std::shared_ptr<const modal::StateModes> state,
-                 const decide::Decision& decision, const motion::Forcing& forcing,
-                 std::vector<TangentSource> sources, const std::vector<Eigen::Index>& shown, double usual)
+                 TangentCache& store, modal::ModalSystem& modes,
+                 std::shared_ptr<const modal::StateModes> state, const decide::Decision& decision,
+                 const motion::Forcing& forcing, std::vector<TangentSource> sources,
+                 const std::vector<Eigen::Index>& shown, double usual)
       : model_(model),
         derivatives_(derivatives),
         store_(store),
         modes_(modes),
         state_(std::move(state)),
         spectrum_(state_->spectrum),
-        mode_(decision.mode),
+        states_(decision.states),
         forcing_(forcing),
         t_(decision.jet.t),
         begin_(decision.jet.t),
@@ -51,28 +52,28 @@ class ModalStretchOf final : public ModalStretch {
     rows_ = values.real.size() + values.pair.size();
     put(decision.u, decision.v, now_);
     set_forces();
-    choose_still();
+    choose_static_part();
     known_ = &states();
     for (std::size_t p = 0; p < sources_.size(); ++p) {
       Followed& f = followed_.emplace_back();
       if (sources_[p].start == nullptr) continue;
       put(sources_[p].start->u, sources_[p].start->v, f.now);
       f.modes = &known_->parameters[p];
-      dragged_ = dragged_ || !f.modes->g.empty();
+      has_damping_rates_ = has_damping_rates_ || !f.modes->g.empty();
       set_constant(p, f);
     }
   }
 
-  TangentsAt at(double t, bool whole) override {
-    const double longest = longest_decay_of_part / modes_.alpha();
+  MotionAndTangents at(double t, bool whole) override {
+    const double longest = max_part_decay / modes_.alpha();
     while (t - t_ > longest) advance(longest);
     if (t > t_) advance(t - t_);
     t_ = t;
     return at_end(whole);
   }
 
-  TangentsAt motion(double t) const override {
-    const double longest = longest_decay_of_part / modes_.alpha();
+  MotionAndTangents motion(double t) const override {
+    const double longest = max_part_decay / modes_.alpha();
     modal::ModalPoint at = now_, next;
     double from = t_;
     while (t > from) {
@@ -81,8 +82,8 @@ class ModalStretchOf final : public ModalStretch {
       std::swap(at, next);
       from = time < longest ? t : from + time;
     }
-    TangentsAt result;
-    const modal::Amplitudes bend = oscillators_.second(at, force_);
+    MotionAndTangents result;
+    const modal::Amplitudes bend = oscillators_.accelerations(at, force_);
     show(at, &bend, result.motion);
     forces_at(result);
     return result;
@@ -100,41 +101,41 @@ class ModalStretchOf final : public ModalStretch {
     spectrum_.to_modes(modes_.basis().amplitudes(v), out.rate);
   }
   void set_forces() {
-    force_ = modal::constant_forces(model_, *state_, mode_, forcing_, begin_);
+    force_ = modal::constant_forces(model_, *state_, states_, forcing_, begin_);
     p_ = modes_of<S>(force_);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       laws_.push_back(
-          modal::force_law(model_.contacts[c], mode_[c], forcing_.applied_normal_force(c, begin_, 0)));
+          modal::force_law(model_.contacts[c], states_[c], forcing_.applied_normal_force(c, begin_, 0)));
   }
 
   /// The constant part p/l of each mode, unless it is far larger than the motion.
-  void choose_still() {
+  void choose_static_part() {
     const std::vector<S> z = modes_of<S>(now_.z);
-    still_.assign(l_.size(), S(0.0));
+    static_part_.assign(l_.size(), S(0.0));
     soft_.assign(l_.size(), S(0.0));
     for (std::size_t k = 0; k < l_.size(); ++k) {
       const double size = modal::size_of(p_[k]);
       if (size == 0.0) continue;
-      if (size <= most_still * modal::size_of(l_[k]) * modal::size_of(z[k]))
-        still_[k] = p_[k] * modal::inverse(l_[k]);
+      if (size <= max_static_ratio * modal::size_of(l_[k]) * modal::size_of(z[k]))
+        static_part_[k] = p_[k] * modal::inverse(l_[k]);
       else
         soft_[k] = p_[k];
     }
   }
 
   [[nodiscard]] StateStore<S>& states() {
-    const std::vector<State> key = contact::states_of(mode_);
+    const std::vector<State> key = contact::states_of(states_);
     if (StateStore<S>* known = store_.find(key, S(0.0))) return *known;
-    StateRatesOf<S> of({model_, modes_, *state_, mode_, forcing_, begin_}, l_);
+    StateRates<S> of({model_, modes_, *state_, states_, forcing_, begin_}, l_);
     StateStore<S> made;
     made.shown = of.shown(shown_);
     for (std::size_t p = 0; p < sources_.size(); ++p) {
       ParameterModes<S>& m = made.parameters.emplace_back();
       if (sources_[p].start == nullptr) continue;
-      m = of.by(store_.open[p], derivatives_[p]->contacts, sources_[p]);
+      m = of.parameter_modes(store_.open[p], derivatives_[p]->contacts, sources_[p]);
       store_.bytes += (m.b.size() + m.g.size()) * sizeof(S);
     }
-    if (store_.bytes > most_bytes_of_states) {
+    if (store_.bytes > max_state_bytes) {
       store_.real.clear();
       store_.pairs.clear();
       store_.bytes = 0;
@@ -151,7 +152,7 @@ class ModalStretchOf final : public ModalStretch {
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = derivatives_[p]->contacts[c];
-      const LawRates at = law_rates(contact, c, mode_[c], rates, forcing_, begin_, source);
+      const LawRates at = law_rates(contact, c, states_[c], rates, forcing_, begin_, source);
       const double N = at.law.N(at.gap), T = at.law.T(at.gap, -at.surface);
       const double N_p = at.N_by(at.gap, at.gap_rate);
       const double T_p = at.T_by(at.gap, at.gap_rate, -at.surface, -at.surface_rate);
@@ -167,7 +168,7 @@ class ModalStretchOf final : public ModalStretch {
     }
     spectrum_.to_modes(q, f.force);
     std::vector<S> standing(l_.size(), S(0.0));
-    add_product(f.modes->b, still_, -1.0, standing);
+    add_product(f.modes->b, static_part_, -1.0, standing);
     add_modes(standing, f.force);
   }
 
@@ -188,7 +189,7 @@ class ModalStretchOf final : public ModalStretch {
     const double alpha = modes_.alpha();
     for (std::size_t k = 0; k < n; ++k) {
       a[k] = p_[k] - r[k] * alpha - z[k] * l_[k];
-      z[k] -= still_[k];
+      z[k] -= static_part_[k];
     }
     work_.driven.resize(n * n);
     work_.driven_rate.resize(n * n);
@@ -216,7 +217,7 @@ class ModalStretchOf final : public ModalStretch {
         work_.driven_rate[k * n + l] += pairs.S_row(k)[l] * soft_[l];
       }
     }
-    if (dragged_) drive(r, a, work_.dragging, work_.dragging_rate);
+    if (has_damping_rates_) drive(r, a, work_.dragging, work_.dragging_rate);
   }
 
   /// Free motion from one point with constant forces only.
@@ -296,18 +297,18 @@ class ModalStretchOf final : public ModalStretch {
   }
 
   [[nodiscard]] modal::Amplitudes second_of_tangent(const Followed& f) const {
-    modal::Amplitudes a = oscillators_.second(f.now, f.force);
+    modal::Amplitudes a = oscillators_.accelerations(f.now, f.force);
     std::vector<S> z = modes_of<S>(now_.z), drive(z.size(), S(0.0));
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= still_[k];
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= static_part_[k];
     add_product(f.modes->b, z, -1.0, drive);
     if (!f.modes->g.empty()) add_product(f.modes->g, modes_of<S>(now_.rate), -1.0, drive);
     add_modes(drive, a);
     return a;
   }
 
-  [[nodiscard]] TangentsAt at_end(bool whole) const {
-    TangentsAt result;
-    const modal::Amplitudes bend = oscillators_.second(now_, force_);
+  [[nodiscard]] MotionAndTangents at_end(bool whole) const {
+    MotionAndTangents result;
+    const modal::Amplitudes bend = oscillators_.accelerations(now_, force_);
     whole ? physical(now_, &bend, result.motion) : show(now_, &bend, result.motion);
     forces_at(result);
     for (std::size_t p = 0; p < followed_.size(); ++p) {
@@ -325,7 +326,7 @@ class ModalStretchOf final : public ModalStretch {
     return result;
   }
 
-  void forces_at(TangentsAt& at) const {
+  void forces_at(MotionAndTangents& at) const {
     SeriesPoint& m = at.motion;
     const auto rows = model_.force_count();
     m.forces.resize(rows);
@@ -353,7 +354,7 @@ class ModalStretchOf final : public ModalStretch {
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = derivatives_[p]->contacts[c];
-      const LawRates at = law_rates(contact, c, mode_[c], rates, forcing_, begin_, sources_[p]);
+      const LawRates at = law_rates(contact, c, states_[c], rates, forcing_, begin_, sources_[p]);
       const auto n = static_cast<Eigen::Index>(model_.layout.normal(c)),
                  t = static_cast<Eigen::Index>(model_.layout.tangent(c));
       const double gap = contact.gap_at(m.u), ut = contact.tangent.dot(m.u) - at.surface;
@@ -371,22 +372,22 @@ class ModalStretchOf final : public ModalStretch {
 
   const Model& model_;
   const std::vector<const ModelDerivative*>& derivatives_;
-  ModalStore& store_;
+  TangentCache& store_;
   modal::ModalSystem& modes_;
   std::shared_ptr<const modal::StateModes> state_;
   const modal::Spectrum& spectrum_;
-  const contact::ContactStates mode_;
+  const contact::ContactStates states_;
   const motion::Forcing forcing_;
   double t_, begin_;
   std::vector<TangentSource> sources_;
   modal::Oscillators oscillators_;
-  std::vector<S> l_, p_, still_, soft_;
+  std::vector<S> l_, p_, static_part_, soft_;
   std::size_t rows_;  // number of modes without conjugates, which follow from the others
   std::vector<modal::ForceLaw> laws_;
   modal::Amplitudes force_;
   modal::ModalPoint now_, moved_;
   std::vector<Followed> followed_;
-  bool dragged_ = false;
+  bool has_damping_rates_ = false;
   const std::vector<Eigen::Index>& shown_;
   double usual_;
   StateStore<S>* known_ = nullptr;

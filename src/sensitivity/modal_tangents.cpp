@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nothing_left = 1e-13;  // relative to C_p: rounding of C_p - alpha M_p
 
-bool stands_still(const ForcingRatesSeries& f) {
+bool has_constant_excitation(const ForcingRatesSeries& f) {
   const auto still = [&](const std::vector<double>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (i % f.count != 0 && rows[i] != 0.0) return false;
@@ -45,11 +45,11 @@ bool ModalTangents::start(modal::ModalSystem& modes, const decide::Decision& dec
   stretch_.reset();
   if (!modes.basis().failure().empty() || forcing.varies()) return false;
   for (const TangentSource& source : sources)
-    if (source.start != nullptr && !stands_still(source.forcing)) return false;
-  std::shared_ptr<const modal::StateModes> state = modes.state(decision.mode);
+    if (source.start != nullptr && !has_constant_excitation(source.forcing)) return false;
+  std::shared_ptr<const modal::StateModes> state = modes.state(decision.states);
   if (!state->spectrum.failure().empty()) return false;
   if (!store_) {
-    store_ = std::make_unique<ModalStore>();
+    store_ = std::make_unique<TangentCache>();
     for (const ModelDerivative* d : derivatives_) {
       OpenRates& open = store_->open.emplace_back();
       const auto in_modes = [&](const SparseMatrix& a) {
@@ -59,7 +59,7 @@ bool ModalTangents::start(modal::ModalSystem& modes, const decide::Decision& dec
       if (d->mass.nonZeros() > 0) open.mass = in_modes(d->mass);
       const SparseMatrix drag = d->damping - modes.alpha() * d->mass;
       if (drag.norm() > nothing_left * (d->damping.norm() + modes.alpha() * d->mass.norm()))
-        open.drag = in_modes(drag);
+        open.damping = in_modes(drag);
     }
   }
   if (state->spectrum.pairs().empty())
@@ -73,7 +73,7 @@ bool ModalTangents::start(modal::ModalSystem& modes, const decide::Decision& dec
   return true;
 }
 
-TangentsAt ModalTangents::at(double t, bool whole) { return stretch_->at(t, whole); }
-TangentsAt ModalTangents::motion(double t) const { return stretch_->motion(t); }
+MotionAndTangents ModalTangents::at(double t, bool whole) { return stretch_->at(t, whole); }
+MotionAndTangents ModalTangents::motion(double t) const { return stretch_->motion(t); }
 
 }  // namespace signorini::sensitivity

@@ -21,17 +21,17 @@
 namespace signorini::sensitivity {
 
 /// With more degrees of freedom, n^2 operations per row cost more than the series; chosen value.
-inline constexpr Eigen::Index most_modal_tangents = 600;
+inline constexpr Eigen::Index max_modal_tangent_dofs = 600;
 
 /// Motion and tangents of all parameters at one time.
-struct TangentsAt {
+struct MotionAndTangents {
   SeriesPoint motion;
   Vector force_bends;                 ///< second derivatives of the contact forces
   std::vector<SeriesPoint> tangents;  ///< one per parameter; empty vectors: not followed
 };
 
 class ModalStretch;
-struct ModalStore;
+struct TangentCache;
 
 class ModalTangents {
  public:
@@ -48,16 +48,16 @@ class ModalTangents {
                            const motion::Forcing& forcing, std::vector<TangentSource> sources);
   /// Values at t, not before the last t. whole: all degrees of freedom, with accelerations of tangents; otherwise only
   /// those of columns and contacts.
-  [[nodiscard]] TangentsAt at(double t, bool whole);
+  [[nodiscard]] MotionAndTangents at(double t, bool whole);
   /// Displayed values of the motion alone, without advancing.
-  [[nodiscard]] TangentsAt motion(double t) const;
+  [[nodiscard]] MotionAndTangents motion(double t) const;
 
  private:
   const Model& model_;
   std::vector<const ModelDerivative*> derivatives_;
   std::vector<Eigen::Index> shown_;
   double usual_;
-  std::unique_ptr<ModalStore> store_;
+  std::unique_ptr<TangentCache> store_;
   std::unique_ptr<ModalStretch> stretch_;
 };
 
@@ -66,7 +66,7 @@ class ModalTangents {
 //   per state: B and G of every parameter (state_rates.hpp), displayed rows of its modes, data of the usual step
 
 /// Limit of the storage; when it is exceeded, all states are dropped. Chosen value.
-inline constexpr std::size_t most_bytes_of_states = std::size_t{1} << 28;
+inline constexpr std::size_t max_state_bytes = std::size_t{1} << 28;
 
 template <class S>
 struct StateStore {
@@ -82,7 +82,7 @@ struct StepWorkspace {
   Square<S> driven, driven_rate, dragging, dragging_rate;
 };
 
-struct ModalStore {
+struct TangentCache {
   std::vector<OpenRates> open;
   std::map<std::vector<State>, StateStore<double>> real;
   std::map<std::vector<State>, StateStore<modal::Complex>> pairs;

@@ -9,7 +9,7 @@
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "model/build.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "sensitivity/forcing_rates.hpp"
 #include "sensitivity/parameter.hpp"
 
@@ -25,7 +25,7 @@ const Stencil& six_points() {
                          {2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0, 0.0, 0.0}};
   return s;
 }
-const Stencil& one_side() {
+const Stencil& one_sided_points() {
   static const Stencil s{{0, 1, 2, 3, 4, 5},
                          {-137.0 / 60.0, 5.0, -5.0, 10.0 / 3.0, -1.25, 0.2},
                          {-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25, 0.0}};
@@ -36,12 +36,12 @@ namespace {
 
 // Least number of coefficients of a piece, so that a zero coefficient has a place for its derivative: a cubic's
 // integral.
-constexpr std::size_t fewest_coefficients = 5;
+constexpr std::size_t min_coefficients = 5;
 
 HistoryRates numbers_of(const History& history) {
   HistoryRates numbers{history.starts(), history.pieces()};
   for (Piece& piece : numbers.pieces)
-    if (piece.coefficients.size() < fewest_coefficients) piece.coefficients.resize(fewest_coefficients, 0.0);
+    if (piece.coefficients.size() < min_coefficients) piece.coefficients.resize(min_coefficients, 0.0);
   return numbers;
 }
 
@@ -105,7 +105,7 @@ std::vector<long> shape_of(const Model& model) {
   std::vector<long> shape{static_cast<long>(model.dofs.size())};
   const auto history = [&](const History& h) {
     for (const Piece& piece : h.pieces())
-      shape.push_back(static_cast<long>(std::max(piece.coefficients.size(), fewest_coefficients)));
+      shape.push_back(static_cast<long>(std::max(piece.coefficients.size(), min_coefficients)));
     shape.push_back(-1);
   };
   for (const Dof& dof : model.dofs) shape.push_back(dof.massless);
@@ -144,7 +144,7 @@ namespace {
 
 constexpr double first_step = 1.0 / 512.0;  // relative to the size of the value
 constexpr double shorter = 1.0 / 16.0;
-constexpr int most_attempts = 3;
+constexpr int max_attempts = 3;
 // Relative agreement of both stencils; chosen value: fourth order leaves 1e-10 at the first step for data like 1/p or
 // sqrt(p), and a kink inside the stencil leaves a tenth.
 constexpr double agreement = 1e-6;
@@ -183,12 +183,12 @@ class Differences {
       moved_.clear();
       step_ = side * h;
       try {
-        take(one_side());
+        take(one_sided_points());
       } catch (const Error&) {
         continue;
       }
-      if (!agree(one_side())) continue;
-      ModelDerivative d = combined(one_side());
+      if (!agree(one_sided_points())) continue;
+      ModelDerivative d = combined(one_sided_points());
       d.one_sided = true;
       return d;
     }
@@ -210,9 +210,10 @@ class Differences {
       if (std::any_of(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; }))
         continue;
       const Scene scene = read_({set_to(path_, value_ + point * step_)});
-      Model model = model::rescaled(model::build_without_warnings(scene), scene::inverse(model_.machine));
+      Model model =
+          model::rescaled(model::build_without_warnings(scene), scene::inverse(model_.internal_units));
       check_ties(model);
-      take_weight(model_, model);
+      add_weight_load(model_, model);
       if (shape_of(model) != shape_ || !same_coordinates(model))
         throw SceneError({}, path_, "the structure of the model changes with it near its value");
       moved_.push_back({point, data_of(model), {}});
@@ -361,7 +362,7 @@ class Differences {
 
 }  // namespace
 
-void take_weight(const Model& from, Model& model) {
+void add_weight_load(const Model& from, Model& model) {
   const auto weighs = [](const Model& m) {
     return !m.loads.empty() && m.loads.front().kind == LoadKind::weight;
   };
@@ -378,7 +379,7 @@ ModelDerivative derivative(const SceneReader& read, const Model& model, const st
     if (start_follows && !follows) continue;
     Differences differences(read, model, path, value, start_follows);
     double h = first_step * size;
-    for (int attempt = 0; attempt < most_attempts; ++attempt, h *= shorter) {
+    for (int attempt = 0; attempt < max_attempts; ++attempt, h *= shorter) {
       auto d = differences.at(h);
       if (!d) continue;
       if (!start_follows) return *d;

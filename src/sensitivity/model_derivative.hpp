@@ -33,7 +33,7 @@ struct Stencil {
 /// Sixth order, checked by fourth order.
 [[nodiscard]] const Stencil& six_points();
 /// Fifth order, checked by fourth order; for the upper side; h is negative for the lower side.
-[[nodiscard]] const Stencil& one_side();
+[[nodiscard]] const Stencil& one_sided_points();
 
 /// Derivatives of a history's numbers, piece by piece. Empty: no change.
 struct HistoryRates {
@@ -78,7 +78,7 @@ struct ModelDerivative {
 };
 
 /// Gives a model without gravity a zero weight load, copied from one with gravity, as a place for its derivative.
-void take_weight(const Model& from, Model& model);
+void add_weight_load(const Model& from, Model& model);
 
 /// model: build_model(read({})), in the machine's units. Errors: SceneError and UsageError if the key cannot be varied,
 /// or if the data do not depend smoothly on it.

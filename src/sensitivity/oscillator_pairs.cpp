@@ -10,10 +10,10 @@ namespace {
 // Limit of m t^2 up to which a pair is a series in it, and limit from which a mode oscillates. If one of two modes does
 // not oscillate and one is not slow, they differ by at least a quarter of the larger one: l t^2 <= 4.1 and > 6.
 constexpr double slow_square = 6.0, turning_square = 0.09;
-constexpr int most_time_terms = 64;    // l t^2 <= 1 and alpha t <= 4: 40 are sufficient
-constexpr int most_series_terms = 24;  // 6^24 / 48! = 4e-43
-constexpr double small_angle = 0.25;   // limit for the series of sin(x)/x with seven terms: 0.36^14/15! =
-                                       // 5e-19
+constexpr int max_time_terms = 64;    // l t^2 <= 1 and alpha t <= 4: 40 are sufficient
+constexpr int max_series_terms = 24;  // 6^24 / 48! = 4e-43
+constexpr double small_angle = 0.25;  // limit for the series of sin(x)/x with seven terms: 0.36^14/15! =
+                                      // 5e-19
 
 double sine_of(double a) { return std::sin(a); }
 double cosine_of(double a) { return std::cos(a); }
@@ -24,7 +24,7 @@ modal::Complex cosine_of(modal::Complex a) {
   return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)};
 }
 double square_root(double a) { return std::sqrt(a); }
-modal::Complex square_root(modal::Complex a) { return modal::root_of(a); }
+modal::Complex square_root(modal::Complex a) { return modal::complex_sqrt(a); }
 
 double largest(double a) { return std::abs(a); }
 double largest(modal::Complex a) { return std::max(std::abs(a.re), std::abs(a.im)); }
@@ -66,7 +66,7 @@ typename OscillatorPairs<S>::Both OscillatorPairs<S>::near_zero(std::size_t k, s
   double factorial = 1.0;
   const double greatest = 1.5 * std::max(largest(x), largest(y));
   double bound = 1.0;  // j greatest^(j-1)
-  for (int j = 1; j < most_series_terms; ++j) {
+  for (int j = 1; j < max_series_terms; ++j) {
     power = x * power + last;
     last = last * y;
     factorial /= (2.0 * j) * (2.0 * j - 1.0);
@@ -124,7 +124,7 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
       continue;
     }
     S term(1.0), cosine(1.0), sine(1.0);
-    for (int j = 1; j < most_series_terms; ++j) {
+    for (int j = 1; j < max_series_terms; ++j) {
       term = term * m_[k] * (-square / ((2.0 * j) * (2.0 * j - 1.0)));
       cosine += term;
       sine += term * (1.0 / (2.0 * j + 1.0));
@@ -151,7 +151,7 @@ S OscillatorPairs<S>::h_of(std::size_t k) const {
   const double square = t_ * t_;
   if (modal::size_of(l_[k]) * square > 1.0) return (S(1.0) - c_[k]) * modal::inverse(l_[k]);
   S a(0.0), b(0.0), sum(0.0), force(square);  // coefficients j and j + 1
-  for (int j = 0; j < most_time_terms; ++j) {
+  for (int j = 0; j < max_time_terms; ++j) {
     const S next =
         (force - a * l_[k] * square) * (1.0 / ((j + 1.0) * (j + 2.0))) - b * (alpha_ * t_ / (j + 2.0));
     force = S(0.0);
@@ -170,7 +170,7 @@ S OscillatorPairs<S>::h_pair(std::size_t k, std::size_t l) const {
   if (largest(l_[k]) < largest(l_[l])) std::swap(k, l);
   if (modal::size_of(l_[k]) * square > 1.0) return -((C_row(k)[l] + h_[l]) * modal::inverse(l_[k]));
   S y0(0.0), y1(0.0), w0(0.0), w1(0.0), sum(0.0), force(square);  // coefficients j and j + 1
-  for (int j = 0; j < most_time_terms; ++j) {
+  for (int j = 0; j < max_time_terms; ++j) {
     const double pull = 1.0 / ((j + 1.0) * (j + 2.0)), drag = alpha_ * t_ / (j + 2.0);
     const S y2 = (force - y0 * l_[l] * square) * pull - y1 * drag;
     const S w2 = (w0 * l_[k] + y0) * (-square * pull) - w1 * drag;

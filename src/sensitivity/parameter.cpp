@@ -86,7 +86,7 @@ std::vector<std::string> parts_of(const std::string& path) {
 
 }  // namespace
 
-Override set_to(const std::string& path, double x) { return {path, base::shortest(x)}; }
+Override set_to(const std::string& path, double x) { return {path, base::format_number(x)}; }
 
 double value_of(const Scene& scene, const std::string& path) {
   toml::table root;
@@ -96,13 +96,13 @@ double value_of(const Scene& scene, const std::string& path) {
     fail_at(path, std::string("the resolved scene cannot be read: ") + std::string(error.description()));
   }
   std::set<double> found;
-  for (const std::string& meant : scene::paths_meant(root, path))
+  for (const std::string& meant : scene::matching_paths(root, path))
     numbers_at(root, parts_of(meant), 0, path, found);
   if (found.size() != 1) {
     const std::string met = scene::tables_met(root, path);
     fail_at(path, fmt::format("found {} numbers that differ, from {} to {}{}, expected one value to vary",
-                              found.size(), base::shortest(*found.begin()), base::shortest(*found.rbegin()),
-                              met.empty() ? "" : ", in " + met));
+                              found.size(), base::format_number(*found.begin()),
+                              base::format_number(*found.rbegin()), met.empty() ? "" : ", in " + met));
   }
   if (!std::isfinite(*found.begin())) fail_at(path, "expected a finite number");
   return *found.begin();

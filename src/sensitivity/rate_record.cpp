@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "run/physical.hpp"
+#include "run/scene_units.hpp"
 
 namespace signorini::sensitivity {
 namespace {
@@ -68,7 +68,7 @@ void RateRecord::sample(const Sample& s) {
   run::ForwardingRecorder::sample(s);
   result_.times.push_back(s.t);
   std::vector<double>& row = result_.values.emplace_back();
-  for (const Column& column : model_.columns) row.push_back(column.of(*s.u, *s.v));
+  for (const Column& column : model_.columns) row.push_back(column.value(*s.u, *s.v));
   for (const ContactSample& c : s.contacts)
     for (const double x : {c.N, c.T, c.ut, c.slip, c.gap}) row.push_back(x);
   if (!landings_) return;
@@ -77,7 +77,7 @@ void RateRecord::sample(const Sample& s) {
 
 void RateRecord::sample(const TangentSample& s, bool row, bool turn) {
   if (row) add_row(s);
-  for (std::size_t c = 0; turn && c < model_.contacts.size(); ++c) see_turn(s, c);
+  for (std::size_t c = 0; turn && c < model_.contacts.size(); ++c) update_at_turning_point(s, c);
   if (turn && landings_) landings_->turn(s);
 }
 
@@ -86,10 +86,10 @@ void RateRecord::add_row(const TangentSample& s) {
     std::vector<double>& row = result_.value_rates[p].emplace_back(result_.columns.size(), nothing);
     const SeriesPoint& w = s.tangents[p];
     if (w.u.size() == 0) continue;
-    const Vector u = run::physical(model_.physical(w.u), model_.physical_dofs(), 0, model_.unit);
-    const Vector v = run::physical(model_.physical(w.v), model_.physical_dofs(), 1, model_.unit);
+    const Vector u = run::to_scene_units(model_.physical(w.u), model_.physical_dofs(), 0, model_.unit);
+    const Vector v = run::to_scene_units(model_.physical(w.v), model_.physical_dofs(), 1, model_.unit);
     std::size_t at = 0;
-    for (const Column& column : model_.columns) row[at++] = column.of(u, v);
+    for (const Column& column : model_.columns) row[at++] = column.value(u, v);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = derivatives_[p].contacts[c];
@@ -99,7 +99,7 @@ void RateRecord::add_row(const TangentSample& s) {
       const double T = s.point.forces[static_cast<Eigen::Index>(model_.layout.tangent(c))];
       double slip = m.ut;
       if (kt > 0.0) slip = m.ut - m.T / kt + T * rates.tangential_stiffness / (kt * kt);
-      if (kt > 0.0 && s.mode[c].state == State::stick) slip = s.anchors[p][c];
+      if (kt > 0.0 && s.contact_states[c].state == State::stick) slip = s.anchors[p][c];
       row[at++] = m.N * factor(unit::force);
       row[at++] = m.T * factor(unit::force);
       row[at++] = body * factor(unit::length);
@@ -120,8 +120,8 @@ void RateRecord::add_energies(const TangentSample& s, std::size_t p, std::vector
     rates.push_back(
         parameter_rate(contact, derivatives_[p].contacts[c], model_.layout, c, s.point, w, s.driven[p][c]));
   }
-  Energy e =
-      WorkTangent(model_, derivatives_[p]).stored({s.mode, s.point.u, s.point.v, w.u, w.v, motions, rates});
+  Energy e = WorkTangent(model_, derivatives_[p])
+                 .stored({s.contact_states, s.point.u, s.point.v, w.u, w.v, motions, rates});
   const WorkRates& lost = s.works[p];
   e.damping = lost.works.damping;
   e.friction = lost.friction();
@@ -132,7 +132,7 @@ void RateRecord::add_energies(const TangentSample& s, std::size_t p, std::vector
   for (const EnergyColumn& column : energy_columns) row[at++] = e.*column.value * factor(unit::energy);
 }
 
-void RateRecord::see(std::size_t c, std::size_t which, double t, Seen seen) {
+void RateRecord::update_peak(std::size_t c, std::size_t which, double t, PeakCandidate seen) {
   Peak& peak = peaks_[c][which];
   if (!(std::abs(seen.value) > peak.size)) return;
   peak = {std::abs(seen.value), seen.value, t, seen.turn, std::move(seen.rates), std::move(seen.t_rates)};
@@ -140,7 +140,7 @@ void RateRecord::see(std::size_t c, std::size_t which, double t, Seen seen) {
 
 /// At an extreme the rate is zero, so the derivative of a peak's value is that at fixed time. An extreme that coincides
 /// with an instant is a kink; its derivatives are the instant's.
-void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
+void RateRecord::update_at_turning_point(const TangentSample& s, std::size_t c) {
   if (std::abs(s.t - instant_) <= resolution_) return;
   const Contact& contact = model_.contacts[c];
   const Vector first = s.point.u - model_.u0;
@@ -149,7 +149,7 @@ void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
   const auto [values, unused, bends] = watched(contact, model_.layout, c, model_.u0, s.point, s.force_bends);
   for (std::size_t which = 0; which < values.size(); ++which) {
     if (!(std::abs(values[which]) > peaks_[c][which].size)) continue;
-    Seen seen{values[which], true, {}, {}};
+    PeakCandidate seen{values[which], true, {}, {}};
     for (std::size_t p = 0; p < derivatives_.size(); ++p) {
       const SeriesPoint& w = s.tangents[p];
       double rate = nothing, bent = nothing;
@@ -168,25 +168,25 @@ void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
       seen.rates.push_back(rate);
       seen.t_rates.push_back(bent);
     }
-    see(c, which, s.t, std::move(seen));
+    update_peak(c, which, s.t, std::move(seen));
   }
 }
 
 /// Forces may jump at an instant, so both of its sides count.
-void RateRecord::see_instant(const InstantMotion& motion, const std::vector<TangentState>& states,
-                             std::size_t c) {
+void RateRecord::update_at_instant(const InstantMotion& motion, const std::vector<TangentState>& states,
+                                   std::size_t c) {
   const Contact& contact = model_.contacts[c];
   const double t = motion.instant.t;
   for (Peak& peak : peaks_[c])
     if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution) peak = {};  // found again below
   const auto offer = [&](std::size_t which, double value, auto&& rate_of) {
     if (!(std::abs(value) > peaks_[c][which].size)) return;
-    Seen seen{value, false, {}, {}};
+    PeakCandidate seen{value, false, {}, {}};
     for (std::size_t p = 0; p < states.size(); ++p) {
       seen.rates.push_back(rate_of(p));
       seen.t_rates.push_back(states[p].rates[c].t);
     }
-    see(c, which, t, std::move(seen));
+    update_peak(c, which, t, std::move(seen));
   };
   if (t > 0.0) {
     offer(0, motion.motion_before[c].N, [&](std::size_t p) { return states[p].rates[c].N; });
@@ -197,7 +197,7 @@ void RateRecord::see_instant(const InstantMotion& motion, const std::vector<Tang
   const Vector first = motion.after.u - model_.u0;
   const auto along = [&](const Combination& form, const Combination ContactRates::*rates) {
     return [&, rates](std::size_t p) {
-      if (!states[p].alive) return nothing;
+      if (!states[p].valid) return nothing;
       const TangentState& state = states[p];
       return form.dot(Vector(state.now.point.u - derivatives_[p].u0)) +
              (derivatives_[p].contacts[c].*rates).dot(first) + state.rates[c].t * form.dot(motion.after.v);
@@ -211,7 +211,7 @@ void RateRecord::at_instant(const InstantMotion& motion, const std::vector<Tange
   states_ = &states;
   instant_ = motion.instant.t;
   resolution_ = motion.instant.resolution;
-  for (std::size_t c = 0; c < model_.contacts.size(); ++c) see_instant(motion, states, c);
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) update_at_instant(motion, states, c);
   if (landings_) landings_->instant(motion, states);
 }
 
@@ -221,7 +221,7 @@ void RateRecord::add_losses() {
   const auto add = [&](const char* name, int contact, double value, auto&& rate_of) {
     Response r{name, contact, value, result_.report.outcome.t, {}, {}};
     for (const TangentState& state : *states_) {
-      r.rates.push_back(state.alive ? rate_of(state.works->now()) * factor(unit::energy) : nothing);
+      r.rates.push_back(state.valid ? rate_of(state.works->now()) * factor(unit::energy) : nothing);
       r.t_rates.push_back(nothing);
     }
     result_.responses.push_back(std::move(r));

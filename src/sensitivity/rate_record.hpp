@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "run/forwarding_recorder.hpp"
-#include "run/physical.hpp"
+#include "run/scene_units.hpp"
 #include "sensitivity/tangent_run.hpp"
 
 namespace signorini::sensitivity {
@@ -37,7 +37,7 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
     bool turn = false;  // an extreme between instants
     std::vector<double> rates, t_rates;
   };
-  struct Seen {
+  struct PeakCandidate {
     double value = 0.0;
     bool turn = false;
     std::vector<double> rates, t_rates;
@@ -46,9 +46,10 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
   void add_energies(const TangentSample& sample, std::size_t parameter, std::vector<double>& row) const;
   void add_losses();
   void add_landings();
-  void see(std::size_t contact, std::size_t which, double t, Seen seen);
-  void see_turn(const TangentSample& sample, std::size_t contact);
-  void see_instant(const InstantMotion& motion, const std::vector<TangentState>& states, std::size_t contact);
+  void update_peak(std::size_t contact, std::size_t which, double t, PeakCandidate seen);
+  void update_at_turning_point(const TangentSample& sample, std::size_t contact);
+  void update_at_instant(const InstantMotion& motion, const std::vector<TangentState>& states,
+                         std::size_t contact);
   [[nodiscard]] double factor(const Unit& of) const { return scene::factor_of(of, model_.unit); }
 
   const Model& model_;

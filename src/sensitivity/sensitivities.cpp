@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/build.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "run/engines.hpp"
 #include "scene/overrides.hpp"
 #include "scene/toml_node.hpp"
@@ -27,11 +27,11 @@ void check_path(const std::string& path) {
 
 void check_options(const RunSpec& run, const SensitivityOptions& options) {
   if (!options.discrete) return;
-  if (!run::engine_row(run.engine).can.discrete_derivatives)
-    throw UsageError(
-        fmt::format("discrete derivatives are those of fixed steps: found engine {}, expected "
-                    "run.engine = {}",
-                    to_string(run.engine), run::engines_that(&run::EngineAbilities::discrete_derivatives)));
+  if (!run::engine_row(run.engine).capabilities.discrete_derivatives)
+    throw UsageError(fmt::format(
+        "discrete derivatives are those of fixed steps: found engine {}, expected "
+        "run.engine = {}",
+        to_string(run.engine), run::engines_that(&run::EngineCapabilities::discrete_derivatives)));
   if (options.losses) throw UsageError("discrete derivatives: losses are followed along the motion only");
 }
 
@@ -43,7 +43,8 @@ void make_room_for_weight(const SceneReader& read, const Scene& scene, const std
     for (const double g : {-1.0, 1.0}) {
       if (!path.starts_with("gravity.")) continue;
       try {
-        sensitivity::take_weight(model::build_without_warnings(read({sensitivity::set_to(path, g)})), model);
+        sensitivity::add_weight_load(model::build_without_warnings(read({sensitivity::set_to(path, g)})),
+                                     model);
       } catch (const Error&) {  // derivative() reports it
       }
     }
@@ -79,7 +80,8 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
   make_room_for_weight(read, scene, paths, model);
   const RunSpec run = without_companion(scene.run);
   check_options(run, options);
-  const Factors to_machine{1.0 / model.machine.force, 1.0 / model.machine.length, 1.0 / model.machine.time};
+  const Factors to_machine{1.0 / model.internal_units.force, 1.0 / model.internal_units.length,
+                           1.0 / model.internal_units.time};
   const Model computed = model::rescaled(model, to_machine);
   Sensitivities result;
   result.units = model.units;
@@ -92,7 +94,7 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
     parameter.path = path;
     parameter.value = sensitivity::value_of(scene, path);
     if (const scene::Key* key = scene::key_of(path))
-      parameter.may_be = [range = scene::range_of(*key)](double value) { return range.has(value); };
+      parameter.is_valid = [range = scene::range_of(*key)](double value) { return range.contains(value); };
     const double size = parameter.value != 0.0 ? std::abs(parameter.value)
                                                : sensitivity::typical_size(read, scene, model, path);
     derivatives.push_back(sensitivity::derivative(read, computed, path, parameter.value, size));
@@ -106,8 +108,8 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
     result.report = run::simulate(model, run, record, tangents, tangents.needs());
     record.finish();
     for (std::size_t p = 0; p < paths.size(); ++p)
-      if (const sensitivity::TangentState& state = tangents.states()[p]; !state.alive) {
-        result.parameters[p].until = state.until * computed.unit.time;
+      if (const sensitivity::TangentState& state = tangents.states()[p]; !state.valid) {
+        result.parameters[p].until = state.valid_until * computed.unit.time;
         result.parameters[p].reason = state.reason;
       }
   };
@@ -123,18 +125,18 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
   return result;
 }
 
-std::vector<Swap> least_swaps(const Sensitivities& s) {
-  std::vector<Swap> found;
+std::vector<SequenceChange> smallest_sequence_changes(const Sensitivities& s) {
+  std::vector<SequenceChange> found;
   for (std::size_t p = 0; p < s.parameters.size(); ++p) {
-    std::optional<Swap> up, down;
+    std::optional<SequenceChange> up, down;
     for (std::size_t i = 0; i + 1 < s.events.size(); ++i) {
       const double apart = s.events[i + 1].t - s.events[i].t;
       const double closing = s.event_rates[i][p].t - s.event_rates[i + 1][p].t;
       if (!(apart > 0.0) || !(std::abs(closing) > 0.0)) continue;
       const bool vanish = s.events[i].contact >= 0 && s.events[i].contact == s.events[i + 1].contact;
-      const Swap swap{p, i, i + 1, apart / closing, vanish};
-      if (!s.parameters[p].may_be(s.parameters[p].value + swap.change)) continue;
-      std::optional<Swap>& least = swap.change > 0.0 ? up : down;
+      const SequenceChange swap{p, i, i + 1, apart / closing, vanish};
+      if (!s.parameters[p].is_valid(s.parameters[p].value + swap.change)) continue;
+      std::optional<SequenceChange>& least = swap.change > 0.0 ? up : down;
       if (!least || std::abs(swap.change) < std::abs(least->change)) least = swap;
     }
     if (down) found.push_back(*down);

@@ -78,7 +78,7 @@ StateFlow::StateFlow(const Model& model) : model_(model), basis_(model_) {
   affected_ = contact_dofs(model_, {});
 }
 
-bool StateFlow::fits(const Model& model) const { return model::same_contact_states(model, model_); }
+bool StateFlow::matches(const Model& model) const { return model::same_contact_states(model, model_); }
 
 void StateFlow::make(Modes& modes) const {
   const modal::Spectrum& spectrum = modes.state->spectrum;
@@ -114,15 +114,15 @@ void StateFlow::make(Modes& modes) const {
     modes.from_tangent.col(static_cast<Eigen::Index>(c)) = flat_modes(modes.state->from_tangent[c]);
 }
 
-const StateFlow::Modes& StateFlow::modes_of(const contact::ContactStates& mode) {
-  const std::vector<State> states = contact::states_of(mode);
+const StateFlow::Modes& StateFlow::modes_of(const contact::ContactStates& contact_states) {
+  const std::vector<State> states = contact::states_of(contact_states);
   if (const auto found = known_.find(states); found != known_.end()) return found->second;
   Modes modes;
   if (system_) {
-    modes.state = system_->state(mode);
-    modes.good = modes.state->spectrum.failure().empty();
+    modes.state = system_->state(contact_states);
+    modes.accurate = modes.state->spectrum.failure().empty();
   }
-  if (modes.good) {
+  if (modes.accurate) {
     modes.oscillators = modal::Oscillators(modes.state->spectrum, system_->alpha());
     make(modes);
   }
@@ -135,13 +135,16 @@ const StateFlow::Modes& StateFlow::modes_of(const contact::ContactStates& mode) 
   return known_.insert_or_assign(states, std::move(modes)).first->second;
 }
 
-bool StateFlow::knows(const contact::ContactStates& mode) { return modes_of(mode).good; }
+bool StateFlow::has_accurate_modes(const contact::ContactStates& contact_states) {
+  return modes_of(contact_states).accurate;
+}
 
-void StateFlow::advance(const contact::ContactStates& mode, double time, std::vector<TangentState>& states) {
-  const Modes& modes = modes_of(mode);
+void StateFlow::advance(const contact::ContactStates& contact_states, double time,
+                        std::vector<TangentState>& states) {
+  const Modes& modes = modes_of(contact_states);
   std::vector<const Tangent*> starts;
   for (const TangentState& state : states)
-    if (state.alive) starts.push_back(&state.now.start);
+    if (state.valid) starts.push_back(&state.now.start);
   const Eigen::Index n = model_.size(), columns = static_cast<Eigen::Index>(starts.size());
   Eigen::MatrixXd W(n, 2 * columns);
   Eigen::MatrixXd held =
@@ -150,8 +153,9 @@ void StateFlow::advance(const contact::ContactStates& mode, double time, std::ve
     const Tangent& start = *starts[static_cast<std::size_t>(j)];
     W.col(j) = start.u;
     W.col(columns + j) = start.v;
-    for (std::size_t c = 0; c < mode.size(); ++c)
-      if (const auto& kt = model_.contacts[c].tangential_stiffness; kt && mode[c].state == State::stick)
+    for (std::size_t c = 0; c < contact_states.size(); ++c)
+      if (const auto& kt = model_.contacts[c].tangential_stiffness;
+          kt && contact_states[c].state == State::stick)
         held(static_cast<Eigen::Index>(c), j) = *kt * start.anchors[c];
   }
   const Eigen::MatrixXd Z = modes.in * W, force = modes.from_tangent * held;
@@ -173,16 +177,16 @@ void StateFlow::advance(const contact::ContactStates& mode, double time, std::ve
   second -= pulled;
   Eigen::MatrixXd all(force.rows(), 2 * columns);
   all << now.z, now.rate;
-  evaluate(mode, modes.out * all, modes.seen * second, states);
+  evaluate(contact_states, modes.out * all, modes.seen * second, states);
 }
 
 /// Writes the contact quantities of the tangents.
-void StateFlow::evaluate(const contact::ContactStates& mode, const Eigen::MatrixXd& moved,
+void StateFlow::evaluate(const contact::ContactStates& contact_states, const Eigen::MatrixXd& moved,
                          const Eigen::MatrixXd& seen, std::vector<TangentState>& states) const {
   const Eigen::Index columns = seen.cols();
   Eigen::Index j = 0;
   for (TangentState& state : states) {
-    if (!state.alive) continue;
+    if (!state.valid) continue;
     SeriesPoint& w = state.now.point;
     w.u = state.now.start.u = moved.col(j);
     w.v = state.now.start.v = moved.col(columns + j);
@@ -190,14 +194,14 @@ void StateFlow::evaluate(const contact::ContactStates& mode, const Eigen::Matrix
     for (std::size_t i = 0; i < affected_.size(); ++i)
       w.a[affected_[i]] = seen(static_cast<Eigen::Index>(i), j);
     w.forces = w.force_rates = Vector::Zero(model_.force_count());
-    for (std::size_t c = 0; c < mode.size(); ++c) {
+    for (std::size_t c = 0; c < contact_states.size(); ++c) {
       const Contact& contact = model_.contacts[c];
-      const modal::ForceLaw law = modal::force_law(contact, mode[c], 0.0);
+      const modal::ForceLaw law = modal::force_law(contact, contact_states[c], 0.0);
       const auto slot = static_cast<Eigen::Index>(model_.layout.normal(c)),
                  t = static_cast<Eigen::Index>(model_.layout.tangent(c));
       w.forces[slot] = law.N_rate(contact.normal.dot(w.u));
       w.forces[t] = law.T_rate(contact.normal.dot(w.u), contact.tangent.dot(w.u));
-      if (contact.tangential_stiffness && mode[c].state == State::stick)
+      if (contact.tangential_stiffness && contact_states[c].state == State::stick)
         w.forces[t] -= *contact.tangential_stiffness * state.now.start.anchors[c];
       w.force_rates[slot] = law.N_rate(contact.normal.dot(w.v));
       w.force_rates[t] = law.T_rate(contact.normal.dot(w.v), contact.tangent.dot(w.v));

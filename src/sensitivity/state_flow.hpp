@@ -22,12 +22,12 @@ class StateFlow {
   explicit StateFlow(const Model& model);
 
   /// True if all data that the flow depends on are equal: matrices, forms and stiffnesses of contacts.
-  [[nodiscard]] bool fits(const Model& model) const;
+  [[nodiscard]] bool matches(const Model& model) const;
   /// True if the modes of this contact state are accurate enough.
-  [[nodiscard]] bool knows(const contact::ContactStates& mode);
+  [[nodiscard]] bool has_accurate_modes(const contact::ContactStates& contact_states);
   /// Advances all active tangents by `time`: displacements, velocities; accelerations of degrees of freedom with
   /// contacts; contact forces and their rates.
-  void advance(const contact::ContactStates& mode, double time, std::vector<TangentState>& states);
+  void advance(const contact::ContactStates& contact_states, double time, std::vector<TangentState>& states);
 
  private:
   /// Rows are flat amplitudes: real modes, real and imaginary parts of pairs.
@@ -36,15 +36,15 @@ class StateFlow {
     Eigen::MatrixXd in, out, seen, from_tangent;  ///< seen: rows of `out` at the degrees of freedom of
                                                   ///< contacts
     modal::Oscillators oscillators;
-    bool good = false;
+    bool accurate = false;
   };
-  [[nodiscard]] const Modes& modes_of(const contact::ContactStates& mode);
+  [[nodiscard]] const Modes& modes_of(const contact::ContactStates& contact_states);
   void make(Modes& modes) const;
-  void evaluate(const contact::ContactStates& mode, const Eigen::MatrixXd& moved, const Eigen::MatrixXd& seen,
-                std::vector<TangentState>& states) const;
+  void evaluate(const contact::ContactStates& contact_states, const Eigen::MatrixXd& moved,
+                const Eigen::MatrixXd& seen, std::vector<TangentState>& states) const;
 
   const Model model_;
-  modal::OpenBasis basis_;
+  modal::UnconstrainedBasis basis_;
   std::optional<modal::ModalSystem> system_;
   std::vector<Eigen::Index> affected_;  // degrees of freedom with contacts
   std::map<std::vector<State>, Modes> known_;

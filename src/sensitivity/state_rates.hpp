@@ -101,7 +101,7 @@ void add_product(const Square<S>& b, const std::vector<S>& x, double factor, std
 
 /// Derivatives of one parameter in open modes; empty: none.
 struct OpenRates {
-  Eigen::MatrixXd mass, drag, stiffness;  ///< drag: C_p - alpha M_p
+  Eigen::MatrixXd mass, damping, stiffness;  ///< drag: C_p - alpha M_p
 };
 
 /// Derivatives of a state that do not depend on the stretch.
@@ -115,7 +115,7 @@ struct StateAt {
   const Model& model;
   const modal::ModalSystem& modes;
   const modal::StateModes& state;
-  const contact::ContactStates& mode;
+  const contact::ContactStates& states;
   const motion::Forcing& forcing;
   double begin;
 };
@@ -125,10 +125,10 @@ inline bool any_term(const Combination& c) {
 }
 
 template <class S>
-class StateRatesOf {
+class StateRates {
  public:
   /// All arguments must outlive the object; l: eigenvalues of the listed modes.
-  StateRatesOf(const StateAt& at, const std::vector<S>& l) : at_(at), spectrum_(at.state.spectrum), l_(l) {}
+  StateRates(const StateAt& at, const std::vector<S>& l) : at_(at), spectrum_(at.state.spectrum), l_(l) {}
 
   /// Rows: the given degrees of freedom; columns: flat modes (flat_modes).
   [[nodiscard]] modal::RowMatrix shown(const std::vector<Eigen::Index>& dofs) const {
@@ -151,8 +151,9 @@ class StateRatesOf {
     return out;
   }
 
-  [[nodiscard]] ParameterModes<S> by(const OpenRates& open, const std::vector<ContactRates>& contacts,
-                                     const TangentSource& source) const {
+  [[nodiscard]] ParameterModes<S> parameter_modes(const OpenRates& open,
+                                                  const std::vector<ContactRates>& contacts,
+                                                  const TangentSource& source) const {
     ParameterModes<S> m;
     m.b.assign(l_.size() * l_.size(), S(0.0));
     add_matrices(open, m);
@@ -195,8 +196,8 @@ class StateRatesOf {
   static modal::Complex quarter_turn(modal::Complex a) { return {-a.im, a.re}; }
 
   void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {
-    if (open.mass.size() + open.drag.size() + open.stiffness.size() == 0) return;
-    if (open.drag.size() > 0) m.g.assign(m.b.size(), S(0.0));
+    if (open.mass.size() + open.damping.size() + open.stiffness.size() == 0) return;
+    if (open.damping.size() > 0) m.g.assign(m.b.size(), S(0.0));
     const auto product = [](const Eigen::MatrixXd& a, std::vector<Vector> q) {
       for (Vector& part : q) part = a * part;
       return q;
@@ -205,15 +206,15 @@ class StateRatesOf {
       const std::vector<Vector> x = shape(k);
       if (open.stiffness.size() > 0) add_column(product(open.stiffness, x), k, S(1.0), m.b);
       if (open.mass.size() > 0) add_column(product(open.mass, x), k, -l_[k], m.b);
-      if (open.drag.size() > 0) add_column(product(open.drag, x), k, S(1.0), m.g);
+      if (open.damping.size() > 0) add_column(product(open.damping, x), k, S(1.0), m.g);
     }
   }
 
   /// A form in modal coordinates: the effect of forces along it, and its value by modes.
-  struct Seen {
+  struct ModalForm {
     std::vector<S> from, row;
   };
-  [[nodiscard]] Seen seen(const Combination& form) const {
+  [[nodiscard]] ModalForm modal_form(const Combination& form) const {
     const Vector q = at_.modes.basis().amplitudes_of(form);
     modal::Amplitudes from, row;
     spectrum_.to_modes(q, from);
@@ -227,20 +228,20 @@ class StateRatesOf {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const ContactRates& rates = contacts[c];
       const LawRates at =
-          law_rates(at_.model.contacts[c], c, at_.mode[c], rates, at_.forcing, at_.begin, source);
-      const Seen n{modes_of<S>(state.from_normal[c]), modes_of<S>(state.normal[c])};
-      const Seen t{modes_of<S>(state.from_tangent[c]), modes_of<S>(state.tangent[c])};
+          law_rates(at_.model.contacts[c], c, at_.states[c], rates, at_.forcing, at_.begin, source);
+      const ModalForm n{modes_of<S>(state.from_normal[c]), modes_of<S>(state.normal[c])};
+      const ModalForm t{modes_of<S>(state.from_tangent[c]), modes_of<S>(state.tangent[c])};
       add_outer(n.from, n.row, at.rates.N_gap, b);
       add_outer(t.from, n.row, at.rates.T_gap, b);
       add_outer(t.from, t.row, at.rates.T_ut, b);
       if (any_term(rates.normal)) {
-        const Seen by = seen(rates.normal);
+        const ModalForm by = modal_form(rates.normal);
         add_outer(n.from, by.row, at.law.N_gap, b);
         add_outer(t.from, by.row, at.law.T_gap, b);
         add_outer(by.from, n.row, at.law.N_gap, b);
       }
       if (any_term(rates.tangent)) {
-        const Seen by = seen(rates.tangent);
+        const ModalForm by = modal_form(rates.tangent);
         add_outer(t.from, by.row, at.law.T_ut, b);
         add_outer(by.from, n.row, at.law.T_gap, b);
         add_outer(by.from, t.row, at.law.T_ut, b);

@@ -6,24 +6,24 @@
 
 #include "contact/friction.hpp"
 #include "decide/impact.hpp"
-#include "run/physical.hpp"
+#include "run/scene_units.hpp"
 
 namespace signorini::sensitivity {
 
 ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& derivative,
-                         contact::ContactStates mode, const decide::Decision& after, const Vector& v,
+                         contact::ContactStates states, const decide::Decision& after, const Vector& v,
                          const Vector& Dv, const std::vector<double>& surface) {
   const Model& model = systems.model();
   ImpactRates result;
-  mode = decide::mode_of_impact(model, std::move(mode), after.impulses);
-  const motion::StateSystemPtr system = systems.of(mode);
+  states = decide::states_of_impact(model, std::move(states), after.impulses);
+  const motion::StateSystemPtr system = systems.system_of(states);
   if (!system) return result;
   const linear::Unknowns& at = system->unknowns();
   std::vector<double> x(at.size(), 0.0), work(at.size());
   Eigen::Map<Vector> momentum(x.data(), model.size());
   const Vector jump = after.v - v;
   if (derivative.mass.nonZeros() > 0) momentum -= derivative.mass * jump;
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const decide::Impulse& impulse = after.impulses[c];
     if (!(impulse.normal > 0.0)) continue;
     const Contact& contact = model.contacts[c];
@@ -35,9 +35,9 @@ ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& d
     double rebound = 0.0;
     if (!impulse.rests && vn < 0.0) rebound = -contact.restitution * Dvn - rates.restitution * vn;
     x[at.normal(c)] = rebound - rates.normal.dot(after.v) - contact.normal.dot(Dv);
-    if (mode[c].state == State::stick)
+    if (states[c].state == State::stick)
       x[at.tangent(c)] = surface[c] - rates.tangent.dot(after.v) - contact.tangent.dot(Dv);
-    else if (const int s = slip_sign(mode[c].state); s != 0)
+    else if (const int s = slip_sign(states[c].state); s != 0)
       x[at.tangent(c)] = s * rates.friction.kinetic * impulse.normal;
   }
   system->solve(x.data(), work.data());
@@ -45,7 +45,7 @@ ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& d
   result.v = Dv;
   for (std::size_t i = 0; i < at.dofs; ++i)
     if (system->kinds()[i] == linear::DofKind::massive) result.v[static_cast<Eigen::Index>(i)] += x[i];
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const bool takes = after.impulses[c].normal > 0.0;
     result.normal.push_back(takes ? -x[at.normal(c)] : 0.0);
     result.tangent.push_back(takes ? -x[at.tangent(c)] : 0.0);
@@ -98,7 +98,7 @@ Vector massive(Vector x, const std::vector<linear::DofKind>& kinds) {
 
 }  // namespace
 
-struct TangentEvents::Course {
+struct TangentEvents::PassState {
   const InstantMotion& m;
   const TangentBefore& before;
   TangentSeries& series;
@@ -113,10 +113,10 @@ struct TangentEvents::Course {
 };
 
 /// dt/dp from the guard of a contact, if that guard itself reached zero.
-std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) const {
+std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) const {
   const run::RunInstant& now = course.m.instant;
   const Contact& contact = model_.contacts[c];
-  const ContactState& state = now.mode_before[c];
+  const ContactState& state = now.states_before[c];
   const auto forms = contact::guards(contact, state);
   decide::Crossing crossing;
   if (const decide::Crossing* failed = now.after.crossing(c)) {
@@ -134,8 +134,9 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
   const double value = crossing.form.value(course.m.motion_before[c]);
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
   if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // pushed by another
-  const double rate = fired ? crossing.derivatives[0]
-                            : crossing.form.change(course.m.motion_before[c], course.m.rate_before[c]);
+  const double rate =
+      fired ? crossing.derivatives[0]
+            : crossing.form.parameter_derivative(course.m.motion_before[c], course.m.rate_before[c]);
   if (!(rate < 0.0) || rate * rate <= grazes * 2.0 * std::abs(crossing.derivatives[1]) * crossing.noise) {
     if (crosses_grazes_ && is_smooth(course) && !drops_anchor(course, c)) return std::nullopt;
     course.stop(fmt::format(
@@ -146,12 +147,12 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
   const Form& form_rate =
       derivative_.contacts[c].guards[index_of(state.state)][static_cast<std::size_t>(guard - forms.begin())];
   const double moved = form_rate.value(course.m.motion_before[c]) +
-                       crossing.form.change(course.m.motion_before[c], course.p_before[c]);
+                       crossing.form.parameter_derivative(course.m.motion_before[c], course.p_before[c]);
   return -moved / rate;
 }
 
 /// True if velocities and accelerations of degrees of freedom with mass do not jump.
-bool TangentEvents::is_smooth(const Course& course) const {
+bool TangentEvents::is_smooth(const PassState& course) const {
   const std::vector<linear::DofKind>& kinds = course.m.instant.after.system->kinds();
   const double rate = model_.scales.velocity / model_.scales.displacement;
   return !differ(massive(course.m.before.a, kinds), massive(course.m.after.a, kinds), model_, same_motion,
@@ -161,15 +162,16 @@ bool TangentEvents::is_smooth(const Course& course) const {
 }
 
 /// True for an anchor whose position depends on the time of the instant: ut - T/kt changes there.
-bool TangentEvents::drops_anchor(const Course& course, std::size_t c) const {
-  const State before = course.m.instant.mode_before[c].state, after = course.m.instant.after.mode[c].state;
+bool TangentEvents::drops_anchor(const PassState& course, std::size_t c) const {
+  const State before = course.m.instant.states_before[c].state,
+              after = course.m.instant.after.states[c].state;
   if (after != State::stick || before == State::stick) return false;
   const ContactMotion& rate = course.m.rate_before[c];
   const double force_rate = model_.scales.force * model_.scales.velocity / model_.scales.displacement;
   return is_open(before) || std::abs(rate.T) > same_motion * force_rate;
 }
 
-void TangentEvents::find_times(Course& course) const {
+void TangentEvents::find_times(PassState& course) const {
   const run::RunInstant& now = course.m.instant;
   std::vector<double> times;
   if (!now.triggered.empty() || now.breakpoint)
@@ -192,7 +194,7 @@ void TangentEvents::find_times(Course& course) const {
 }
 
 /// Computes the tangent of the state just after.
-void TangentEvents::move_state(Course& course) const {
+void TangentEvents::move_state(PassState& course) const {
   const InstantMotion& m = course.m;
   const run::RunInstant& now = m.instant;
   const SeriesPoint& w = course.before.point;
@@ -206,7 +208,7 @@ void TangentEvents::move_state(Course& course) const {
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       surface.push_back(course.before.driven[c].surface[1] + dt * now.forcing_before.surface(c, now.t, 2));
     ImpactRates rates =
-        impact_rates(systems_, derivative_, now.mode_before, now.after, m.before.v, Dv, surface);
+        impact_rates(systems_, derivative_, now.states_before, now.after, m.before.v, Dv, surface);
     if (!rates.known) return course.stop("the equations of the impact are singular");
     Dv = std::move(rates.v);
     course.after.impulse_n = std::move(rates.normal);
@@ -222,12 +224,12 @@ void TangentEvents::move_state(Course& course) const {
 
 /// An anchor is at its position at the end of the slip: p = ut - T/kt, with T just before, or with the kinetic friction
 /// force at a change from slip to stick.
-void TangentEvents::move_anchors(Course& course) const {
+void TangentEvents::move_anchors(PassState& course) const {
   const InstantMotion& m = course.m;
   course.after.start.anchors = course.before.start.anchors;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const ContactState &old = m.instant.mode_before[c], &now = m.instant.after.mode[c];
+    const ContactState &old = m.instant.states_before[c], &now = m.instant.after.states[c];
     if (!contact.tangential_stiffness || now.state != State::stick) continue;
     if (old.state == State::stick && old.anchor == now.anchor) continue;
     const ContactRates& rates = derivative_.contacts[c];
@@ -258,12 +260,12 @@ bool TangentEvents::vanishes(double rate, double terms, double scale) const {
 }
 
 /// Constraints of a mode must also hold for other values of the parameter; otherwise the derivative is only one-sided.
-void TangentEvents::look_at_holds(Course& course) const {
+void TangentEvents::check_resting_guards(PassState& course) const {
   const InstantMotion& m = course.m;
   const TangentAfter& after = course.after;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const State state = m.instant.after.mode[c].state;
+    const State state = m.instant.after.states[c].state;
     const ContactMotion D = sum(parameter_rate(contact, derivative_.contacts[c], model_.layout, c, m.after,
                                                after.point, after.driven[c]),
                                 m.rate_after[c], course.dt_of(c));
@@ -283,7 +285,7 @@ void TangentEvents::look_at_holds(Course& course) const {
 }
 
 /// A guard that is zero afterwards, but not for other values of the parameter, is reached on one side only: a kink.
-void TangentEvents::look_for_kinks(Course& course) const {
+void TangentEvents::check_kinks(PassState& course) const {
   const InstantMotion& m = course.m;
   const decide::Decision& decision = m.instant.after;
   const Vector &w = course.after.point.u, &wv = course.after.point.v;
@@ -297,7 +299,7 @@ void TangentEvents::look_for_kinks(Course& course) const {
     const ContactMotion p = parameter_rate(contact, derivative_.contacts[c], model_.layout, c, m.after,
                                            course.after.point, course.after.driven[c]);
     const Form& form_rate =
-        derivative_.contacts[c].guards[index_of(decision.mode[c].state)][contact::guard_within(slot)];
+        derivative_.contacts[c].guards[index_of(decision.states[c].state)][contact::guard_within(slot)];
     const ContactMotion D = sum(p, m.rate_after[c], dt);
     const double value = form_rate.value(m.motion_after[c]) + form.rate(D);
     ContactMotion terms = p;
@@ -308,7 +310,7 @@ void TangentEvents::look_for_kinks(Course& course) const {
     const double size = form_rate.magnitude(m.motion_after[c]) + form.magnitude(terms) +
                         std::abs(dt) * form.magnitude(m.rate_after[c]);
     // a gap that opens from rest: also its rate
-    const bool opens_slowly = guard.kind == Guard::closing && guard.leading != 1;
+    const bool opens_slowly = guard.kind == Guard::closing && guard.leading_order != 1;
     if (vanishes(value, size, form.magnitude(unit_motion()) * scale_of(form, model_.scales)) &&
         (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))
       continue;
@@ -318,7 +320,7 @@ void TangentEvents::look_for_kinks(Course& course) const {
   }
 }
 
-void TangentEvents::fill_rates(Course& course) const {
+void TangentEvents::fill_rates(PassState& course) const {
   const InstantMotion& m = course.m;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
@@ -331,7 +333,7 @@ void TangentEvents::fill_rates(Course& course) const {
     const double t = m.instant.t;
     EventRates row;
     row.t = dt;
-    row.gap = contact.gap_if_any(after.gap).value_or(row.gap);
+    row.gap = contact.optional_gap(after.gap).value_or(row.gap);
     row.N = before.N;
     row.T = before.T;
     row.vn = before.vn;
@@ -352,7 +354,7 @@ void TangentEvents::fill_rates(Course& course) const {
 
 TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefore& before,
                                  TangentSeries& series) const {
-  Course course{motion, before, series, {}, {}, {}};
+  PassState course{motion, before, series, {}, {}, {}};
   const std::size_t count = model_.contacts.size();
   course.own.resize(count);
   for (std::size_t c = 0; c < count; ++c)
@@ -369,8 +371,8 @@ TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefor
   course.after.point = series.at(0.0);
   for (std::size_t c = 0; c < count; ++c)
     course.after.driven.push_back(driven_rates(series.forcing(), series.scale(), c, 0.0));
-  look_at_holds(course);
-  look_for_kinks(course);
+  check_resting_guards(course);
+  check_kinks(course);
   fill_rates(course);
   return std::move(course.after);
 }

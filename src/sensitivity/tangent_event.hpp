@@ -39,7 +39,7 @@ struct ImpactRates {
 
 /// v, Dv: just before. surface: Ds' of every contact. mode: before the impact.
 [[nodiscard]] ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& derivative,
-                                       contact::ContactStates mode, const decide::Decision& after,
+                                       contact::ContactStates states, const decide::Decision& after,
                                        const Vector& v_before, const Vector& Dv_before,
                                        const std::vector<double>& surface);
 
@@ -86,17 +86,17 @@ class TangentEvents {
   void cross_smooth_grazes() { crosses_grazes_ = true; }
 
  private:
-  struct Course;
-  void find_times(Course& course) const;
-  [[nodiscard]] std::optional<double> time_of(Course& course, std::size_t contact) const;
-  [[nodiscard]] bool is_smooth(const Course& course) const;
-  [[nodiscard]] bool drops_anchor(const Course& course, std::size_t contact) const;
-  void move_state(Course& course) const;
-  void move_anchors(Course& course) const;
+  struct PassState;
+  void find_times(PassState& course) const;
+  [[nodiscard]] std::optional<double> time_of(PassState& course, std::size_t contact) const;
+  [[nodiscard]] bool is_smooth(const PassState& course) const;
+  [[nodiscard]] bool drops_anchor(const PassState& course, std::size_t contact) const;
+  void move_state(PassState& course) const;
+  void move_anchors(PassState& course) const;
   [[nodiscard]] bool vanishes(double rate, double terms, double scale) const;
-  void look_at_holds(Course& course) const;
-  void look_for_kinks(Course& course) const;
-  void fill_rates(Course& course) const;
+  void check_resting_guards(PassState& course) const;
+  void check_kinks(PassState& course) const;
+  void fill_rates(PassState& course) const;
 
   const Model& model_;
   motion::StateSystems& systems_;

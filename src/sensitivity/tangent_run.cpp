@@ -10,9 +10,9 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr Eigen::Index fewest_modal = 16;  // same reason as in run/choose_engine.hpp: below, the series is as
-                                           // fast
-constexpr int most_turn_steps = 6;
+constexpr Eigen::Index min_modal = 16;  // same reason as in run/choose_engine.hpp: below, the series is as
+                                        // fast
+constexpr int max_turn_steps = 6;
 constexpr std::size_t forcing_terms = 6;  // for a constant, all but the first are zero
 
 /// Series around an instant, with scale 1, from derivatives.
@@ -54,16 +54,16 @@ TangentRun::TangentRun(const Model& model, const RunSpec& run,
       data_(pointers_to(derivatives)),
       losses_(losses),
       series_(model, systems_, data_, losses),
-      followed_(model, structure_, systems_, run),
-      closed_flow_(run::engine_row(run.engine).can.closed_flow) {
+      recomputed_motion_(model, structure_, systems_, run),
+      closed_form_flow_(run::engine_row(run.engine).capabilities.closed_form_flow) {
   states_.reserve(derivatives.size());
   for (std::size_t p = 0; p < derivatives.size(); ++p) {
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
     if (!losses) continue;
     states_.back().works.emplace(model, derivatives[p]);
-    states_.back().losses.emplace(model, derivatives[p], run::moves_at_once(model));
+    states_.back().losses.emplace(model, derivatives[p], run::has_instantaneous_parts(model));
   }
-  if (!losses && model.size() >= fewest_modal && model.size() <= most_modal_tangents &&
+  if (!losses && model.size() >= min_modal && model.size() <= max_modal_tangent_dofs &&
       modal::proportional_refusal(model).empty())
     modal_.emplace(model, data_, run.output_dt.value_or(0.0));
 }
@@ -93,23 +93,23 @@ void TangentRun::begin(const run::RunInstant& start) {
     }
     for (const MovingBreakpoint& b : breakpoints_at(model_, d, 0.0, 0.0))
       if (b.rate != 0.0) {
-        state.alive = false;
+        state.valid = false;
         state.reason = "what begins at t = 0 begins later for values on one side only";
       }
   }
-  followed_.begin(start.after);
+  recomputed_motion_.begin(start.after);
   pass(start);
 }
 
 /// Starts the stretch that begins here in modes, if they can follow it.
 bool TangentRun::starts_in_modes(const run::RunStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
-  modal::ModalSystem* modes = share_->modes != nullptr ? share_->modes : followed_.modes();
+  modal::ModalSystem* modes = share_->modes != nullptr ? share_->modes : recomputed_motion_.modes();
   if (modes == nullptr) return false;
-  const decide::Decision& from = foreign_ ? followed_.stretch() : step.decision;
+  const decide::Decision& from = engine_without_series_ ? recomputed_motion_.stretch() : step.decision;
   std::vector<TangentSource> sources(states_.size());
   for (std::size_t p = 0; p < states_.size(); ++p) {
-    if (!states_[p].alive) continue;
+    if (!states_[p].valid) continue;
     sources[p].start = &states_[p].now.start;
     states_[p].forcing->expand(from.jet.t, 1.0, forcing_terms, sources[p].forcing);
   }
@@ -118,49 +118,52 @@ bool TangentRun::starts_in_modes(const run::RunStep& step) {
 
 /// True if flow_ crosses the stretch in closed form: tangents by the state alone.
 bool TangentRun::crosses(const run::RunStep& step) {
-  if (flow_ == nullptr || !closed_flow_ || !flow_->knows(step.decision.mode)) return false;
-  crossed_ = step.decision.mode;
-  foreign_ = false;
+  if (flow_ == nullptr || !closed_form_flow_ || !flow_->has_accurate_modes(step.decision.states))
+    return false;
+  crossed_ = step.decision.states;
+  engine_without_series_ = false;
   return true;
 }
 
 /// Crosses the stretch up to t in closed form.
 void TangentRun::cross(double t) {
-  if (way_ != Way::closed || !(t > begin_)) return;
+  if (stretch_method_ != StretchMethod::closed_form || !(t > begin_)) return;
   flow_->advance(crossed_, t - begin_, states_);
   for (TangentState& state : states_) state.error += error_in_modes(model_);
   begin_ = t;
 }
 
-TangentRun::Way TangentRun::way_of(const run::RunStep& step) {
-  if (crosses(step)) return Way::closed;
-  const bool knew = !foreign_;
-  foreign_ = share_->modes == nullptr && step.facts.expansion.series == nullptr;
+TangentRun::StretchMethod TangentRun::choose_stretch_method(const run::RunStep& step) {
+  if (crosses(step)) return StretchMethod::closed_form;
+  const bool knew = !engine_without_series_;
+  engine_without_series_ = share_->modes == nullptr && step.facts.expansion.series == nullptr;
   // The followed motion is not up to date after stretches that used the engine's own series.
-  if (foreign_ && knew) followed_.begin(step.decision);
-  if (foreign_) followed_.start(step.forcing);
+  if (engine_without_series_ && knew) recomputed_motion_.begin(step.decision);
+  if (engine_without_series_) recomputed_motion_.start(step.forcing);
   const bool modes = starts_in_modes(step);
-  if (modes && !foreign_) return Way::modes;
-  if (!modes && step.facts.expansion.series != nullptr) return Way::series;
-  if (!foreign_) {
-    followed_.begin(step.decision);
-    followed_.start(step.forcing);
+  if (modes && !engine_without_series_) return StretchMethod::modes;
+  if (!modes && step.facts.expansion.series != nullptr) return StretchMethod::series;
+  if (!engine_without_series_) {
+    recomputed_motion_.begin(step.decision);
+    recomputed_motion_.start(step.forcing);
   }
-  return modes ? Way::own_modes : Way::own_series;
+  return modes ? StretchMethod::recomputed_modes : StretchMethod::recomputed_series;
 }
 
 void TangentRun::step(const run::RunStep& step) {
-  if (way_ == Way::unknown) {
-    way_ = way_of(step);
-    const bool in_modes = way_ == Way::modes || way_ == Way::own_modes || way_ == Way::closed;
+  if (stretch_method_ == StretchMethod::unknown) {
+    stretch_method_ = choose_stretch_method(step);
+    const bool in_modes = stretch_method_ == StretchMethod::modes ||
+                          stretch_method_ == StretchMethod::recomputed_modes ||
+                          stretch_method_ == StretchMethod::closed_form;
     ++(in_modes ? stretches_.modes : stretches_.series);
     if (is_followed()) ++stretches_.followed;
   }
-  if (way_ == Way::series || way_ == Way::modes) observe(step);
+  if (stretch_method_ == StretchMethod::series || stretch_method_ == StretchMethod::modes) observe(step);
 }
 
 void TangentRun::observe(const run::RunStep& step) {
-  if (way_ == Way::series || way_ == Way::own_series)
+  if (stretch_method_ == StretchMethod::series || stretch_method_ == StretchMethod::recomputed_series)
     observe_series(step);
   else
     observe_modes(step);
@@ -168,21 +171,21 @@ void TangentRun::observe(const run::RunStep& step) {
 
 /// Follows the stretch that has ended at t.
 void TangentRun::follow(double t) {
-  if (!is_followed() || t <= followed_.t()) return;
-  engine::Stepper& engine = followed_.engine(way_ == Way::own_modes);
-  engine.start({t, &followed_.stretch(), &followed_.forcing()});
+  if (!is_followed() || t <= recomputed_motion_.t()) return;
+  engine::Stepper& engine = recomputed_motion_.engine(stretch_method_ == StretchMethod::recomputed_modes);
+  engine.start({t, &recomputed_motion_.stretch(), &recomputed_motion_.forcing()});
   for (;;) {
     const engine::Step step = engine.advance();
     if (step.kind == engine::Step::Kind::failed) {
       for (TangentState& state : states_)
-        if (std::exchange(state.alive, false)) {
-          state.until = step.begin;
+        if (std::exchange(state.valid, false)) {
+          state.valid_until = step.begin;
           state.reason = step.reason;
         }
       return;
     }
     const engine::StepFacts facts = engine.dense_output().facts();
-    observe({step, facts, followed_.stretch(), followed_.forcing(), engine.dense_output()});
+    observe({step, facts, recomputed_motion_.stretch(), recomputed_motion_.forcing(), engine.dense_output()});
     if (step.end >= t) return;
   }
 }
@@ -191,12 +194,12 @@ void TangentRun::follow(double t) {
 void TangentRun::arrive(double t) {
   follow(t);
   cross(t);
-  if (way_ != Way::modes && way_ != Way::own_modes) return;
-  TangentsAt at = modal_->at(t, true);
+  if (stretch_method_ != StretchMethod::modes && stretch_method_ != StretchMethod::recomputed_modes) return;
+  MotionAndTangents at = modal_->at(t, true);
   end_ = std::move(at.motion);
   for (std::size_t p = 0; p < states_.size(); ++p) {
     TangentState& state = states_[p];
-    if (!state.alive) continue;
+    if (!state.valid) continue;
     state.now.start.u = at.tangents[p].u;
     state.now.start.v = at.tangents[p].v;
     state.error += error_in_modes(model_);
@@ -206,7 +209,7 @@ void TangentRun::arrive(double t) {
 
 /// State just before an instant of an engine that was followed: its own u and v, with the forces of the contact state.
 SeriesPoint TangentRun::just_before(const run::RunInstant& instant) {
-  const motion::StateSystemPtr system = systems_.of(instant.mode_before);
+  const motion::StateSystemPtr system = systems_.system_of(instant.states_before);
   if (!system) return end_;
   motion::Taylor taylor(systems_);
   motion::Series series;
@@ -229,8 +232,8 @@ std::vector<RequestedPlace> TangentRun::wanted(const run::RunStep& step, std::sp
 /// Newton's method on the rate, starting at the turning point found by the engine, which resolves slow modes only.
 double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const run::RunStep& step) const {
   double at = t;
-  for (int i = 0; i < most_turn_steps; ++i) {
-    const TangentsAt here = modal_->motion(at);
+  for (int i = 0; i < max_turn_steps; ++i) {
+    const MotionAndTangents here = modal_->motion(at);
     const WatchedMotion m =
         watched(model_.contacts[c], model_.layout, c, model_.u0, here.motion, here.force_bends);
     if (m.bends[which] == 0.0) return t;
@@ -247,7 +250,7 @@ std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
   std::vector<double> turns;
   for (const double t : step.facts.turning_points) {
     if (t < step.step.begin || t > step.step.end) continue;
-    const TangentsAt here = modal_->motion(t);
+    const MotionAndTangents here = modal_->motion(t);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const WatchedMotion m =
           watched(model_.contacts[c], model_.layout, c, model_.u0, here.motion, here.force_bends);
@@ -263,10 +266,10 @@ std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
 void TangentRun::observe_modes(const run::RunStep& step) {
   const std::vector<double> turns = turns_in_modes(step);
   for (const RequestedPlace& output : wanted(step, turns)) {
-    TangentsAt at = modal_->at(output.t, false);
+    MotionAndTangents at = modal_->at(output.t, false);
     TangentSample sample{output.t,
                          step.forcing,
-                         step.decision.mode,
+                         step.decision.states,
                          std::move(at.motion),
                          std::move(at.force_bends),
                          std::move(at.tangents),
@@ -284,7 +287,7 @@ void TangentRun::observe_series(const run::RunStep& step) {
   const engine::Expansion& e = step.facts.expansion;
   std::vector<double> turns(step.facts.turning_points.begin(), step.facts.turning_points.end());
   if (losses_) {
-    const std::vector<double> more = pressing_turns(model_, step);
+    const std::vector<double> more = compression_maxima(model_, step);
     turns.insert(turns.end(), more.begin(), more.end());
   }
   std::vector<RequestedPlace> places = wanted(step, turns);
@@ -292,7 +295,7 @@ void TangentRun::observe_series(const run::RunStep& step) {
     output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
   std::vector<TangentSample> samples;
   for (const RequestedPlace& output : places) {
-    samples.push_back({output.t, step.forcing, step.decision.mode,
+    samples.push_back({output.t, step.forcing, step.decision.states,
                        point_at(e.series->u, e.series->forces, e.series->scale, e.degree, output.x),
                        output.turn ? force_bends(*e.series, e.degree, output.x) : Vector(),
                        std::vector<SeriesPoint>(states_.size()),
@@ -301,41 +304,43 @@ void TangentRun::observe_series(const run::RunStep& step) {
                        std::vector<WorkRates>(losses_ ? states_.size() : 0)});
   }
   for (std::size_t p = 0; p < states_.size(); ++p)
-    if (states_[p].alive) series_.advance(states_[p], step, places, samples, p);
+    if (states_[p].valid) series_.advance(states_[p], step, places, samples, p);
   for (std::size_t i = 0; i < samples.size(); ++i)
     listener_.sample(samples[i], places[i].row, places[i].turn);
   end_ = point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
 }
 
 void TangentRun::instant(const run::RunInstant& instant) {
-  if (foreign_) {
+  if (engine_without_series_) {
     follow_instant(instant);
   } else {
     arrive(instant.t);
-    if (is_followed() || way_ == Way::closed) end_ = just_before(instant);
+    if (is_followed() || stretch_method_ == StretchMethod::closed_form) end_ = just_before(instant);
     pass(instant);
   }
-  way_ = Way::unknown;
+  stretch_method_ = StretchMethod::unknown;
 }
 
 /// Instant of an engine without series: at the time and in the state of the followed motion.
 void TangentRun::follow_instant(const run::RunInstant& instant) {
   std::optional<double> t;
   if (is_followed())
-    t = followed_.time_of(instant, [&](double at) {
-      return way_ == Way::own_modes ? modal_->motion(at).motion : followed_.at(at);
+    t = recomputed_motion_.time_of(instant, [&](double at) {
+      return stretch_method_ == StretchMethod::recomputed_modes ? modal_->motion(at).motion
+                                                                : recomputed_motion_.at(at);
     });
-  const bool moves = is_followed() && t.value_or(instant.t) > followed_.t();
+  const bool moves = is_followed() && t.value_or(instant.t) > recomputed_motion_.t();
   if (moves) arrive(t.value_or(instant.t));
-  const run::RunInstant seen = moves && t ? followed_.pass(instant, *t, end_) : followed_.take(instant);
+  const run::RunInstant seen = moves && t ? recomputed_motion_.pass(instant, *t, end_)
+                                          : recomputed_motion_.adopt_engine_state(instant);
   if (moves) end_ = just_before(seen);
   pass(seen);
 }
 
 Stretches TangentRun::stretches() const {
   Stretches all = stretches_;
-  all.taken = followed_.taken();
-  all.correction = followed_.correction();
+  all.taken = recomputed_motion_.fallback_count();
+  all.correction = recomputed_motion_.correction();
   return all;
 }
 
@@ -359,7 +364,7 @@ void TangentRun::pass(const run::RunInstant& instant) {
   for (TangentState& state : states_) {
     state.rates.assign(model_.contacts.size(), EventRates{});
     state.dt = EventRates::none;
-    if (!state.alive) continue;
+    if (!state.valid) continue;
     state.impulses.clear();
     TangentAfter next = state.events.pass(motion, state.now, state.series);
     if (!next.rates.empty()) {
@@ -367,8 +372,8 @@ void TangentRun::pass(const run::RunInstant& instant) {
       state.dt = next.dt;
     }
     if (!next.reason.empty()) {
-      state.alive = false;
-      state.until = instant.t;
+      state.valid = false;
+      state.valid_until = instant.t;
       state.reason = std::move(next.reason);
       continue;
     }
@@ -389,10 +394,10 @@ void TangentRun::pass(const run::RunInstant& instant) {
 /// An output row at the instant itself contains the values just after.
 void TangentRun::rows_at(const run::RunInstant& instant, const SeriesPoint& after) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
-    TangentSample sample{grid_[next_], instant.forcing_after, instant.after.mode, after, {}, {}, {}, {}};
+    TangentSample sample{grid_[next_], instant.forcing_after, instant.after.states, after, {}, {}, {}, {}};
     for (const TangentState& state : states_) {
-      sample.tangents.push_back(state.alive ? state.now.point : SeriesPoint{});
-      sample.driven.push_back(state.alive ? state.now.driven : std::vector<DrivenRates>{});
+      sample.tangents.push_back(state.valid ? state.now.point : SeriesPoint{});
+      sample.driven.push_back(state.valid ? state.now.driven : std::vector<DrivenRates>{});
       sample.anchors.push_back(state.now.start.anchors);
       if (losses_) sample.works.push_back(state.works->now());
     }
@@ -405,7 +410,7 @@ namespace {
 template <class Value>
 std::vector<double> of_each(const std::vector<TangentState>& states, const Value& value) {
   std::vector<double> rates;
-  for (const TangentState& state : states) rates.push_back(state.alive ? value(state) : EventRates::none);
+  for (const TangentState& state : states) rates.push_back(state.valid ? value(state) : EventRates::none);
   return rates;
 }
 
@@ -413,13 +418,13 @@ std::vector<double> of_each(const std::vector<TangentState>& states, const Value
 
 void LandingRecord::begin(std::size_t c, const std::vector<double>& start,
                           const std::vector<TangentState>& states) {
-  Stay& stay = all_[c].emplace_back();
+  ContactPhase& stay = all_[c].emplace_back();
   stay.landing.contact = static_cast<int>(c);
   stay.from = of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
   for (const double t : start) stay.landing.rates.push_back({t, t, 0.0, 0.0});
 }
 
-void LandingRecord::offer(std::size_t c, double force, const std::vector<double>& rates) {
+void LandingRecord::update_peak(std::size_t c, double force, const std::vector<double>& rates) {
   MovingLanding& landing = all_[c].back().landing;
   if (!(force > landing.value.peak_force)) return;
   landing.value.peak_force = force;
@@ -428,11 +433,11 @@ void LandingRecord::offer(std::size_t c, double force, const std::vector<double>
 
 void LandingRecord::turn(const TangentSample& s) {
   for (std::size_t c = 0; c < all_.size(); ++c) {
-    if (!lasts_[c]) continue;
+    if (!active_[c]) continue;
     const auto n = static_cast<Eigen::Index>(model_.layout.normal(c));
     std::vector<double> rates;
     for (const SeriesPoint& w : s.tangents) rates.push_back(w.u.size() > 0 ? -w.forces[n] : EventRates::none);
-    offer(c, -s.point.forces[n], rates);
+    update_peak(c, -s.point.forces[n], rates);
   }
 }
 
@@ -440,26 +445,28 @@ void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentSta
   const decide::Decision& decision = m.instant.after;
   for (std::size_t c = 0; c < all_.size(); ++c) {
     if (model_.contacts[c].normal_force_given()) continue;
-    const bool was = !m.instant.mode_before[c].is_open(), is = !decision.mode[c].is_open();
+    const bool was = !m.instant.states_before[c].is_open(), is = !decision.states[c].is_open();
     if (!begun_ && was) begin(c, std::vector<double>(parameters_, 0.0), states);
     const double pushed = decision.impulses.empty() ? 0.0 : decision.impulses[c].normal;
     const std::vector<double> t = of_each(states, [&](const TangentState& s) { return s.rates[c].t; });
-    if (was) offer(c, -m.motion_before[c].N, of_each(states, [&](const auto& s) { return -s.rates[c].N; }));
+    if (was)
+      update_peak(c, -m.motion_before[c].N, of_each(states, [&](const auto& s) { return -s.rates[c].N; }));
     if (!was && (is || pushed > 0.0)) begin(c, t, states);
-    lasts_[c] = is;
+    active_[c] = is;
     if (!was && !is && !(pushed > 0.0)) continue;
-    Stay& stay = all_[c].back();
+    ContactPhase& stay = all_[c].back();
     const auto work =
         of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
     for (std::size_t p = 0; p < parameters_; ++p) {
       LandingRates& rates = stay.landing.rates[p];
       rates.end = t[p];
       rates.impulse += work[p] - stay.from[p];
-      if (pushed > 0.0) rates.impulse += states[p].alive ? states[p].impulses[c] : EventRates::none;
+      if (pushed > 0.0) rates.impulse += states[p].valid ? states[p].impulses[c] : EventRates::none;
     }
     stay.from = work;
     if (is)
-      offer(c, -m.motion_after[c].N, of_each(states, [&](const auto& s) { return -s.rates[c].N_after; }));
+      update_peak(c, -m.motion_after[c].N,
+                  of_each(states, [&](const auto& s) { return -s.rates[c].N_after; }));
   }
   begun_ = true;
 }
@@ -467,14 +474,14 @@ void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentSta
 std::vector<std::vector<MovingLanding>> LandingRecord::finish(const std::vector<TangentState>& states) const {
   std::vector<std::vector<MovingLanding>> result(all_.size());
   for (std::size_t c = 0; c < all_.size(); ++c) {
-    for (const Stay& stay : all_[c]) result[c].push_back(stay.landing);
-    if (!lasts_[c]) continue;
-    const Stay& last = all_[c].back();
+    for (const ContactPhase& stay : all_[c]) result[c].push_back(stay.landing);
+    if (!active_[c]) continue;
+    const ContactPhase& last = all_[c].back();
     const auto work =
         of_each(states, [&](const TangentState& s) { return s.works->now().works.applied_normal_force[c]; });
     for (std::size_t p = 0; p < parameters_; ++p) {
       LandingRates& rates = result[c].back().rates[p];
-      rates.end = states[p].alive ? 0.0 : EventRates::none;
+      rates.end = states[p].valid ? 0.0 : EventRates::none;
       rates.impulse += work[p] - last.from[p];
     }
   }

@@ -6,7 +6,7 @@
 //   instant:  across the event (tangent_event.hpp)
 //
 // An engine whose steps are not series (`ida`, `newmark`) is followed after each stretch: the motion is recomputed to
-// rounding, together with the tangents and the event's time (followed_motion.hpp). A modal stretch of `exact` that
+// rounding, together with the tangents and the event's time (recomputed_motion.hpp). A modal stretch of `exact` that
 // tangents cannot follow in modes is followed along series. Tangents by the initial state alone can cross a stretch of
 // `exact` in closed form (state_flow.hpp).
 //
@@ -16,8 +16,8 @@
 // Requested results are passed to a listener: rows at output times, extremes, instants.
 #pragma once
 
-#include "sensitivity/followed_motion.hpp"
 #include "sensitivity/modal_tangents.hpp"
+#include "sensitivity/recomputed_motion.hpp"
 #include "sensitivity/state_flow.hpp"
 #include "sensitivity/tangent_state.hpp"
 #include "signorini/sensitivity.hpp"
@@ -31,10 +31,10 @@ class TangentRun final : public run::RunListener {
              const std::vector<double>& sizes, TangentListener& listener, bool losses = false);
   /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` has are crossed in closed
   /// form, for any excitation. Rows are then not reported, instants are. `flow` must outlive this object.
-  void cross_by(StateFlow& flow) { flow_ = &flow; }
+  void use_state_flow(StateFlow& flow) { flow_ = &flow; }
   /// For an observer that forwards to another one: the modal data that the engine shares with it. Must outlive this
   /// object.
-  void listens_with(const modal::ModalShare& share) { share_ = &share; }
+  void use_shared_modes(const modal::SharedModalData& share) { share_ = &share; }
   /// For derivatives of states alone: crosses grazing events without jumps (tangent_event.hpp).
   void cross_smooth_grazes() {
     for (TangentState& state : states_) state.events.cross_smooth_grazes();
@@ -52,8 +52,8 @@ class TangentRun final : public run::RunListener {
 
  private:
   /// Method for the stretch after an instant; the last two once its end is known.
-  enum class Way { unknown, series, modes, own_series, own_modes, closed };
-  [[nodiscard]] Way way_of(const run::RunStep& step);
+  enum class StretchMethod { unknown, series, modes, recomputed_series, recomputed_modes, closed_form };
+  [[nodiscard]] StretchMethod choose_stretch_method(const run::RunStep& step);
   [[nodiscard]] bool starts_in_modes(const run::RunStep& step);
   void observe(const run::RunStep& step);
   void observe_modes(const run::RunStep& step);
@@ -62,7 +62,10 @@ class TangentRun final : public run::RunListener {
   void follow(double t);
   void cross(double t);
   void arrive(double t);
-  [[nodiscard]] bool is_followed() const { return way_ == Way::own_series || way_ == Way::own_modes; }
+  [[nodiscard]] bool is_followed() const {
+    return stretch_method_ == StretchMethod::recomputed_series ||
+           stretch_method_ == StretchMethod::recomputed_modes;
+  }
   void follow_instant(const run::RunInstant& instant);
   [[nodiscard]] SeriesPoint just_before(const run::RunInstant& instant);
   [[nodiscard]] std::vector<RequestedPlace> wanted(const run::RunStep& step, std::span<const double> turns);
@@ -83,17 +86,17 @@ class TangentRun final : public run::RunListener {
   bool losses_;
   std::optional<ModalTangents> modal_;  ///< if modes can follow the model
   SeriesTangents series_;
-  FollowedMotion followed_;
-  Way way_ = Way::unknown;
-  modal::ModalShare own_share_;
-  const modal::ModalShare* share_ = &own_share_;
-  bool foreign_ = false;  ///< the engine makes no series
+  RecomputedMotion recomputed_motion_;
+  StretchMethod stretch_method_ = StretchMethod::unknown;
+  modal::SharedModalData own_share_;
+  const modal::SharedModalData* share_ = &own_share_;
+  bool engine_without_series_ = false;  ///< the engine makes no series
   Stretches stretches_;
   SeriesPoint end_;  ///< motion just before the next instant
   StateFlow* flow_ = nullptr;
   contact::ContactStates crossed_;  ///< contact states of the stretch that flow_ crosses
   double begin_ = 0.0;              ///< beginning of the stretch
-  bool closed_flow_;                ///< EngineAbilities::closed_flow of the run's engine
+  bool closed_form_flow_;           ///< EngineCapabilities::closed_flow of the run's engine
 };
 
 // Derivatives of contact phases (run/touch_tracker.hpp) by the parameters.
@@ -105,7 +108,7 @@ class LandingRecord {
  public:
   /// The model must outlive the object.
   LandingRecord(const Model& model, std::size_t parameters)
-      : model_(model), parameters_(parameters), all_(model.contacts.size()), lasts_(all_.size(), false) {}
+      : model_(model), parameters_(parameters), all_(model.contacts.size()), active_(all_.size(), false) {}
 
   void turn(const TangentSample& sample);
   void instant(const InstantMotion& motion, const std::vector<TangentState>& states);
@@ -113,17 +116,17 @@ class LandingRecord {
   [[nodiscard]] std::vector<std::vector<MovingLanding>> finish(const std::vector<TangentState>& states) const;
 
  private:
-  struct Stay {
+  struct ContactPhase {
     MovingLanding landing;
     std::vector<double> from;  ///< W_p at its beginning, one per parameter
   };
   void begin(std::size_t contact, const std::vector<double>& start, const std::vector<TangentState>& states);
-  void offer(std::size_t contact, double force, const std::vector<double>& rates);
+  void update_peak(std::size_t contact, double force, const std::vector<double>& rates);
 
   const Model& model_;
   std::size_t parameters_;
-  std::vector<std::vector<Stay>> all_;
-  std::vector<bool> lasts_;
+  std::vector<std::vector<ContactPhase>> all_;
+  std::vector<bool> active_;
   bool begun_ = false;
 };
 

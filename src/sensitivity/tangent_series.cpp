@@ -9,7 +9,7 @@ namespace signorini::sensitivity {
 namespace {
 
 // Relative to the tangent at the beginning: a larger term costs digits of the sum. Chosen value: three digits.
-constexpr double most_cancelling = 1e3;
+constexpr double max_cancelling = 1e3;
 // Relative to the tangent: limit of the last terms of a series; ten thousand steps accumulate as their square root.
 // Chosen value.
 constexpr double truncation_error = 1e-14;
@@ -118,7 +118,7 @@ TangentSeries::TangentSeries(const Model& model, const linear::SystemMatrices& s
       work_(x_.size()),
       known_u_(static_cast<std::size_t>(model.size())),
       known_v_(known_u_.size()) {
-  nothing_ = rounding::eps / size;
+  zero_limit_ = rounding::eps / size;
   for (const Dof& dof : model.dofs)
     scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
 }
@@ -130,15 +130,15 @@ void TangentSeries::begin(const motion::StateSystem& system, const motion::Serie
   start_ = &start;
   scale_ = motion.scale;
   levels_ = -1;
-  constexpr int columns = most_tangent_levels + 3;
+  constexpr int columns = max_tangent_levels + 3;
   u_.setZero(model_.size(), columns);
   forces_.setZero(model_.force_count(), columns);
   forcing.expand(motion.t, motion.scale, motion.forcing.count, forcing_);
   friction_.clear();
-  for (const std::size_t c : system.factorised().by_rate)
+  for (const std::size_t c : system.factorised().rate_dependent)
     friction_.emplace_back(
         c, contact::FrictionTangent(model_.contacts[c].friction, derivative_.contacts[c].friction,
-                                    slip_sign(system.mode()[c].state)));
+                                    slip_sign(system.states()[c].state)));
   u_.col(0) = start.u;
   for (Eigen::Index i = 0; i < start.u.size(); ++i)
     if (system.kinds()[static_cast<std::size_t>(i)] == linear::DofKind::massive)
@@ -169,14 +169,14 @@ bool TangentSeries::expand(const motion::StateSystem& system, const motion::Seri
       rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
     last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
-    if (last <= truncation_error * std::max(first, greatest) + nothing_) break;
-    if (levels_ == most_tangent_levels) return false;
+    if (last <= truncation_error * std::max(first, greatest) + zero_limit_) break;
+    if (levels_ == max_tangent_levels) return false;
   }
   // Omitted terms count in velocities as often as their degree.
   const double size = first > 0.0 ? first : greatest;
   error_ = size > 0.0 ? (rounding::eps * rounded + static_cast<double>(levels_) * last) / size : 0.0;
-  if (greatest <= most_cancelling * (first + nothing_)) return true;
-  return greatest <= most_cancelling * size_of(at(x).u);  // it may start from zero
+  if (greatest <= max_cancelling * (first + zero_limit_)) return true;
+  return greatest <= max_cancelling * size_of(at(x).u);  // it may start from zero
 }
 
 void TangentSeries::expand_to(const motion::StateSystem& system, const motion::Series& motion,
@@ -214,7 +214,7 @@ void TangentSeries::add_rows(int k) {
   const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
   for (std::size_t c = 0; c < at.contacts; ++c) {
     const Contact& contact = model_.contacts[c];
-    const ContactState& state = system_->mode()[c];
+    const ContactState& state = system_->states()[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
     double r = 0.0, q = 0.0;
     if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_.data());

@@ -44,7 +44,7 @@ void recentre(const motion::Series& series, const motion::Forcing& forcing, doub
 class TangentSeries {
  public:
   /// Largest number of levels. A step of six radians leaves 6^40/40! = 2e-17.
-  static constexpr int most_tangent_levels = 40;
+  static constexpr int max_tangent_levels = 40;
 
   /// All arguments except size must outlive the object; size: size of the parameter. A change below eps of a scale's
   /// displacement for a change of the parameter by its size is zero.
@@ -93,7 +93,7 @@ class TangentSeries {
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
   Vector a_, v_;
   int levels_ = -1;
-  double scale_ = 1.0, nothing_ = 0.0, error_ = 0.0;
+  double scale_ = 1.0, zero_limit_ = 0.0, error_ = 0.0;
   long solves_ = 0;
 };
 

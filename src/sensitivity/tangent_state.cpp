@@ -8,8 +8,8 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr int most_halvings = 30;
-constexpr int fewest_tangent_levels = 12;
+constexpr int max_halvings = 30;
+constexpr int min_tangent_levels = 12;
 constexpr double bolder = 1.5;   // relative to the last part that converged
 constexpr int turn_places = 24;  // per step of six radians: a quarter radian each
 // A product of two motions oscillates twice as fast: a step of six radians needs two sets of ten Gauss points, with a
@@ -28,11 +28,11 @@ Vector force_bends(const motion::Series& series, std::size_t degree, double x) {
   return sum;
 }
 
-std::vector<double> pressing_turns(const Model& model, const run::RunStep& step) {
+std::vector<double> compression_maxima(const Model& model, const run::RunStep& step) {
   const engine::Expansion& e = step.facts.expansion;
   std::vector<double> turns;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    if (model.contacts[c].normal_force_given() || step.decision.mode[c].is_open()) continue;
+    if (model.contacts[c].normal_force_given() || step.decision.states[c].is_open()) continue;
     const auto row = static_cast<Eigen::Index>(model.layout.normal(c));
     const auto slope = [&](double x) {
       double sum = 0.0;
@@ -58,11 +58,11 @@ SeriesTangents::SeriesTangents(const Model& model, motion::StateSystems& systems
 motion::StateSystemPtr SeriesTangents::system_at(const motion::StateSystem& system,
                                                  const motion::Series& series) const {
   std::vector<Form> rows;
-  for (const std::size_t c : system.factorised().by_rate)
-    rows.push_back(motion::FrictionSeries(model_.contacts[c], c, slip_sign(system.mode()[c].state),
+  for (const std::size_t c : system.factorised().rate_dependent)
+    rows.push_back(motion::FrictionSeries(model_.contacts[c], c, slip_sign(system.states()[c].state),
                                           system.rows()[c].normal, series)
                        .row());
-  return systems_.at_friction(system, rows);
+  return systems_.with_friction(system, rows);
 }
 
 /// Works over [from, to] of the step; the tangent's own series begins at `begin`.
@@ -82,7 +82,7 @@ void SeriesTangents::integrate(TangentState& state, const run::RunStep& step, do
   std::vector<SeriesPoint> motion =
       points_at(e.series->u, e.series->forces, e.series->scale, e.degree, x, touched_);
   std::vector<SeriesPoint> tangent = state.series.at(own, touched_);
-  TangentPlace place{0.0, step.forcing, step.decision.mode, {}, {}, {}, Vector::Zero(model_.size())};
+  TangentPlace place{0.0, step.forcing, step.decision.states, {}, {}, {}, Vector::Zero(model_.size())};
   for (std::size_t i = 0; i < x.size(); ++i) {
     place.t = e.series->t + e.series->scale * x[i];
     place.motion = std::move(motion[i]);
@@ -106,7 +106,7 @@ void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
   const engine::Expansion& e = step.facts.expansion;
   const motion::StateSystem* system = e.system != nullptr ? e.system : step.decision.system.get();
   motion::StateSystemPtr own;
-  const int levels = std::max(fewest_tangent_levels, static_cast<int>(step.forcing.greatest_degree()) + 2);
+  const int levels = std::max(min_tangent_levels, static_cast<int>(step.forcing.max_degree()) + 2);
   motion::Series moved;
   std::size_t next = 0;
   double from = 0.0;
@@ -118,13 +118,13 @@ void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
     if (length < rest && length > 0.6 * rest) length = 0.5 * rest;
     if (from > 0.0) recentre(*e.series, step.forcing, from, 1.0, moved);
     const motion::Series& motion = from > 0.0 ? moved : *e.series;
-    if (from > 0.0 && !system->factorised().by_rate.empty() && (own = system_at(*system, moved)))
+    if (from > 0.0 && !system->factorised().rate_dependent.empty() && (own = system_at(*system, moved)))
       system = own.get();
     while (length > 0.0 &&
            !state.series.expand(*system, motion, *state.forcing, state.now.start, length, levels)) {
-      if (++halvings > most_halvings) {
-        state.alive = false;
-        state.until = motion.t;
+      if (++halvings > max_halvings) {
+        state.valid = false;
+        state.valid_until = motion.t;
         state.reason = "its series does not converge";
         return;
       }

@@ -16,7 +16,7 @@ namespace signorini::sensitivity {
 struct TangentSample {
   double t = 0.0;
   const motion::Forcing& forcing;
-  const contact::ContactStates& mode;
+  const contact::ContactStates& contact_states;
   SeriesPoint point;
   Vector force_bends;                            ///< second derivatives of the contact forces
   std::vector<SeriesPoint> tangents;             ///< one per parameter; empty vectors: it no longer exists
@@ -39,8 +39,8 @@ struct TangentState {
   double reach = 0.0;                   ///< time over which its series converged last; 0: unknown
   double error = 0.0;  ///< of all stretches so far, relative (TangentSeries::error); for derivatives of
                        ///< states alone
-  bool alive = true;
-  double until = 0.0;  ///< time from which it does not exist
+  bool valid = true;
+  double valid_until = 0.0;  ///< time from which it does not exist
   std::string reason;
   std::vector<EventRates> rates;  ///< rates at the last instant, one per contact
   double dt = 0.0;                ///< dt/dp of the last instant
@@ -78,7 +78,7 @@ struct RequestedPlace {
 /// Second derivatives of the contact forces at x.
 [[nodiscard]] Vector force_bends(const motion::Series& series, std::size_t degree, double x);
 /// Times at which a contact's compression has a maximum: N' reaches zero and then rises.
-[[nodiscard]] std::vector<double> pressing_turns(const Model& model, const run::RunStep& step);
+[[nodiscard]] std::vector<double> compression_maxima(const Model& model, const run::RunStep& step);
 
 class SeriesTangents {
  public:

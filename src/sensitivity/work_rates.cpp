@@ -39,8 +39,8 @@ double WorkRates::surface() const { return sum_of(works.surface); }
 double stiffness_rate(const ContactRates& rates) { return -rates.rows[index_of(State::closed)].normal.gap; }
 double damping_rate(const ContactRates& rates) { return -rates.rows[index_of(State::closed)].normal.vn; }
 
-double slip_by(const Contact& contact, const ContactRates& rates, const ContactMotion& m,
-               const ContactMotion& D) {
+double slip_derivative(const Contact& contact, const ContactRates& rates, const ContactMotion& m,
+                       const ContactMotion& D) {
   const double kt = contact.anchor_spring().value_or(0.0);
   return kt > 0.0 ? D.ut - D.T / kt + m.T * rates.tangential_stiffness / (kt * kt) : D.ut;
 }
@@ -50,10 +50,10 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
   now_.works.loads += factor * (at.load.dot(v) + at.forcing.power(at.t, w.data()));
   double damped = both_ways(model_.damping, v, w);
   if (derivative_.damping.nonZeros() > 0) damped += v.dot(derivative_.damping * v);
-  for (std::size_t c = 0; c < at.mode.size(); ++c) {
+  for (std::size_t c = 0; c < at.states.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactRates& rates = derivative_.contacts[c];
-    const ContactState& state = at.mode[c];
+    const ContactState& state = at.states[c];
     const ContactMotion m = motion_of(contact, c, at.forcing, at.t, at.motion);
     const ContactMotion p =
         parameter_rate(contact, rates, model_.layout, c, at.motion, at.tangent, at.driven[c]);
@@ -78,19 +78,19 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
   now_.works.damping += factor * damped;
 }
 
-void WorkTangent::shift(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+void WorkTangent::shift(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                         const SeriesPoint& motion, const std::vector<ContactMotion>& m, double dt,
                         const std::vector<double>& dt_of) {
   now_.works.loads += dt * forcing.power(t, motion.v.data());
   now_.works.damping += dt * motion.v.dot(model_.damping * motion.v);
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const double slip = contact::working_slip_rate(contact, mode[c].state, m[c]);
+    const double slip = contact::working_slip_rate(contact, states[c].state, m[c]);
     now_.works.add(c,
-                   contact::work_on(contact, mode[c].state, m[c].N, m[c].T,
+                   contact::work_on(contact, states[c].state, m[c].N, m[c].T,
                                     {slip, forcing.surface(c, t, 1), m[c].vn, m[c].vn, 1.0}),
                    dt_of[c]);
-    if (mode[c].state == State::inside)
+    if (states[c].state == State::inside)
       now_.works.damping -= dt_of[c] * contact.normal_stiffness * m[c].gap * m[c].vn;
   }
 }
@@ -118,7 +118,7 @@ double WorkTangent::contact_energy(std::size_t c, const StoredMotion& at, double
   }
   if (!contact.is_elastic_along_normal()) return energy;
   const double kn = contact.normal_stiffness, kn_p = stiffness_rate(rates);
-  const State state = at.mode[c].state;
+  const State state = at.states[c].state;
   if (state == State::inside) return energy + kn * m.gap * D.gap + 0.5 * kn_p * m.gap * m.gap;
   if (is_open(state)) return energy;
   const double spring = m.N - contact.normal_damping * m.vn;
@@ -131,7 +131,7 @@ Energy WorkTangent::stored(const StoredMotion& at) const {
   e.kinetic = kinetic(at.v, at.Dv);
   e.elastic = 0.5 * both_ways(model_.stiffness, at.u, at.Du);
   if (derivative_.stiffness.nonZeros() > 0) e.elastic += 0.5 * at.u.dot(derivative_.stiffness * at.u);
-  for (std::size_t c = 0; c < at.mode.size(); ++c) {
+  for (std::size_t c = 0; c < at.states.size(); ++c) {
     double shear = 0.0;
     e.contact += contact_energy(c, at, shear) + shear;
     e.elastic -= shear;
@@ -167,13 +167,14 @@ void LossRates::add_impact(const Sides& s, WorkRates& works) const {
 }
 
 /// Derivative of the energy that a contact's shear loses as its force drops, as in the audit; nullopt: no loss.
-std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
+std::optional<double> LossRates::friction_drop_loss(const Sides& s, std::size_t c) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &b = s.motion.motion_before[c], &a = s.motion.motion_after[c];
   const double kt = contact.anchor_spring().value_or(0.0);
   const decide::Decision& now = s.motion.instant.after;
   if (!now.jumped[c] || !(std::abs(a.T) < std::abs(b.T))) return std::nullopt;
-  if (contact::slides_at_once(contact) && (now.mode[c].state != State::stick || now.visited[c])) return 0.0;
+  if (contact::slides_instantaneously(contact) && (now.states[c].state != State::stick || now.visited[c]))
+    return 0.0;
   if (!(kt > 0.0)) return std::nullopt;
   return (b.T * s.D_before[c].T - a.T * s.D_after[c].T) / kt -
          (b.T * b.T - a.T * a.T) * derivative_.contacts[c].tangential_stiffness / (2.0 * kt * kt);
@@ -201,9 +202,9 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
   double released = 0.0, lost = 0.0, dropped = 0.0;
   if (massless_) {
     const Energy from = works.stored(
-        {now.mode_before, m.before.u, m.before.v, s.Du_before, s.Dv_before, m.motion_before, s.D_before});
+        {now.states_before, m.before.u, m.before.v, s.Du_before, s.Dv_before, m.motion_before, s.D_before});
     const Energy to = works.stored(
-        {now.after.mode, m.after.u, m.after.v, s.Du_after, s.Dv_after, m.motion_after, s.D_after});
+        {now.after.states, m.after.u, m.after.v, s.Du_after, s.Dv_after, m.motion_after, s.D_after});
     WorkRates impact{motion::WorkIntegrals(model_.contacts.size()), 0.0};
     add_impact(s, impact);
     released = from.stored() - to.stored() - (impact.impact - impact.surface());
@@ -217,7 +218,7 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
   std::vector<std::optional<double>> drops;
   int count = 0;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    drops.push_back(drop_by(s, c));
+    drops.push_back(friction_drop_loss(s, c));
     dropped += drops.back().value_or(0.0);
     count += drops.back() ? 1 : 0;
   }
@@ -232,7 +233,7 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
       loss = drops[c].value_or(0.0);
     } else if (now.load_jumps) {
       loss = Da.T * (contact::slip_of(contact, a) - contact::slip_of(contact, b)) +
-             a.T * (slip_by(contact, rates, a, Da) - slip_by(contact, rates, b, Db));
+             a.T * (slip_derivative(contact, rates, a, Da) - slip_derivative(contact, rates, b, Db));
     } else if (drops[c]) {
       loss = *drops[c] + (released - dropped) / count;
     } else if (count == 0 && contact.tangential_stiffness) {
@@ -264,12 +265,12 @@ WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, c
         sum(parameter_rate(contact, rates, model_.layout, c, m.after, after.point, after.driven[c]),
             m.rate_after[c], dt_of[c]));
   }
-  works.shift(now.forcing_before, now.t, now.mode_before, m.before, m.motion_before, after.dt, dt_of);
+  works.shift(now.forcing_before, now.t, now.states_before, m.before, m.motion_before, after.dt, dt_of);
   add_impact(s, works.now());
   add_drops(s, works);
   WorkRates along = works.now();
   for (double& dt : dt_of) dt = -dt;
-  works.shift(now.forcing_after, now.t, now.after.mode, m.after, m.motion_after, -after.dt, dt_of);
+  works.shift(now.forcing_after, now.t, now.after.states, m.after, m.motion_after, -after.dt, dt_of);
   return along;
 }
 

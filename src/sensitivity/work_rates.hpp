@@ -30,7 +30,7 @@ struct WorkRates {
 struct TangentPlace {
   double t = 0.0;
   const motion::Forcing& forcing;
-  const contact::ContactStates& mode;
+  const contact::ContactStates& states;
   SeriesPoint motion, tangent;
   std::vector<DrivenRates> driven;  ///< one per contact
   Vector load;                      ///< P_p
@@ -38,7 +38,7 @@ struct TangentPlace {
 
 /// u and v with their derivatives, and those of all contacts: at fixed time, or along an instant.
 struct StoredMotion {
-  const contact::ContactStates& mode;
+  const contact::ContactStates& states;
   const Vector &u, &v, &Du, &Dv;
   const std::vector<ContactMotion>&m, &D;
 };
@@ -54,7 +54,7 @@ class WorkTangent {
   /// Adds factor times the derivatives of all powers.
   void add(const TangentPlace& place, double factor);
   /// Adds dt times the powers themselves; each contact has its own dt.
-  void shift(const motion::Forcing& forcing, double t, const contact::ContactStates& mode,
+  void shift(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
              const SeriesPoint& motion, const std::vector<ContactMotion>& m, double dt,
              const std::vector<double>& dt_of);
   /// Derivatives of kinetic, elastic and contact energy; all others are zero.
@@ -73,8 +73,8 @@ class WorkTangent {
 [[nodiscard]] double stiffness_rate(const ContactRates& rates);
 [[nodiscard]] double damping_rate(const ContactRates& rates);
 /// The derivative of ut - T/kt.
-[[nodiscard]] double slip_by(const Contact& contact, const ContactRates& rates, const ContactMotion& m,
-                             const ContactMotion& D);
+[[nodiscard]] double slip_derivative(const Contact& contact, const ContactRates& rates,
+                                     const ContactMotion& m, const ContactMotion& D);
 
 // Energy lost at an instant, and its derivative by a parameter.
 //
@@ -102,7 +102,7 @@ class LossRates {
  private:
   struct Sides;
   void add_impact(const Sides& sides, WorkRates& works) const;
-  [[nodiscard]] std::optional<double> drop_by(const Sides& sides, std::size_t contact) const;
+  [[nodiscard]] std::optional<double> friction_drop_loss(const Sides& sides, std::size_t contact) const;
   [[nodiscard]] double driven_by(const Sides& sides) const;
   void add_drops(const Sides& sides, WorkTangent& works) const;
 

@@ -36,13 +36,13 @@ PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found) 
   return built(reduction::find_cutoff(std::move(scene), found));
 }
 
-Report PreparedRun::ends(Recorder& recorder) const {
+Report PreparedRun::run_in_memory(Recorder& recorder) const {
   return simulate(model, without_rows(scene.run), recorder);
 }
 
-KeptRun PreparedRun::keep(result::RunDirectory& directory, run::ForwardingRecorder& watch,
-                          const std::optional<CertifyOptions>& certified) const {
-  KeptRun kept;
+StoredRun PreparedRun::run_to_disk(result::RunDirectory& directory, run::ForwardingRecorder& watch,
+                                   const std::optional<CertifyOptions>& certified) const {
+  StoredRun kept;
   try {
     if (certified)
       kept.certified = simulate_certified(model, scene.run, watch, *certified);
@@ -165,7 +165,7 @@ bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go
         "events now: the program, or a file that run.toml reads, is another than it was");
   std::optional<base::Manifest> manifest = base::read_manifest(directory);
   if (manifest) {
-    for (const std::string_view table : base::picture_rows) manifest->drop(table);
+    for (const std::string_view table : base::picture_rows) manifest->remove(table);
     result::write_file(directory / base::manifest_file, manifest->text());
   }
   std::error_code ignored;
@@ -173,7 +173,7 @@ bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go
     fs::remove(directory / table, ignored);  // opening a pipe would wait
   rows.write(directory, prepared.model);
   if (manifest) {
-    for (const std::string_view table : base::picture_rows) manifest->take(directory, table);
+    for (const std::string_view table : base::picture_rows) manifest->add(directory, table);
     result::write_file(directory / base::manifest_file, manifest->text());
   }
   return true;

@@ -20,7 +20,7 @@
 namespace signorini::study {
 
 /// A run that has been written to disk.
-struct KeptRun {
+struct StoredRun {
   CertifiedReport certified;
   std::string summary;  ///< text of summary.json
 };
@@ -30,11 +30,11 @@ struct PreparedRun {
   Model model;
 
   /// Runs in memory, with output rows at both ends only. Errors: SceneError for scenes that the engine refuses.
-  Report ends(Recorder& recorder) const;
+  Report run_in_memory(Recorder& recorder) const;
   /// Into `directory`, to which `watch` passes all on; certified where options are given. Where a file cannot be
   /// written the directory says how far the run came. Errors: as of ends(); FileError.
-  KeptRun keep(result::RunDirectory& directory, run::ForwardingRecorder& watch,
-               const std::optional<CertifyOptions>& certified = std::nullopt) const;
+  StoredRun run_to_disk(result::RunDirectory& directory, run::ForwardingRecorder& watch,
+                        const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 
 /// go_on: same as in find_cutoff. Errors: those of read_scene, find_cutoff and build_model.

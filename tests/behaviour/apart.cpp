@@ -82,10 +82,11 @@ Both both(const std::string& engine) {
   result.apart.report = simulate(result.model, scene.run, result.apart);
   bool heard = false;
   // Whoever hears of rounds hears of all contacts: these run together.
-  result.together.report = simulate(result.model, scene.run, result.together, [&](const Round& round) {
-    heard = true;
-    CHECK(round.tried.size() == 4);
-  });
+  result.together.report =
+      simulate(result.model, scene.run, result.together, [&](const DecisionRound& round) {
+        heard = true;
+        CHECK(round.states.size() == 4);
+      });
   CHECK(heard);
   REQUIRE(result.apart.report.outcome.kind == Outcome::Kind::done);
   REQUIRE(result.together.report.outcome.kind == Outcome::Kind::done);
@@ -138,7 +139,7 @@ void check_reports(const Report& a, const Report& b, double part) {
   CHECK(a.audit.power_scale == b.audit.power_scale);
   CHECK(a.audit.energy_scale >= b.audit.energy_scale * (1.0 - part));
   CHECK(a.audit.work_of_loads >= b.audit.work_of_loads * (1.0 - part));
-  CHECK(a.witness.violated == 0);
+  CHECK(a.law_checks.violated == 0);
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ contact_mass = "none"
                         .omega /
                     (2.0 * std::numbers::pi);
   const double f2 = modes::lowest_frequencies(structure.mass, structure.damping, structure.stiffness,
-                                              modes::close_contacts(structure.contacts), 1)
+                                              modes::constrain_normals(structure.contacts), 1)
                         .modes[0]
                         .omega /
                     (2.0 * std::numbers::pi);

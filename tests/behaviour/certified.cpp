@@ -382,7 +382,7 @@ TEST_CASE("certified: what a reduced model leaves out moves contacts and forces 
     for (std::size_t row = 0; row < full.rows.rows.size() && full.rows.rows[row].t < until; ++row) {
       const Result::Row &a = full.rows.rows[row], &b = part.rows.rows[row];
       for (const Column& column : full.model.columns)
-        if (!column.velocity && !full.model.turns(column))
+        if (!column.velocity && !full.model.is_rotation(column))
           moved = std::max(moved, std::abs(a.u[column.dof] - b.u[column.dof]));
       for (std::size_t k = 0; k < a.contacts.size(); ++k)
         pushed = std::max({pushed, std::abs(a.contacts[k].N - b.contacts[k].N),
@@ -409,7 +409,7 @@ TEST_CASE("certified: the run itself is the same to the last digit, and auto lea
   const Scene exact = read_scene(path, {{"run.engine", "exact"}});
   const CertifiedReport alone = simulate_certified(model, exact.run, beside);
   CHECK_FALSE(alone.certificate);
-  CHECK(alone.why_not.find("2 times as long as the run") != std::string::npos);
+  CHECK(alone.reason.find("2 times as long as the run") != std::string::npos);
 }
 
 // A foot that rests on its ground without force at the start and opens for 3e-5 s, 5e-11 m high (random scene 411).

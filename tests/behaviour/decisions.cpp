@@ -412,7 +412,7 @@ TEST_CASE("a slider that turns back does not make another slip that its new forc
                                         {{"run.engine", engine}, {"run.rtol", "1e-10"}, {"run.dt", "1e-4"}});
         const Result result = simulate(build_model(scene), scene.run);
         CHECK(result.report.outcome.kind == Outcome::Kind::done);
-        CHECK(result.report.witness.violated == 0);
+        CHECK(result.report.law_checks.violated == 0);
         REQUIRE(result.events.size() == 1);
         CHECK(result.events[0].contact == (other_order ? 0U : 1U));
         CHECK(result.events[0].type == EventType::reversal);

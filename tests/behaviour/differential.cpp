@@ -106,7 +106,7 @@ TEST_SUITE("behaviour/differential") {
     const Scene scene = parse_scene(draw_coupled_scene(19), "drawn.toml");
     const Result run = simulate(build_model(scene), scene.run);
     CHECK(run.report.outcome.kind == Outcome::Kind::done);
-    CHECK(run.report.witness.violations.empty());
+    CHECK(run.report.law_checks.violations.empty());
     for (const Result::Row& row : run.rows)
       for (const ContactSample& contact : row.contacts)
         CHECK(contact.N < 1e-9 * run.report.audit.force_scale);

@@ -62,7 +62,7 @@ Result run_scene(const std::string& text, const char* engine) {
   Result result = simulate(build_model(scene), scene.run);
   INFO(result.report.outcome.reason);
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-  CHECK(result.report.witness.violated == 0);
+  CHECK(result.report.law_checks.violated == 0);
   return result;
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("a rigid slider that moves for less than the clock resolves has no row
                                    {{"run.engine", engine}});
     const Result result = simulate(build_model(scene), scene.run);
     CHECK(result.report.outcome.kind == Outcome::Kind::done);
-    CHECK(result.report.witness.violated == 0);
+    CHECK(result.report.law_checks.violated == 0);
     CHECK(result.events.size() > 600);
     State last = State::stick;  // of s2
     for (const Event& e : result.events) {
@@ -154,7 +154,7 @@ TEST_CASE(
                                  {{"run.certify", "false"}});
   const Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.kind == Outcome::Kind::done);
-  CHECK(result.report.witness.violated == 0);
+  CHECK(result.report.law_checks.violated == 0);
   CHECK(result.events.size() > 50);
 }
 

@@ -148,7 +148,7 @@ Measurements turns_of(double faster, double sigma) {
   return data;
 }
 bool doubted(const Fit& fit, const std::string& what) {
-  for (const std::string& doubt : fit.doubts)
+  for (const std::string& doubt : fit.issues)
     if (doubt.find(what) != std::string::npos) return true;
   return false;
 }

@@ -69,7 +69,7 @@ TEST_CASE("Results do not depend on where forces stand") {
       if (!is) continue;
       ++runs;
       CHECK(spread->report.outcome.kind == is->report.outcome.kind);
-      CHECK(spread->report.witness.violated == is->report.witness.violated);
+      CHECK(spread->report.law_checks.violated == is->report.law_checks.violated);
       const double near = (engine == Engine::ida ? 1e2 * scene.run.rtol : 1e-9) * scene.run.t_end;
       REQUIRE(spread->result.events.size() == is->result.events.size());
       events += is->result.events.size();

@@ -186,7 +186,7 @@ void check_against(const Result& result, const std::vector<Change>& expected, do
     CHECK(result.events[i].to == state_of(expected[i].to));
     CHECK(std::abs(result.events[i].t - expected[i].t) < within);
   }
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   CHECK(result.report.audit.energy.value < 1e-7 * result.report.audit.energy_scale);
   CHECK(result.report.audit.friction.value < 1e-7 * result.report.audit.force_scale);
 }

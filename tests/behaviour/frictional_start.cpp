@@ -108,7 +108,7 @@ TEST_CASE("two sliders in series: pushed until the first slips, and back until i
   {
     const Model model = built(two_sliders(frictional, push("push", 1.2)));
     REQUIRE(model.statics.events.size() == 1);
-    CHECK(model.statics.events[0].part == doctest::Approx(6.0 / 11.0 / 1.2).epsilon(1e-13));
+    CHECK(model.statics.events[0].fraction == doctest::Approx(6.0 / 11.0 / 1.2).epsilon(1e-13));
     CHECK(model.statics.events[0].to == State::slip_plus);
     CHECK(model.u0[dof(model, "A.ux")] == doctest::Approx(0.077).epsilon(1e-13));
     CHECK(model.u0[dof(model, "B.ux")] == doctest::Approx(0.007).epsilon(1e-13));
@@ -123,15 +123,15 @@ TEST_CASE("two sliders in series: pushed until the first slips, and back until i
   const auto& events = model.statics.events;
   REQUIRE(events.size() == 3);
   CHECK(events[1].stage == "back");
-  CHECK(events[1].part == 0.0);  // it sticks at once
+  CHECK(events[1].fraction == 0.0);  // it sticks at once
   CHECK(events[1].to == State::stick);
-  CHECK(events[2].part == doctest::Approx(12.0 / 11.0 / 1.5).epsilon(1e-12));
+  CHECK(events[2].fraction == doctest::Approx(12.0 / 11.0 / 1.5).epsilon(1e-12));
   CHECK(events[2].to == State::slip_minus);
   // P = -0.3: 10 (a - b) = P + 0.5 = 100 b
   CHECK(model.u0[dof(model, "B.ux")] == doctest::Approx(0.002).epsilon(1e-11));
   CHECK(model.u0[dof(model, "A.ux")] == doctest::Approx(0.022).epsilon(1e-11));
   REQUIRE(model.statics.stages.size() == 3);
-  CHECK(model.statics.stages[1].part == 0.5);
+  CHECK(model.statics.stages[1].fraction == 0.5);
   // half back: P = 0.45, stuck since P = 1.2, T_a = 0.5 - 11/12 0.75
   CHECK(model.statics.stages[1].T[0] == doctest::Approx(0.5 - 11.0 / 12.0 * 0.75).epsilon(1e-11));
 }
@@ -235,7 +235,7 @@ friction = 0.3
     REQUIRE(model.statics.events.size() == 1);
     CHECK(model.statics.events[0].stage == "heat");
     CHECK(model.statics.events[0].contact == 1);
-    CHECK(model.statics.events[0].part == doctest::Approx(1.5 * flexibility / whole).epsilon(1e-9));
+    CHECK(model.statics.events[0].fraction == doctest::Approx(1.5 * flexibility / whole).epsilon(1e-9));
     CHECK(model.contacts[1].initial_shear == doctest::Approx(1.5).epsilon(1e-9));
     CHECK(model.contacts[0].initial_shear == doctest::Approx(-1.5).epsilon(1e-9));
     const Vector u = model.physical(model.u0);
@@ -271,7 +271,7 @@ normal_stiffness = 20.0
   };
   const Model gap = built(text("gap = 0.1\n"));
   REQUIRE(gap.statics.events.size() == 1);
-  CHECK(gap.statics.events[0].part == doctest::Approx(1.0 / 3.0).epsilon(1e-14));
+  CHECK(gap.statics.events[0].fraction == doctest::Approx(1.0 / 3.0).epsilon(1e-14));
   CHECK(gap.u0[0] == doctest::Approx((9.0 + 2.0) / 50.0).epsilon(1e-14));
   // 0.1 too long: u = -2 / 50 alone, then (9 - 2) / 50
   const Model fit = built(text("gap = -0.1\n"));
@@ -328,7 +328,7 @@ TEST_CASE("a symmetric portal stays symmetric where nothing says which of its fe
   // Held by a spring on one side it is determined, however soft the spring, and nothing is said.
   const Model held = built(heated_portal("law = \"rigid\"\n", 0.3) +
                            "[[springs]]\nnode = \"B\"\ndirection = [1.0, 0.0]\nstiffness = 1.0\n");
-  CHECK(held.statics.doubts.empty());
+  CHECK(held.statics.undetermined.empty());
 }
 
 TEST_CASE("what slips on by itself: flutter is told, what runs away is refused") {
@@ -519,7 +519,7 @@ TEST_CASE(
     run.run.engine = engine;
     const Result result = simulate(build_model(run), run.run);
     CHECK(result.report.outcome.reason == "");
-    CHECK(result.report.witness.violations.empty());
+    CHECK(result.report.law_checks.violations.empty());
   }
 }
 

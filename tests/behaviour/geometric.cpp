@@ -304,7 +304,7 @@ TEST_CASE("a cantilever under both loads: deflection by its closed form, moments
         "0.371\n[[output]]\nname = \"earlier\"\nkind = \"member_force\"\nat = [\"A\", \"B\"]\nquantity = "
         "\"M\"\nstation = 0.369\n";
     const outputs::Computed c = outputs::compute(text);
-    CHECK(c.result.report.witness.violations.empty());
+    CHECK(c.result.report.law_checks.violations.empty());
     const double top = c.last("top");
     errors.push_back(std::abs(top / (H * length / P * (std::tan(u) / u - 1.0)) - 1.0));
     // Of the structure where it stands: the force and the weight at their arms.
@@ -449,7 +449,7 @@ TEST_CASE("a loaded column that swings against a stop: both flows, ida, energy, 
   const Result series = run("exact", "taylor"), modal = run("exact", "modal"), ida = run("ida", "auto");
   REQUIRE(series.events.size() > 1);
   for (const auto& [other, bound] : {std::pair(&modal, 1e-9), std::pair(&ida, 1e-6)}) {
-    CHECK(other->report.witness.violations.empty());
+    CHECK(other->report.law_checks.violations.empty());
     REQUIRE(other->events.size() == series.events.size());
     for (std::size_t i = 0; i < series.events.size(); ++i)
       CHECK(std::abs(other->events[i].t - series.events[i].t) < bound);

@@ -272,7 +272,7 @@ TEST_CASE("a block rocks: quarter period, ten impacts and their rates in closed 
         parse_scene(block.scene(10.0), "test.toml", {{"run.engine", engine}, {"run.rtol", "1e-10"}});
     const Result result = simulate(build_model(scene), scene.run);
     CHECK(result.report.outcome.reason == "");
-    CHECK(result.report.witness.violations.empty());
+    CHECK(result.report.law_checks.violations.empty());
     double t = std::acosh(1.0 / (1.0 - block.tilt / share)) / p;
     double rate = p * std::sqrt(share * share - (share - block.tilt) * (share - block.tilt));
     int impacts = 0;

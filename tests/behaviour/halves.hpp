@@ -164,7 +164,7 @@ inline Difference split_scene(const Reader& read, const std::vector<Override>& s
   on.push_back({"run.initial", fmt::format("{{ run = \"{}\", t = {} }}", folder.string(), t)});
   Scene second = read(on);
   REQUIRE(second.initial.saved);
-  CHECK(second.initial.saved->differing.empty());
+  CHECK(second.initial.saved->structure_differences.empty());
   shift(second, t);
   second.run.t_end = t_end - t;
   second.run.output_dt.reset();

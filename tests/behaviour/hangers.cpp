@@ -246,7 +246,7 @@ TEST_CASE("verify: envelopes, stresses of both fibres and forces with a preload 
       "test.toml", {{"run.engine", "ida"}});
   verify::VerifyRequest request;
   request.run = scene.run;
-  request.most_seconds = 5.0;
+  request.max_seconds = 5.0;
   const Model model = build_model(scene);
   const verify::Verification v = verify::verify(model, model, request);
   INFO(v.sentence);

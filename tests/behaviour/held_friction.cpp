@@ -61,7 +61,7 @@ Result run_scene(const std::string& text, const std::string& engine) {
       {{"run.engine", engine}, {"run.certify", "false"}, {"run.rtol", "1e-10"}, {"run.dt", "1e-3"}});
   Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.reason == "");
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   CHECK(result.report.audit.friction.value <= 1e-9 * result.report.audit.force_scale);
   return result;
 }
@@ -175,7 +175,7 @@ TEST_CASE("a run that goes on while one foot bears its static limit is the run")
     second.initial.saved = last_state(model, simulate(model, first.run));
     const Result later = simulate(build_model(second), second.run);
     CHECK(later.report.outcome.reason == "");
-    CHECK(later.report.witness.violations.empty());
+    CHECK(later.report.law_checks.violations.empty());
     CHECK(last_slip(later) == doctest::Approx(block.breaks_away() - split).epsilon(1e-9));
   }
 }

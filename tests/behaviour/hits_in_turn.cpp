@@ -148,7 +148,7 @@ Found run_scene(const Row& row, double degrees, std::vector<Override> overrides)
   CertifiedReport report = simulate_certified(found.model, found.scene.run, found.result);
   found.certificate = std::move(report.certificate);
   CHECK(report.report.outcome.reason == "");
-  CHECK(report.report.witness.violations.empty());
+  CHECK(report.report.law_checks.violations.empty());
   const double a = degrees * std::numbers::pi / 180.0;
   const Vector& v = found.result.rows.back().v;
   for (int i = 0; i < 3; ++i)

@@ -31,8 +31,8 @@ std::string objection_to(const Scene& scene) {
 /// The compliant law with friction, as data.
 std::shared_ptr<UserContactLaw> compliant_law(double kn, double kt, double f) {
   using enum State;
-  const OwnForm spring{{.N = 1.0, .gap = -kn}};
-  const OwnGuard lets_go{{{.N = -1.0}}, 0};
+  const UserLawForm spring{{.N = 1.0, .gap = -kn}};
+  const UserLawGuard lets_go{{{.N = -1.0}}, 0};
   auto law = std::make_shared<UserContactLaw>();
   law->states.push_back({"off", open, {{.N = 1.0}}, {{.T = 1.0}}, {{{{.gap = 1.0}}, 1, Form{.ut = 1.0}}}});
   law->states.push_back({"rests",
@@ -138,7 +138,7 @@ TEST_CASE("the compliant law as data moves as the built-in one, in any units") {
     built = scene::rescaled(built, factors);
     Scene own = built;
     own.contacts[0].friction = {};
-    own.contacts[0].own = compliant_law(1e5 / length, 5e4 / length, 0.4);
+    own.contacts[0].user_law = compliant_law(1e5 / length, 5e4 / length, 0.4);
     const Result a = result_of(built), b = result_of(own);
     CHECK(b.report.outcome.kind == Outcome::Kind::done);
     CHECK(a.events.size() > 5);
@@ -150,7 +150,7 @@ TEST_CASE("the compliant law as data moves as the built-in one, in any units") {
       CHECK(a.events[i].guard_rate.value_or(0.0) ==
             doctest::Approx(b.events[i].guard_rate.value_or(0.0)).epsilon(1e-3));
     }
-    CHECK(is_own(b.events[0].to));
+    CHECK(is_user_law_state(b.events[0].to));
     CHECK((a.rows.back().u - b.rows.back().u).norm() < 1e-7 * length);
     // What it stores and what it loses is all taken from the structure.
     CHECK(b.report.audit.energy.value < 1e-6 * b.report.audit.energy_scale);
@@ -164,7 +164,7 @@ TEST_CASE("what a law of one's own may not be is told with its state") {
     scene.contacts[0].friction = {};
     auto law = compliant_law(1e6, 1e6, 0.4);
     spoil(*law, scene);
-    scene.contacts[0].own = law;
+    scene.contacts[0].user_law = law;
     return objection_to(scene);
   };
   const auto has = [](const std::string& text, const char* part) {
@@ -232,7 +232,7 @@ TEST_CASE("what is asked to be certified is steered all the same, and has no cer
   const CertifiedReport run = simulate_certified(build_model(scene), scene.run, hand);
   CHECK(hand.changed == 0.0);
   CHECK_FALSE(run.certificate);
-  CHECK(run.why_not == "loads are changed on the way, which no companion could follow");
+  CHECK(run.reason == "loads are changed on the way, which no companion could follow");
   // 3 m/s^2 for 0.5 s, then friction alone takes the 1.5 m/s, at 3 m/s^2
   CHECK(hand.rows.back().u[0] == doctest::Approx(0.375 + 0.375).epsilon(1e-12));
 }
@@ -339,7 +339,7 @@ contacts = [{ name = "pad", node = "ball", law = "compliant", normal = [0.0, 1.0
     // Elastic up to Y, crushed there; keeps its dent p.
     const double kn = 1e4 / length, Y = 150.0;
     auto pad = std::make_shared<UserContactLaw>();
-    const OwnForm elastic{{.N = 1.0, .gap = -kn}, kn}, smooth{{.T = 1.0}};
+    const UserLawForm elastic{{.N = 1.0, .gap = -kn}, kn}, smooth{{.T = 1.0}};
     pad->states = {{"off", open, {{.N = 1.0}}, smooth, {{{{.gap = 1.0}, -1.0}, 1}}},
                    {"on", closed, elastic, smooth, {{{{.N = -1.0}}, 0}, {{{.N = 1.0, .constant = Y}}, 2}}},
                    {"crushed",
@@ -347,7 +347,7 @@ contacts = [{ name = "pad", node = "ball", law = "compliant", normal = [0.0, 1.0
                     {{.N = 1.0, .constant = Y}},
                     smooth,
                     {{{{.vn = -1.0}}, 1, Form{.gap = 1.0, .constant = Y / kn}}}}};
-    whole.contacts[0].own = pad;
+    whole.contacts[0].user_law = pad;
     const Result c = simulate(whole);
     REQUIRE(c.events.size() > 5);  // on, crushed, back, off; with less speed on and off again
     // In flight over the dent, and while the pad is being crushed.
@@ -367,7 +367,7 @@ contacts = [{ name = "pad", node = "ball", law = "compliant", normal = [0.0, 1.0
       CHECK(std::abs(b.rows.back().u[0] - c.rows.back().u[0]) < 1e-7 * length);
       CHECK(b.rows.back().contacts[0].memory == doctest::Approx(c.rows.back().contacts[0].memory));
       CHECK(std::abs(c.rows.back().contacts[0].memory) > 0.01 * length);
-      second.contacts[0].own = {};
+      second.contacts[0].user_law = {};
       CHECK(objection_to(second).find("of a law of its own, which the scene has not") != std::string::npos);
     }
   }

@@ -221,7 +221,7 @@ TEST_CASE("instants that take no time: the refusal names the contacts, and that 
   CHECK(run_text(text, "exact").report.outcome.kind == Outcome::Kind::done);
   const Scene scene = parse_scene(text, "test.toml", {{"run.engine", "exact"}});
   Result result;
-  result.report = simulate(build_model(scene), scene.run, result, [](const Round&) {});
+  result.report = simulate(build_model(scene), scene.run, result, [](const DecisionRound&) {});
   const Refusal& refusal = result.report.outcome.refusal;
   CHECK(result.report.outcome.kind == Outcome::Kind::stopped);
   CHECK(refusal.kind == Refusal::Kind::standstill);

@@ -123,7 +123,7 @@ Result run_of(const Look& look) {
   const Scene scene = parse_scene(dragged_block(look), "blocks.toml");
   Result result = simulate(scene);
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-  CHECK(result.report.witness.violated == 0);
+  CHECK(result.report.law_checks.violated == 0);
   return result;
 }
 

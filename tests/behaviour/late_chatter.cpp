@@ -64,7 +64,7 @@ Run run_scene(double begin) {
   CertifiedReport report = simulate_certified(build_model(scene), scene.run, found.result);
   REQUIRE(report.certificate);
   found.certificate = std::move(*report.certificate);
-  found.open = report.report.forgiven_at.has_value();
+  found.open = report.report.first_undecided.has_value();
   return found;
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("decisions near the contacts that change are those of the whole struct
       Onlooker onlooker;
       whole.report = run::simulate(model, read.run, whole, onlooker);
       REQUIRE(near.report.outcome.kind == Outcome::Kind::done);
-      CHECK(near.report.witness.violations.empty());
+      CHECK(near.report.law_checks.violations.empty());
       CHECK(near.report.audit.energy.value < 1e-9 * near.report.audit.energy_scale);
       REQUIRE(near.events.size() == whole.events.size());
       CHECK(near.events.size() > 100);
@@ -150,8 +150,8 @@ TEST_CASE("what a companion would take counts the events that it has to decide")
   Result result;
   const CertifiedReport run = simulate_certified(build_model(read), read.run, result);
   REQUIRE_FALSE(run.certificate);
-  CHECK(run.why_not.find("by exact would take") != std::string::npos);
-  CHECK(run.why_not.find("less than 0.1 s") == std::string::npos);  // its steps alone
+  CHECK(run.reason.find("by exact would take") != std::string::npos);
+  CHECK(run.reason.find("less than 0.1 s") == std::string::npos);  // its steps alone
 }
 
 TEST_CASE("in two halves the beam has the events of the whole run") {

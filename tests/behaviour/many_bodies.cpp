@@ -97,7 +97,7 @@ TEST_CASE("an event of one body decides that body, whatever rests beside it") {
     const Scene scene = parse_scene(text, "blocks.toml", {{"run.engine", "exact"}});
     long rounds = 0, together = 0;
     Result result;
-    result.report = simulate(build_model(scene), scene.run, result, [&](const Round& round) {
+    result.report = simulate(build_model(scene), scene.run, result, [&](const DecisionRound& round) {
       ++rounds;
       together += static_cast<long>(round.touching.size());
     });

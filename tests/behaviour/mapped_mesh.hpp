@@ -8,14 +8,14 @@
 #include <map>
 #include <string>
 
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace signorini::test {
 
 /// n x m elements q4 or q8 over 0 <= a, b <= 1 at map(a, b), which keeps orientation.
 [[nodiscard]] inline std::string mapped_mesh(
     PlaneShape shape, int n, int m, const std::function<std::array<double, 2>(double a, double b)>& map) {
-  const bool middles = mesh::has_middles(shape);
+  const bool middles = mesh::has_midside_nodes(shape);
   const int step = middles ? 2 : 1;
   std::map<std::pair<int, int>, int> number;
   std::string nodes;

@@ -86,7 +86,7 @@ TEST_CASE("massless release: the motion is the limit of small dampers") {
     CHECK(std::any_of(
         exact.report.warnings.begin(), exact.report.warnings.end(),
         [](const std::string& warning) { return warning.find("let go at t = ") != std::string::npos; }));
-    CHECK(exact.report.witness.violations.empty());
+    CHECK(exact.report.law_checks.violations.empty());
     CHECK(exact.report.audit.energy.value < 1e-9 * exact.report.audit.energy_scale);
     // A damper d delays what it holds by about d/k: the motions differ by d times a number of the scene, which is 4.7
     // for 40216 and 0.1 for the others. A hundredth of d leaves a hundredth, and some rounding of event times.
@@ -112,7 +112,7 @@ TEST_CASE("massless release: all engines find the same") {
       const Result other = released_run(text, scene, engine);
       INFO(other.report.outcome.reason);
       REQUIRE(other.report.outcome.kind == Outcome::Kind::done);
-      CHECK(other.report.witness.violations.empty());
+      CHECK(other.report.law_checks.violations.empty());
       REQUIRE(other.events.size() == exact.events.size());
       for (std::size_t i = 0; i < exact.events.size(); ++i) {
         CHECK(other.events[i].contact == exact.events[i].contact);
@@ -183,7 +183,7 @@ TEST_CASE("static friction lets go of a point without mass: it jumps by (fs - fk
         CHECK(result.events[0].t == doctest::Approx(0.5).epsilon(1e-9));
         CHECK(result.events[0].T * way == doctest::Approx(5.0).epsilon(1e-9));
         CHECK(result.events[0].T_after * way == doctest::Approx(3.0).epsilon(1e-9));
-        CHECK(result.report.witness.violations.empty());
+        CHECK(result.report.law_checks.violations.empty());
         CHECK(result.report.audit.energy.value < 1e-9 * result.report.audit.energy_scale);
         CHECK(result.rows.back().contacts[0].T * way == doctest::Approx(3.0).epsilon(1e-9));
         // The jump from 0.025 to 0.075 m: 6 N times its length, less what the spring takes up, and what kt gives back.
@@ -227,7 +227,7 @@ TEST_CASE(
         REQUIRE(result.events.size() == 1);
         CHECK(result.events[0].t == doctest::Approx(t).epsilon(1e-8));
         CHECK(result.events[0].T_after * way == doctest::Approx(3.0).epsilon(1e-9));
-        CHECK(result.report.witness.violations.empty());
+        CHECK(result.report.law_checks.violations.empty());
         CHECK(result.report.audit.energy.value < 1e-8 * result.report.audit.energy_scale);
         CHECK(result.rows.back().energy.friction == doctest::Approx(jump + slide).epsilon(1e-7));
       }
@@ -256,7 +256,7 @@ TEST_CASE(
             const Result result = simulate(scene);
             INFO(result.report.outcome.reason);
             REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-            CHECK(result.report.witness.violations.empty());
+            CHECK(result.report.law_checks.violations.empty());
             CHECK(result.report.audit.energy.value < 1e-8 * result.report.audit.energy_scale);
             if (begins > 0.0) {
               const double lost = 10.0 * kinetic * p;

@@ -57,7 +57,7 @@ Result run_scene(const std::string& text, const std::string& engine) {
   const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.certify", "false"}});
   Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.reason == "");
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   return result;
 }
 

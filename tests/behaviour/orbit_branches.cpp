@@ -29,7 +29,7 @@ TEST_CASE("a branch over the frequency passes both folds of a one-sided spring's
   options.path = "loads.1.history.omega";
   options.from = 0.3;
   options.to = 0.4;
-  const Branch branch = follow(linear, options);
+  const Branch branch = continue_branch(linear, options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   REQUIRE(branch.points.size() >= 5);
@@ -64,7 +64,7 @@ TEST_CASE("a branch locates the flip of an impact oscillator where the closed fo
   options.from = 2.6;
   options.to = 2.7;
   options.step = 0.1;
-  const Branch branch = follow(
+  const Branch branch = continue_branch(
       reader_of_text(matrix_scene("t_end = 100.0\nengine = \"exact\"",
                                   "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.0]]",
                                   "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.0\nrestitution = 0.8",
@@ -98,12 +98,12 @@ TEST_CASE("a branch over friction locates Den Hartog's boundary of motions witho
   options.to = 0.9;
   options.step = 0.2;
   const Branch branch =
-      follow(reader_of_text(
-                 matrix_scene("t_end = 100.0", "mass = [[1.0]]\nstiffness = [[1.0]]",
-                              "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.7",
-                              "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
-                              "\"harmonic\", omega = 0.8 }\n")),
-             options);
+      continue_branch(reader_of_text(matrix_scene(
+                          "t_end = 100.0", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                          "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.7",
+                          "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
+                          "\"harmonic\", omega = 0.8 }\n")),
+                      options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   long found = 0;
@@ -132,7 +132,7 @@ TEST_CASE("the branch of twice the period leaves at the flip of an impact oscill
   options.to = 2.68;
   options.step = 0.1;
   options.switches = 1;
-  const Branch branch = follow(reader_of_text(text), options);
+  const Branch branch = continue_branch(reader_of_text(text), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   REQUIRE(branch.sides.size() == 1);
@@ -173,7 +173,7 @@ TEST_CASE(
   options.from = 0.2;
   options.to = 0.5;
   options.step = 0.2;
-  const Branch branch = follow(
+  const Branch branch = continue_branch(
       reader_of_text(matrix_scene("t_end = 60.0\nengine = \"exact\"", "mass = [[1.0]]\nstiffness = [[1.0]]",
                                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\n"
                                   "friction = { static = 1.0, kinetic = 0.5 }\nsurface_velocity = 0.2")),
@@ -200,7 +200,7 @@ TEST_CASE("a branch of the pipeline over the frequency: fast mode shapes do not 
   options.to = 106.0;
   options.step = 0.4;
   options.most_points = 12;
-  const Branch branch = follow(read, options);
+  const Branch branch = continue_branch(read, options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   for (const BranchPoint& p : branch.points) CHECK(p.residual <= 1e-9);
@@ -244,16 +244,16 @@ TEST_CASE("a branch in two parts, the second from the mark of the first, ends wh
   options.to = 3.5;
   options.step = 0.1;
   const SceneReader read = reader_of_text(jenkins());
-  const Branch whole = follow(read, options);
+  const Branch whole = continue_branch(read, options);
   REQUIRE(whole.complete);
   options.most_points = 4;
-  const Branch first = follow(read, options);
+  const Branch first = continue_branch(read, options);
   CHECK(!first.complete);
   REQUIRE(first.last);
   CHECK(first.last->parameter == first.points.back().parameter);
   options.most_points = 1000;
-  options.resumed = first.last;
-  const Branch second = follow(read, options);
+  options.resume_from = first.last;
+  const Branch second = continue_branch(read, options);
   CAPTURE(second.end);
   REQUIRE(second.complete);
   CHECK(second.points.front().parameter > first.points.back().parameter);
@@ -268,7 +268,7 @@ TEST_CASE("branches end with a reason: a key that only shifts the motion, a valu
   options.path = "loads.1.history.phase";
   options.from = 0.5;
   options.to = 1.0;
-  const Branch shifted = follow(reader_of_text(jenkins()), options);
+  const Branch shifted = continue_branch(reader_of_text(jenkins()), options);
   CHECK(!shifted.complete);
   CHECK(shifted.points.size() == 1);
   CHECK(shifted.end.find("only shifts the motion in time") != std::string::npos);
@@ -276,7 +276,7 @@ TEST_CASE("branches end with a reason: a key that only shifts the motion, a valu
   options.from = 0.9;
   options.to = -0.1;
   options.step = 0.1;
-  const Branch refused = follow(reader_of_text(jenkins()), options);
+  const Branch refused = continue_branch(reader_of_text(jenkins()), options);
   CAPTURE(refused.end);
   CHECK(!refused.complete);
   CHECK(refused.points.size() > 3);
@@ -307,7 +307,7 @@ TEST_CASE(
     options.path = "loads.1.amplitude";
     options.from = from;
     options.to = to;
-    const Branch branch = follow(reader_of_text(text), options);
+    const Branch branch = continue_branch(reader_of_text(text), options);
     CAPTURE(branch.end);
     CHECK(branch.complete);
     REQUIRE(!branch.points.empty());
@@ -340,7 +340,7 @@ TEST_CASE(
   for (const auto& [from, to] : {std::pair(100.0, 900.0), {900.0, 100.0}}) {
     options.from = from;
     options.to = to;
-    const Branch branch = follow(reader_of_text(text), options);
+    const Branch branch = continue_branch(reader_of_text(text), options);
     CAPTURE(branch.end);
     REQUIRE(branch.complete);
     CHECK(branch.points.back().parameter == to);
@@ -389,7 +389,7 @@ TEST_CASE(
   for (const double step : {0.01, 0.02, 0.03, 0.05}) {
     CAPTURE(step);
     options.step = step;
-    const Branch branch = follow(reader_of_text(ball()), options);
+    const Branch branch = continue_branch(reader_of_text(ball()), options);
     CAPTURE(branch.end);
     REQUIRE(branch.complete);
     CHECK(branch.end.find("has no orbit") != std::string::npos);
@@ -428,7 +428,7 @@ TEST_CASE(
   std::string text = ball();
   const std::string at = "9.729822543571219";
   text.replace(text.find(at), at.size(), "12.0");
-  const Branch branch = follow(reader_of_text(text), options);
+  const Branch branch = continue_branch(reader_of_text(text), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   REQUIRE(branch.sides.size() == 3);
@@ -483,7 +483,7 @@ TEST_CASE("a symmetric branch between two stops is followed through a branch poi
   for (const double step : {0.15}) {
     CAPTURE(step);
     options.step = step;
-    const Branch branch = follow(reader_of_text(row_of_two(stops, "6.0")), options);
+    const Branch branch = continue_branch(reader_of_text(row_of_two(stops, "6.0")), options);
     CAPTURE(branch.end);
     REQUIRE(branch.complete);
     CHECK(branch.points.back().parameter == 5.0);
@@ -526,7 +526,7 @@ TEST_CASE("what branches off between two stops is a pair that mirrors each other
   for (const double step : {0.05, 0.02, 0.009}) {
     CAPTURE(step);
     options.step = step;
-    const Branch branch = follow(reader_of_text(text), options);
+    const Branch branch = continue_branch(reader_of_text(text), options);
     CAPTURE(branch.end);
     double branching = 0.0;
     std::vector<double> least[2], greatest[2];
@@ -565,8 +565,8 @@ TEST_CASE(
   options.from = 49.2;
   options.to = 45.5;
   options.step = 0.04;
-  const Branch branch =
-      follow(reader_of(std::string(SIGNORINI_MODELS) + "/../validation/orbits/pipeline-pads.toml"), options);
+  const Branch branch = continue_branch(
+      reader_of(std::string(SIGNORINI_MODELS) + "/../validation/orbits/pipeline-pads.toml"), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   CHECK(branch.points.back().parameter == 45.5);
@@ -615,7 +615,7 @@ TEST_CASE("the resonance of a one-sided spring bends over, its middle part is un
   options.path = "loads.1.history.omega";
   options.from = 0.5;
   options.to = 1.0;
-  const Branch branch = follow(reader_of_text(chain("0.62")), options);
+  const Branch branch = continue_branch(reader_of_text(chain("0.62")), options);
   CAPTURE(branch.end);
   CHECK(branch.complete);
   long folds = 0, flips = 0, unstable = 0;

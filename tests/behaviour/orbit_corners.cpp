@@ -23,7 +23,7 @@ void passes_changes(int points, std::size_t sequences) {
   options.to = 15.0;
   options.orbit.transient = 40;
   options.most_points = points;
-  const Branch branch = follow(read, options);
+  const Branch branch = continue_branch(read, options);
   CAPTURE(branch.end);
   REQUIRE(branch.points.size() >= static_cast<std::size_t>(points));
   CHECK(branch.sequences.size() >= sequences);

@@ -120,7 +120,7 @@ TEST_CASE("a branch over the energy is the backbone of a mass before a stop, fro
   options.from = 0.0003;
   options.to = 0.02;
   options.step = 0.1;
-  const Branch branch = follow(reader_of_text(one_stop()), options);
+  const Branch branch = continue_branch(reader_of_text(one_stop()), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   REQUIRE(branch.points.size() > 5);
@@ -150,7 +150,7 @@ TEST_CASE(
     options.to = to;
     options.step = 0.1;
     options.orbit.energy = E;
-    const Branch branch = follow(reader_of_text(one_stop()), options);
+    const Branch branch = continue_branch(reader_of_text(one_stop()), options);
     CAPTURE(branch.end);
     CHECK(branch.complete);
     REQUIRE(branch.points.size() > 5);
@@ -173,10 +173,10 @@ TEST_CASE("energies of a branch are above 0, and given once") {
   options.path = "energy";
   options.from = 0.02;
   options.to = 0.0;
-  CHECK_THROWS_AS(follow(reader_of_text(one_stop()), options), UsageError);
+  CHECK_THROWS_AS(continue_branch(reader_of_text(one_stop()), options), UsageError);
   options.to = 0.01;
   options.orbit.energy = 0.015;
-  CHECK_THROWS_AS(follow(reader_of_text(one_stop()), options), UsageError);
+  CHECK_THROWS_AS(continue_branch(reader_of_text(one_stop()), options), UsageError);
 }
 
 TEST_CASE(
@@ -221,7 +221,7 @@ TEST_CASE(
   options.to = 2.0;
   options.step = 0.1;
   options.orbit.period = 3.88;
-  const Branch branch = follow(reader_of_text(two_stops(0.8, slope)), options);
+  const Branch branch = continue_branch(reader_of_text(two_stops(0.8, slope)), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   const double touches = 0.5 * square * (1.0 + slope * slope);

@@ -71,7 +71,7 @@ TEST_CASE("the branch of a slider that holds a mean force begins to slip where o
     options.from = 0.3;
     options.to = 1.5;
     options.step = 0.1;
-    const Branch branch = follow(reader_of_text(held_slider(shear)), options);
+    const Branch branch = continue_branch(reader_of_text(held_slider(shear)), options);
     CAPTURE(branch.end);
     REQUIRE(branch.complete);
     long changes = 0;
@@ -100,7 +100,7 @@ TEST_CASE("a chain of twelve sliders is followed through twenty changes of seque
   options.path = "loads.1.amplitude";
   options.from = 0.3;
   options.to = 3.0;
-  const Branch branch = follow(read, options);
+  const Branch branch = continue_branch(read, options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   int changes = 0;

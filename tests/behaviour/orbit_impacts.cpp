@@ -209,7 +209,7 @@ TEST_CASE("a mass between two walls loses its symmetry at a pitchfork where the 
   options.to = 0.695;
   options.step = 0.1;
   options.switches = 1;
-  const Branch branch = follow(reader_of_text(TwoWalls{e, 0.65}.scene()), options);
+  const Branch branch = continue_branch(reader_of_text(TwoWalls{e, 0.65}.scene()), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   long found = 0;
@@ -256,7 +256,7 @@ TEST_CASE("where an oscillator grazes its wall the branch continues on the orbit
   options.to = end;
   options.step = 0.1;
   options.orbit.transient = 60;
-  const Branch branch = follow(reader_of_text(at.scene()), options);
+  const Branch branch = continue_branch(reader_of_text(at.scene()), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   long restarts = 0;
@@ -334,7 +334,7 @@ TEST_CASE(
   options.path = "loads.1.amplitude";
   options.from = 0.9;
   options.to = 0.1;
-  const Branch branch = follow(reader_of_text(text), options);
+  const Branch branch = continue_branch(reader_of_text(text), options);
   CAPTURE(branch.end);
   REQUIRE(branch.complete);
   REQUIRE(!branch.points.empty());

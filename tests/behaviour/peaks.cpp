@@ -217,7 +217,7 @@ surface_velocity = {2}
                                              -std::sin(angle), std::cos(angle), surface.velocity);
         const Report report = simulate(read(text, way)).report;
         CHECK(std::abs(report.peaks[0].tangential - surface.peak) < 10.0 * way.eps);
-        CHECK(report.witness.violations.empty());
+        CHECK(report.law_checks.violations.empty());
       }
 }
 

@@ -102,7 +102,7 @@ Seen seen(const View& view, const std::vector<Override>& changes = {}) {
   const Model model = build_model(scene);
   const Result result = simulate(model, scene.run);
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   Seen s;
   for (const Event& e : result.events)
     if (e.contact >= 0)

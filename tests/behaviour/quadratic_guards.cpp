@@ -17,8 +17,8 @@ constexpr double kn = 1e4, kt = 5e3, f = 0.4;
 /// of the two guards of "leaves" one holds.
 std::shared_ptr<UserContactLaw> disc_law() {
   using enum State;
-  const OwnForm spring{{.N = 1.0, .gap = -kn}}, held{{.T = 1.0, .ut = -kt}, kt};
-  const OwnGuard lets_go{{{.N = -1.0}}, 0};
+  const UserLawForm spring{{.N = 1.0, .gap = -kn}}, held{{.T = 1.0, .ut = -kt}, kt};
+  const UserLawGuard lets_go{{{.N = -1.0}}, 0};
   const Form plus{.N = -f, .T = 1.0}, minus{.N = -f, .T = -1.0};
   auto law = std::make_shared<UserContactLaw>();
   law->states.push_back({"off", open, {{.N = 1.0}}, {{.T = 1.0}}, {{{{.gap = 1.0}}, 1, Form{.ut = 1.0}}}});
@@ -84,7 +84,7 @@ TEST_CASE("one quadratic guard has the events of two linear ones") {
         const Scene linear = block(angle, lift, engine);
         Scene disc = linear;
         disc.contacts[0].friction = {};
-        disc.contacts[0].own = disc_law();
+        disc.contacts[0].user_law = disc_law();
         const Result a = run_scene(linear), b = run_scene(disc);
         CHECK(b.report.outcome.kind == Outcome::Kind::done);
         CHECK(b.report.method.engine == linear.run.engine);

@@ -43,7 +43,7 @@ Result line_run(const std::string& text, const char* engine) {
   Result result = simulate(scene);
   INFO(result.report.outcome.reason);
   CHECK(result.report.outcome.kind == Outcome::Kind::done);
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   return result;
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("rack line: verify finds that ida and newmark agree") {
   const Scene scene = parse_scene(line_text(0.0, 0.1), "line.toml", {{"run.engine", "ida"}});
   verify::VerifyRequest request;
   request.run = scene.run;
-  request.most_seconds = 8.0;
+  request.max_seconds = 8.0;
   const Model model = build_model(scene);
   const verify::Verification v = verify::verify(model, model, request);
   INFO(v.sentence);

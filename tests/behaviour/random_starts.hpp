@@ -183,7 +183,7 @@ inline Fault fault_of(const Start& s, const Model& model) {
     const int stage = end.stage[1] - '0';
     Four p{};
     for (const Push& l : s.loads) {
-      const double part = l.stage < stage ? 1.0 : l.stage == stage ? end.part : 0.0;
+      const double part = l.stage < stage ? 1.0 : l.stage == stage ? end.fraction : 0.0;
       const Four d = on(l.node, l.direction);
       for (std::size_t i = 0; i < 4; ++i) p[i] += part * l.amplitude * d[i];
     }
@@ -197,13 +197,13 @@ inline Fault fault_of(const Start& s, const Model& model) {
       const Touch& c = s.contacts[k];
       const double g = c.gap + dot(on(c.node, c.normal), u), N = end.N[k], T = end.T[k];
       const double slip = dot(on(c.node, {c.normal[1], -c.normal[0]}), u) - T / c.kt;
-      const std::string where = fmt::format("{} at {} of {}: ", c.name, end.part, end.stage);
+      const std::string where = fmt::format("{} at {} of {}: ", c.name, end.fraction, end.stage);
       fault.take(std::abs(N - c.kn * std::min(g, 0.0)) / size, where + "N = kn min(g, 0)");
       fault.take((std::abs(T) - c.friction * std::abs(N)) / size, where + "|T| <= f |N|");
       const bool quiet =
           std::none_of(model.statics.events.begin(), model.statics.events.end(), [&](const StageEvent& e) {
-            return e.contact == static_cast<int>(k) && e.stage == end.stage && e.part >= from &&
-                   e.part <= end.part;
+            return e.contact == static_cast<int>(k) && e.stage == end.stage && e.fraction >= from &&
+                   e.fraction <= end.fraction;
           });
       const int sign = end.states[k] == State::slip_plus ? 1 : end.states[k] == State::slip_minus ? -1 : 0;
       const double rate = c.kt * (slip - slipped[k]) / size;
@@ -215,7 +215,7 @@ inline Fault fault_of(const Start& s, const Model& model) {
       slipped[k] = slip;
       before[k] = static_cast<int>(end.states[k]);
     }
-    from = end.part;
+    from = end.fraction;
   }
   return fault;
 }

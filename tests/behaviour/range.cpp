@@ -24,7 +24,7 @@ Result run_scene(const std::string& name, const std::string& engine, const std::
 TEST_SUITE_BEGIN("behaviour/range");
 
 TEST_CASE("a motion that grows beyond the range of numbers ends the run where it does") {
-  for (const EngineName& name : all_engines) {
+  for (const EngineInfo& name : all_engines) {
     const std::string engine(name.name);
     CAPTURE(engine);
     const Outcome outcome = run_scene("growth", engine, "1e-2").report.outcome;
@@ -36,7 +36,7 @@ TEST_CASE("a motion that grows beyond the range of numbers ends the run where it
 }
 
 TEST_CASE("a load of 6e300 newtons a second for a hundred seconds") {
-  for (const EngineName& name : all_engines) {
+  for (const EngineInfo& name : all_engines) {
     const std::string engine(name.name);
     CAPTURE(engine);
     CHECK(run_scene("hang-slider", engine, "1e-2").report.outcome.kind == Outcome::Kind::done);
@@ -44,7 +44,7 @@ TEST_CASE("a load of 6e300 newtons a second for a hundred seconds") {
 }
 
 TEST_CASE("a start whose energy is beyond the range of numbers is refused, and one below it runs") {
-  for (const EngineName& name : all_engines)
+  for (const EngineInfo& name : all_engines)
     for (const bool beyond : {false, true}) {
       const std::string engine(name.name);
       CAPTURE(engine);
@@ -62,7 +62,7 @@ TEST_CASE("a start whose energy is beyond the range of numbers is refused, and o
 }
 
 TEST_CASE("times below what engines can divide by: nothing moves in them") {
-  for (const EngineName& name : all_engines) {
+  for (const EngineInfo& name : all_engines) {
     const std::string engine(name.name);
     CAPTURE(engine);
     const Result shortest = run_scene("tiny-times", engine, "1e-157");

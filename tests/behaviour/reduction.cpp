@@ -166,7 +166,7 @@ TEST_CASE("masses in contact with each other, no stiffness: nothing is left out,
       read_scene(SIGNORINI_TEST_DATA "/scenes/good/touching.toml", {{"reduction.cutoff_omega", "1.0"}});
   const Model model = build_model(scene);
   CHECK(model.reduction->free_modes == 8);
-  CHECK(model.reduction->left_out == 0);
+  CHECK(model.reduction->truncated_modes == 0);
   CHECK(model.reduction->massless_shapes + model.reduction->massive_shapes == 0);
   for (const ComplianceShare& share : model.reduction->shares) {
     CHECK(share.compliance == 0.0);
@@ -407,7 +407,7 @@ TEST_CASE(
   const Result full = simulate(whole_model, whole.run);
   std::vector<Eigen::Index> asked_for;  // displacements, not rotations
   for (const Column& column : whole_model.columns)
-    if (!column.velocity && !whole_model.turns(column)) asked_for.push_back(column.dof);
+    if (!column.velocity && !whole_model.is_rotation(column)) asked_for.push_back(column.dof);
   double scale = 0.0;
   for (const Result::Row& row : full.rows) scale = std::max(scale, row.u(asked_for).cwiseAbs().maxCoeff());
   int fewer = 0;
@@ -416,21 +416,21 @@ TEST_CASE(
     Changes asked = changes;
     asked.push_back({"reduction.tolerance", fmt::format("{}", tolerance)});
     const Scene scene = reduction::find_cutoff(read_scene(pipeline, asked));
-    REQUIRE_FALSE(scene.reduction->tried.empty());
-    const CutoffTrial& last = scene.reduction->tried.back();
+    REQUIRE_FALSE(scene.reduction->trials.empty());
+    const CutoffTrial& last = scene.reduction->trials.back();
     CAPTURE(last.modes);
     CHECK(last.error <= tolerance);
     CHECK(last.cutoff_omega == scene.reduction->cutoff_omega);
     CHECK(last.modes < 51);
     CHECK(last.modes > fewer);
     fewer = last.modes;
-    for (const CutoffTrial& trial : scene.reduction->tried)
+    for (const CutoffTrial& trial : scene.reduction->trials)
       if (trial.modes < last.modes) CHECK(trial.error > tolerance);
-    CHECK(scene.reduction->tried.size() > 1);
+    CHECK(scene.reduction->trials.size() > 1);
     CHECK(last.moved > 0.0);
     const Model model = build_model(scene);
     CHECK(model.reduction->tolerance == tolerance);
-    CHECK(model.reduction->tried.size() == scene.reduction->tried.size());
+    CHECK(model.reduction->trials.size() == scene.reduction->trials.size());
     const Result reduced = simulate(model, scene.run);
     REQUIRE(reduced.rows.size() == full.rows.size());
     for (std::size_t i = 0; i < full.rows.size(); ++i)
@@ -442,9 +442,9 @@ namespace {
 
 /// The same trials, with frequencies in so many units.
 void check_same_trials(const ReductionSpec& expected, const ReductionSpec& found, double frequency) {
-  REQUIRE(found.tried.size() == expected.tried.size());
-  for (std::size_t i = 0; i < found.tried.size(); ++i) {
-    const CutoffTrial &a = expected.tried[i], &b = found.tried[i];
+  REQUIRE(found.trials.size() == expected.trials.size());
+  for (std::size_t i = 0; i < found.trials.size(); ++i) {
+    const CutoffTrial &a = expected.trials[i], &b = found.trials[i];
     CHECK(b.modes == a.modes);
     CHECK(b.cutoff_omega == doctest::Approx(frequency * a.cutoff_omega).epsilon(1e-9));
     CHECK(b.missed == doctest::Approx(a.missed).epsilon(1e-6));
@@ -461,9 +461,9 @@ TEST_CASE("a tolerance finds the same modes however the scene is written, and fi
                                             {"run.engine", "exact"},
                                             {"reduction.tolerance", "1e-3"}});
   const Scene found = reduction::find_cutoff(scene);
-  CHECK(found.reduction->tried.size() > 1);
-  CHECK(found.reduction->tried.back().modes < 51);
-  CHECK(found.reduction->tried.back().error <= 1e-3);
+  CHECK(found.reduction->trials.size() > 1);
+  CHECK(found.reduction->trials.back().modes < 51);
+  CHECK(found.reduction->trials.back().error <= 1e-3);
   std::vector<Transformed> others{permuted(scene, 3), *turned(scene, 90.0), *mirrored(scene),
                                   *reversed(scene)};
   for (const Transformed& other : others) {
@@ -477,10 +477,10 @@ TEST_CASE("a tolerance finds the same modes however the scene is written, and fi
   check_same_trials(*found.reduction, *reduction::find_cutoff(in_units(scene, units)->scene).reduction, 10.0);
   // Along other axes ux and uy are other numbers, by a factor of sqrt(2) and 1/sqrt(2) at most.
   const Scene askew = reduction::find_cutoff(turned(scene, 33.0)->scene);
-  const double factor = askew.reduction->tried[0].missed / found.reduction->tried[0].missed;
+  const double factor = askew.reduction->trials[0].missed / found.reduction->trials[0].missed;
   CHECK(factor < 2.0);  // of what is missed, and of what it is beside
   CHECK(factor > 0.5);
-  CHECK(askew.reduction->tried.back().error <= 1e-3);
+  CHECK(askew.reduction->trials.back().error <= 1e-3);
 }
 
 TEST_CASE("a tolerance on another scene: the full model within the error that is told") {
@@ -492,14 +492,14 @@ TEST_CASE("a tolerance on another scene: the full model within the error that is
   Changes asked = changes;
   asked.push_back({"reduction.tolerance", "1e-3"});
   const Scene scene = reduction::find_cutoff(read_scene(lift_off, asked));
-  const double told = scene.reduction->tried.back().error;
+  const double told = scene.reduction->trials.back().error;
   CHECK(told <= 1e-3);
-  CHECK(scene.reduction->tried.back().modes < whole_model.size());
+  CHECK(scene.reduction->trials.back().modes < whole_model.size());
   const Result reduced = simulate(build_model(scene), scene.run);
   REQUIRE(reduced.rows.size() == full.rows.size());
   double scale = 0.0, off = 0.0;
   for (const Column& column : whole_model.columns) {
-    if (column.velocity || column.dof < 0 || whole_model.turns(column)) continue;
+    if (column.velocity || column.dof < 0 || whole_model.is_rotation(column)) continue;
     for (std::size_t i = 0; i < full.rows.size(); ++i) {
       scale = std::max(scale, std::abs(full.rows[i].u[column.dof]));
       off = std::max(off, std::abs(full.rows[i].u[column.dof] - reduced.rows[i].u[column.dof]));
@@ -574,13 +574,13 @@ std::pair<double, double> off_and_told(const Beam& beam) {
   REQUIRE(reduced.rows.size() == full.rows.size());
   double scale = 0.0, off = 0.0;
   for (const Column& column : model.columns) {
-    if (column.velocity || column.dof < 0 || model.turns(column)) continue;
+    if (column.velocity || column.dof < 0 || model.is_rotation(column)) continue;
     for (std::size_t i = 0; i < full.rows.size(); ++i) {
       scale = std::max(scale, std::abs(full.rows[i].u[column.dof]));
       off = std::max(off, std::abs(full.rows[i].u[column.dof] - reduced.rows[i].u[column.dof]));
     }
   }
-  return {off / scale, scene.reduction->tried.back().error};
+  return {off / scale, scene.reduction->trials.back().error};
 }
 
 void check_told(const Beam& beam) {
@@ -636,13 +636,13 @@ TEST_SUITE_BEGIN("behaviour/reduction");
 TEST_CASE("a tolerance that no cutoff meets keeps all modes; contacts with dashpots have one, too") {
   const Scene all = reduction::find_cutoff(read_scene(
       pipeline, {{"run.t_end", "2e-3"}, {"run.engine", "exact"}, {"reduction.tolerance", "1e-300"}}));
-  CHECK(all.reduction->tried.back().modes == 51);
-  CHECK(all.reduction->tried.back().missed == 0.0);
+  CHECK(all.reduction->trials.back().modes == 51);
+  CHECK(all.reduction->trials.back().missed == 0.0);
   const Scene damped =
       reduction::find_cutoff(read_scene(pipeline, {{"run.t_end", "2e-3"},
                                                    {"contacts.first.tangential_damping", "10.0"},
                                                    {"reduction.tolerance", "1e-3"}}));
-  CHECK(damped.reduction->tried.back().error <= 1e-3);
+  CHECK(damped.reduction->trials.back().error <= 1e-3);
 }
 
 TEST_CASE("runs that are compared have one cutoff; another tolerance has its own") {
@@ -657,9 +657,9 @@ TEST_CASE("runs that are compared have one cutoff; another tolerance has its own
   CHECK(same.run.engine == Engine::ida);
   const Scene sharper = reduction::find_cutoff(asked("exact", "1e-3"), first.reduction);
   CHECK(sharper.reduction->tolerance == 1e-3);
-  CHECK(sharper.reduction->tried.back().error <= 1e-3);
+  CHECK(sharper.reduction->trials.back().error <= 1e-3);
   CHECK(sharper.reduction->cutoff_omega > first.reduction->cutoff_omega);
-  CHECK_FALSE(reduction::find_cutoff(asked("exact", "1e-2"), std::nullopt).reduction->tried.empty());
+  CHECK_FALSE(reduction::find_cutoff(asked("exact", "1e-2"), std::nullopt).reduction->trials.empty());
 }
 
 TEST_CASE("one model of a scene with a tolerance has a cutoff only where it was looked for") {

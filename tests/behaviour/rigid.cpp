@@ -232,7 +232,7 @@ TEST_CASE("two feet that both stick rigidly on one motion share its force in hal
                                   "friction = 0.3", "[[loads]]\ndirection = { d2 = 1.0 }\namplitude = 3.0\n"),
                               engine);
     CHECK(r.report.outcome.reason == "");
-    CHECK(r.report.witness.violations.empty());
+    CHECK(r.report.law_checks.violations.empty());
     CHECK(r.events.empty());
     for (const ContactSample& c : r.rows.back().contacts) {
       CHECK(c.state == State::stick);

@@ -102,7 +102,7 @@ TEST_CASE("a block rocks on two feet: ten impacts by the linear model's law") {
     const Scene scene = parse_scene(block.scene(engine), "test.toml");
     const Result result = simulate(build_model(scene), scene.run);
     CHECK(result.report.outcome.reason == "");
-    CHECK(result.report.witness.violations.empty());
+    CHECK(result.report.law_checks.violations.empty());
     double t = 0.0, rate = block.rate;
     int impacts = 0;
     const double bound = engine == "exact" ? 1e-10 : 1e-6;

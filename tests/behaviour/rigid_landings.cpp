@@ -175,7 +175,7 @@ restitution = 0.42123524928218664
       CHECK(ida.events[i].to == exact.events[i].to);
       CHECK(std::abs(ida.events[i].t - exact.events[i].t) < 1e-7);
     }
-    CHECK(ida.report.witness.violated == 0);
+    CHECK(ida.report.law_checks.violated == 0);
   }
 }
 

@@ -76,7 +76,7 @@ friction = {{ static = {12}, kinetic = {13} }}
 void check_closed_form(const BlockOnFoot& block, double digits) {
   const Result result = simulate(block.scene());
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-  CHECK(result.report.witness.violated == 0);
+  CHECK(result.report.law_checks.violated == 0);
   REQUIRE(result.events.size() == 1);
   const double t1 = block.slips_at();
   CHECK(result.events[0].type == EventType::slip);
@@ -253,7 +253,7 @@ TEST_CASE("loads on the foot itself: displacements, rates, energy and work are t
     CAPTURE(unit);
     const Result result = simulate(parse_scene(pulled_foot(engine, angle, unit, t_end), "foot.toml"));
     REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-    CHECK(result.report.witness.violated == 0);
+    CHECK(result.report.law_checks.violated == 0);
     REQUIRE(result.events.size() == 1);
     CHECK(std::abs(result.events[0].t - t1) <= digits * t1);
     const auto x_at = [&](double d) { return pulled_r * d * d * d / (6.0 * pulled_m); };
@@ -312,7 +312,7 @@ TEST_CASE(
   };
   const Result limit = run("exact", 0.0, rigid_law);
   REQUIRE(limit.report.outcome.kind == Outcome::Kind::done);
-  CHECK(limit.report.witness.violated == 0);
+  CHECK(limit.report.law_checks.violated == 0);
   CHECK(limit.events.size() > 10);
   const double off = farthest(limit, run("exact", 0.0, compliant_law(1e11)));
   const double closer = farthest(limit, run("exact", 0.0, compliant_law(1e12)));
@@ -332,7 +332,7 @@ TEST_CASE("rigid seams without mass: exact, ida and turned alike; laws, energy, 
   const Result exact = simulate(dragged("exact", 0.0, rigid_law));
   REQUIRE(exact.report.outcome.kind == Outcome::Kind::done);
   CHECK(exact.events.size() > 10);
-  CHECK(exact.report.witness.violated == 0);
+  CHECK(exact.report.law_checks.violated == 0);
   double most = 0.0;
   for (const auto& row : exact.rows) most = std::max(most, row.energy.kinetic + row.energy.elastic);
   for (const auto& row : exact.rows) {
@@ -379,7 +379,7 @@ TEST_CASE("what slides at once keeps sliding where another seam closes on the wa
     const Model model = build_model(scene);
     const Result result = simulate(scene);
     REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-    CHECK(result.report.witness.violated == 0);
+    CHECK(result.report.law_checks.violated == 0);
     long seen = 0;
     for (std::size_t i = 0; i + 1 < result.events.size(); ++i) {
       const Event &closing = result.events[i], &slip = result.events[i + 1];

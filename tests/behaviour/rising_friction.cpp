@@ -131,7 +131,7 @@ TEST_CASE("a block that rising friction brakes comes to rest as the closed form 
     CHECK(std::abs(result.events[0].t - end) < 1e-9 * end);
     CHECK(result.rows.back().v[0] == 0.0);
     CHECK(result.report.audit.friction_work[0] == doctest::Approx(2.5 * v * v).epsilon(1e-9));
-    CHECK(result.report.witness.violations.empty());
+    CHECK(result.report.law_checks.violations.empty());
   }
 }
 
@@ -151,7 +151,7 @@ TEST_CASE(
   CHECK(std::abs(last.contacts[0].T - expected.T) < 1e-6 * 100.0);
   CHECK(last.energy.friction == doctest::Approx(expected.slid).epsilon(1e-7));
   CHECK(result.report.audit.energy.value < 1e-6 * result.report.audit.energy_scale);
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
 }
 
 TEST_CASE("sensitivities to slow, fast and velocity are those of the closed form") {
@@ -186,7 +186,7 @@ TEST_CASE("a rigid hit takes the friction of the slip rate just before it") {
   CHECK(std::abs(result.events[0].t - 0.01) < 1e-12);
   CHECK(result.rows.back().v[1] == doctest::Approx(0.4).epsilon(1e-12));
   CHECK(result.rows.back().v[0] == doctest::Approx(vx - f * 1.5 * vy).epsilon(1e-12));
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
 }
 
 TEST_CASE(
@@ -263,7 +263,7 @@ TEST_CASE("a contact that is hit in passing slips from its first touch on, and e
     CHECK(result.events[0].to == State::slip_plus);
     CHECK(result.report.audit.energy.value < 1e-6 * result.report.audit.energy_scale);
     CHECK(result.report.audit.friction.value < 1e-6 * result.report.audit.force_scale);
-    CHECK(result.report.witness.violations.empty());
+    CHECK(result.report.law_checks.violations.empty());
   }
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("a block that rocks with restitution hits when and where the follower 
               e);
       const Scene scene = parse_scene(text, "test.toml");
       const Result result = simulate(build_model(scene), scene.run);
-      CHECK(result.report.witness.violations.empty());
+      CHECK(result.report.law_checks.violations.empty());
       std::vector<Hit> hits;
       for (const Event& event : result.events)
         if (event.type == EventType::impact)

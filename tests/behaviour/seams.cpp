@@ -94,7 +94,7 @@ TEST_CASE("two blocks that do not match: the same events turned, and of ida; ene
     const Result exact = simulate(seam_scene(pushed_blocks("exact", 0.0, mass)));
     REQUIRE(exact.report.outcome.kind == Outcome::Kind::done);
     CHECK(exact.events.size() > 10);
-    CHECK(exact.report.witness.violated == 0);
+    CHECK(exact.report.law_checks.violated == 0);
     double most = 0.0;
     for (const auto& row : exact.rows) most = std::max(most, row.energy.kinetic + row.energy.elastic);
     for (const auto& row : exact.rows)
@@ -102,7 +102,7 @@ TEST_CASE("two blocks that do not match: the same events turned, and of ida; ene
     check_same_events(exact, simulate(seam_scene(pushed_blocks("exact", 33.7, mass))), 1e-10);
     const Result steps = simulate(seam_scene(pushed_blocks("ida", 0.0, mass)));
     check_same_events(exact, steps, 1e-6);
-    CHECK(steps.report.witness.violated == 0);
+    CHECK(steps.report.law_checks.violated == 0);
   }
 }
 
@@ -198,8 +198,8 @@ contact_mass = "none"
   Result rows;
   const CertifiedReport run = simulate_certified(build_model(scene), scene.run, rows);
   const Report& report = run.report;
-  CHECK(report.witness.checked > 20);
-  CHECK(report.witness.violated == 0);
+  CHECK(report.law_checks.checked > 20);
+  CHECK(report.law_checks.violated == 0);
   CHECK(report.outcome.kind == Outcome::Kind::done);
   REQUIRE(run.certificate);
   CHECK(run.certificate->until == doctest::Approx(0.056).epsilon(1e-12));

@@ -236,15 +236,15 @@ contacts = [{ name = "floor", node = "b", law = "rigid", normal = [0.0, 1.0], ga
 TEST_CASE("the least changes at which neighbours meet, and keys that are refused") {
   const std::string text = oscillator("normal_force = 1.0\nfriction = 0.4");
   const Sensitivities s = rates_of(text, {"run.initial.u.1", "contacts.c.friction"});
-  for (const Swap& swap : least_swaps(s)) {
+  for (const SequenceChange& swap : smallest_sequence_changes(s)) {
     const double apart = s.events[swap.second].t - s.events[swap.first].t;
     const double first = s.event_rates[swap.first][swap.parameter].t,
                  second = s.event_rates[swap.second][swap.parameter].t;
     CHECK(apart + swap.change * (second - first) == doctest::Approx(0.0));
   }
-  CHECK(s.parameters[0].may_be(-1e9));
-  CHECK_FALSE(s.parameters[1].may_be(-1e-9));  // of friction
-  CHECK(s.parameters[1].may_be(0.0));
+  CHECK(s.parameters[0].is_valid(-1e9));
+  CHECK_FALSE(s.parameters[1].is_valid(-1e-9));  // of friction
+  CHECK(s.parameters[1].is_valid(0.0));
   // Two events 0.1 apart close by 2 for each unit of a key that is 0.03: they would meet at -0.02.
   Sensitivities beyond;
   beyond.parameters.resize(1);
@@ -255,10 +255,10 @@ TEST_CASE("the least changes at which neighbours meet, and keys that are refused
   beyond.event_rates.assign(2, std::vector<EventRates>(1));
   beyond.event_rates[0][0].t = -2.0;
   beyond.event_rates[1][0].t = 0.0;
-  REQUIRE(least_swaps(beyond).size() == 1);
-  CHECK(least_swaps(beyond)[0].change == doctest::Approx(-0.05));
-  beyond.parameters[0].may_be = s.parameters[1].may_be;
-  CHECK(least_swaps(beyond).empty());
+  REQUIRE(smallest_sequence_changes(beyond).size() == 1);
+  CHECK(smallest_sequence_changes(beyond)[0].change == doctest::Approx(-0.05));
+  beyond.parameters[0].is_valid = s.parameters[1].is_valid;
+  CHECK(smallest_sequence_changes(beyond).empty());
   CHECK_THROWS_WITH_AS(rates_of(text, {"run.t_end"}),
                        "--parameter run.t_end: the motion does not depend on this key", UsageError);
   CHECK_THROWS_AS(rates_of(text, {"contacts.c.name"}), UsageError);

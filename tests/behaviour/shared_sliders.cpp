@@ -60,7 +60,7 @@ Result run_scene(const std::string& text, const std::string& engine, const std::
                   {{"run.engine", engine}, {"run.certify", "false"}, {"run.rtol", rtol}, {"run.dt", "1e-3"}});
   Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.reason == "");
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   CHECK(result.report.audit.friction.value <= 1e-9 * result.report.audit.force_scale);
   return result;
 }

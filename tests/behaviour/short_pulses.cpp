@@ -49,7 +49,7 @@ TEST_CASE("an oscillator that is struck: the swing of the impulse, in any time")
         CHECK(result.report.outcome.kind == Outcome::Kind::done);
         CHECK(result.report.warnings.empty());
         // Half the pulse has another arm, of order (w d)^2; steps within it are known to some roundings of their times.
-        const double clock = type[0] == 'r' ? 0.0 : rounding::of_many * 0.1 / duration;
+        const double clock = type[0] == 'r' ? 0.0 : rounding::many_operations * 0.1 / duration;
         const double off = 1e4 * duration * duration + clock + (engine[0] == 'n' ? 2e-4 : 1e-5);
         CHECK(std::abs(result.rows.back().u[0] - 0.1 * std::sin(10.0 * since)) <= 0.1 * off);
         CHECK(std::abs(result.rows.back().v[0] - std::cos(10.0 * since)) <= off);

@@ -119,7 +119,7 @@ std::vector<double> slips(const Stack& stack) {
   const Scene scene = parse_scene(stack.text(), "stack.toml");
   const Result result = simulate(scene);
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
-  CHECK(result.report.witness.violated == 0);
+  CHECK(result.report.law_checks.violated == 0);
   std::vector<double> mean;
   for (const SeamSpec& seam : scene.seams) {
     double sum = 0.0;

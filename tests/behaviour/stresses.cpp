@@ -71,9 +71,9 @@ std::string on_two_supports() {
   return "[[supports]]\nnode = \"A\"\nfix = [\"ux\", \"uy\"]\n[[supports]]\nnode = \"B\"\nfix = [\"uy\"]\n";
 }
 
-const Output::Stretch& stretch_of(const Computed& c, const std::string& name, const OutputPlace& place) {
-  REQUIRE(place.stretch >= 0);
-  return c.model.outputs[c.index(name)].stretches[static_cast<std::size_t>(place.stretch)];
+const Output::Segment& stretch_of(const Computed& c, const std::string& name, const OutputPlace& place) {
+  REQUIRE(place.segment >= 0);
+  return c.model.outputs[c.index(name)].segments[static_cast<std::size_t>(place.segment)];
 }
 
 /// What envelopes tell, against the cuts at the places that they tell, and at others.
@@ -88,7 +88,7 @@ void check_places(const std::string& engine) {
     const OutputExtremes& e = first.extremes(q);
     for (const auto& [name, place] :
          {std::pair("greatest", e.at_maximum), std::pair("least", e.at_minimum)}) {
-      const Output::Stretch& s = stretch_of(first, q, place);
+      const Output::Segment& s = stretch_of(first, q, place);
       again +=
           cut(fmt::format("{}_{}", name, q), q, place.station, fmt::format("[\"{}\", \"{}\"]", s.from, s.to));
     }

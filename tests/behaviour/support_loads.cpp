@@ -67,13 +67,13 @@ TEST_SUITE("behaviour/support_loads") {
         const Result result = simulate(scene);
         REQUIRE(result.report.supports.size() == 1);
         const SupportLoad& load = result.report.supports[0];
-        CHECK(load.least_N.value == doctest::Approx(-10.0));
-        CHECK(load.greatest_N.value == doctest::Approx(-10.0));
-        CHECK(load.least_N.t == 0.0);
+        CHECK(load.min_N.value == doctest::Approx(-10.0));
+        CHECK(load.max_N.value == doctest::Approx(-10.0));
+        CHECK(load.min_N.t == 0.0);
         // It slides at 0.5 s under its limit, which is its friction; before and behind it bears nothing.
-        CHECK(load.greatest_T.value == doctest::Approx(3.0));
-        CHECK(load.greatest_T.t == doctest::Approx(0.5));
-        CHECK(std::abs(load.least_T.value) < 1e-9);
+        CHECK(load.max_T.value == doctest::Approx(3.0));
+        CHECK(load.max_T.t == doctest::Approx(0.5));
+        CHECK(std::abs(load.min_T.value) < 1e-9);
         // 3 m/s^2 for 0.5 s, and as long back to rest: 0.75 m.
         CHECK(load.residual_slip() == doctest::Approx(0.75 * v.length).epsilon(1e-6));
       }
@@ -113,12 +113,12 @@ normal_stiffness = {}
       const Result result = simulate(parse_scene(text, "fall", {{"run.engine", engine}}));
       REQUIRE(result.report.supports.size() == 1);
       const SupportLoad& load = result.report.supports[0];
-      CHECK(load.least_N.value == doctest::Approx(-k * greatest).epsilon(1e-7));
-      CHECK(load.least_N.t ==
+      CHECK(load.min_N.value == doctest::Approx(-k * greatest).epsilon(1e-7));
+      CHECK(load.min_N.t ==
             doctest::Approx(time).epsilon(1e-4));  // where it turns, time is as the root of the value
-      CHECK(load.greatest_N.value <= 1e-9 * k * greatest);
-      CHECK(load.least_N.value == doctest::Approx(-result.report.peaks[0].N).epsilon(1e-12));
-      CHECK(load.least_T.value == 0.0);
+      CHECK(load.max_N.value <= 1e-9 * k * greatest);
+      CHECK(load.min_N.value == doctest::Approx(-result.report.peaks[0].N).epsilon(1e-12));
+      CHECK(load.min_T.value == 0.0);
     }
   }
 }

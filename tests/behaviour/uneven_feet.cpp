@@ -83,7 +83,7 @@ void check_case(const Block& b, double mirror, bool permuted, const std::string&
                                  {{"run.engine", engine}, {"run.certify", "false"}});
   const Result result = simulate(build_model(read), read.run);
   CHECK(result.report.outcome.reason == "");
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   const double end = last_rest(b, 1.0);
   int rows = 0;
   for (const Result::Row& row : result.rows) {

@@ -17,7 +17,7 @@ verify::Verification verified(const Scene& scene, const Scene& own) {
   verify::VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;
-  request.most_seconds = 2.0;
+  request.max_seconds = 2.0;
   return verify::verify(build_model(scene), build_model(own), request);
 }
 

@@ -19,13 +19,13 @@ namespace {
 class Once : public run::FaultInjector {
  public:
   bool done = false;
-  bool change(const contact::ContactStates& mode, const Vector& v, decide::Decision& decided) override {
+  bool change(const contact::ContactStates& states, const Vector& v, decide::Decision& decided) override {
     if (done || decided.jet.t < 0.05) return false;
-    return done = plant(mode, v, decided);
+    return done = plant(states, v, decided);
   }
 
  protected:
-  virtual bool plant(const contact::ContactStates& mode, const Vector& v, decide::Decision& decided) = 0;
+  virtual bool plant(const contact::ContactStates& states, const Vector& v, decide::Decision& decided) = 0;
 };
 
 class Nothing final : public run::FaultInjector {};
@@ -35,7 +35,7 @@ class ImpulseLeftOut final : public Once {
   bool plant(const contact::ContactStates&, const Vector&, decide::Decision& decided) override {
     if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
     decided.impulses.clear();
-    decided.blows.clear();
+    decided.single_impacts.clear();
     return true;
   }
 };
@@ -45,9 +45,9 @@ class HitSwallowed final : public Once {
   bool plant(const contact::ContactStates&, const Vector& v, decide::Decision& decided) override {
     if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
     decided.impulses.clear();
-    decided.blows.clear();
+    decided.single_impacts.clear();
     decided.v = v;
-    decided.mode[0] = {State::slip_plus, 0.0};
+    decided.states[0] = {State::slip_plus, 0.0};
     return true;
   }
 };
@@ -60,7 +60,7 @@ class RestitutionIgnored final : public run::FaultInjector {
 class WrongSign final : public Once {
   bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     if (before[1].state != State::stick) return false;
-    State& state = decided.mode[1].state;
+    State& state = decided.states[1].state;
     if (state != State::slip_plus && state != State::slip_minus) return false;
     state = state == State::slip_plus ? State::slip_minus : State::slip_plus;
     return true;
@@ -72,8 +72,8 @@ class NeighbourStuck final : public Once {
   bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     if (decided.impulses.empty() || !decided.impulses[0].hit) return false;
     if (before[1].state != State::slip_plus && before[1].state != State::slip_minus) return false;
-    if (decided.mode[1].state != before[1].state) return false;
-    decided.mode[1] = {State::stick, decided.before[1].ut - decided.before[1].T / 2e4};
+    if (decided.states[1].state != before[1].state) return false;
+    decided.states[1] = {State::stick, decided.before[1].ut - decided.before[1].T / 2e4};
     return true;
   }
 };
@@ -91,9 +91,9 @@ class Late final : public run::FaultInjector {
 
 class AnchorReset final : public Once {
   bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
-    if (before[1].is_open() || decided.mode[1].state != State::stick || before[1].state == State::stick)
+    if (before[1].is_open() || decided.states[1].state != State::stick || before[1].state == State::stick)
       return false;
-    decided.mode[1].anchor = decided.before[1].ut;
+    decided.states[1].anchor = decided.before[1].ut;
     return true;
   }
 };
@@ -106,7 +106,7 @@ class Skipped final : public run::FaultInjector {
 };
 
 class PeaksAtEnds final : public run::FaultInjector {
-  bool forgets_peaks_inside() override { return true; }
+  bool skips_interior_peaks() override { return true; }
 };
 
 // Of scenes without impacts.
@@ -115,9 +115,9 @@ class PeaksAtEnds final : public run::FaultInjector {
 class Stuck final : public Once {
   bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     for (std::size_t k = 0; k < before.size(); ++k) {
-      const State now = decided.mode[k].state;
+      const State now = decided.states[k].state;
       if ((now != State::slip_plus && now != State::slip_minus) || before[k].state != now) continue;
-      decided.mode[k] = {State::stick, decided.before[k].ut};
+      decided.states[k] = {State::stick, decided.before[k].ut};
       return true;
     }
     return false;
@@ -128,7 +128,7 @@ class Stuck final : public Once {
 class OtherWay final : public Once {
   bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
     for (std::size_t k = 0; k < before.size(); ++k) {
-      State& now = decided.mode[k].state;
+      State& now = decided.states[k].state;
       if (before[k].state != State::stick || (now != State::slip_plus && now != State::slip_minus)) continue;
       now = now == State::slip_plus ? State::slip_minus : State::slip_plus;
       return true;
@@ -148,9 +148,9 @@ class SecondSkipped final : public run::FaultInjector {
 /// Where the second contact comes to stick it forgets its force.
 class SecondAnchorReset final : public Once {
   bool plant(const contact::ContactStates& before, const Vector&, decide::Decision& decided) override {
-    if (before[1].is_open() || decided.mode[1].state != State::stick || before[1].state == State::stick)
+    if (before[1].is_open() || decided.states[1].state != State::stick || before[1].state == State::stick)
       return false;
-    decided.mode[1].anchor = decided.before[1].ut;
+    decided.states[1].anchor = decided.before[1].ut;
     return true;
   }
 };
@@ -169,9 +169,9 @@ TEST_CASE("planted faults: none without a fault") {
       const Result run = run_of(text, way, nothing);
       CHECK(run.report.outcome.reason == "");
       CHECK(run.events.size() > 20);
-      CHECK(run.report.witness.checked > 40);
-      CHECK(run.report.witness.violated == 0);
-      tell(run.report.witness);
+      CHECK(run.report.law_checks.checked > 40);
+      CHECK(run.report.law_checks.violated == 0);
+      tell(run.report.law_checks);
     }
 }
 
@@ -182,7 +182,7 @@ TEST_CASE_TEMPLATE("planted faults: noticed by every engine", Fault, ImpulseLeft
     CAPTURE(static_cast<int>(way.flow));
     Fault fault;
     const Report report = run_with(way, fault);
-    CHECK(report.witness.violated > 0);
+    CHECK(report.law_checks.violated > 0);
   }
 }
 
@@ -197,7 +197,7 @@ TEST_CASE_TEMPLATE("planted faults: noticed where nothing hits", Fault, Stuck, O
       CAPTURE(static_cast<int>(way.flow));
       Fault fault;
       const Report report = run_of(text, way, fault).report;
-      CHECK(report.witness.violated > 0);
+      CHECK(report.law_checks.violated > 0);
     }
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("planted faults: late by ten times what the event says of its time") {
     CAPTURE(static_cast<int>(way.flow));
     Nothing nothing;
     const Result run = run_of(scene_text, way, nothing);
-    const double unit = build_model(parse_scene(scene_text, "planted.toml")).machine.time;
+    const double unit = build_model(parse_scene(scene_text, "planted.toml")).internal_units.time;
     int tried = 0;
     for (const Event& event : run.events) {
       if (event.t < 0.05 || event.contact != 1 || event.type != EventType::slip || !event.t_uncertainty)
@@ -223,7 +223,7 @@ TEST_CASE("planted faults: late by ten times what the event says of its time") {
       const double moved = way.flow == Flow::modal ? 1e-4 : 2e-6;
       late.by =
           std::max(10.0 * *event.t_uncertainty, moved / std::abs(event.guard_rate.value_or(1.0))) / unit;
-      CHECK(run_of(scene_text, way, late).report.witness.violated > 0);
+      CHECK(run_of(scene_text, way, late).report.law_checks.violated > 0);
       ++tried;
     }
     CHECK(tried > 1);
@@ -247,7 +247,7 @@ TEST_CASE("planted faults: peaks from ends of steps") {
                           (whole.peaks[k].*one - ends.peaks[k].*one) / std::max(1e-300, whole.peaks[k].*one));
       if (lost < 1e-9) continue;
       ++changed;
-      CHECK(ends.witness.violated > 0);
+      CHECK(ends.law_checks.violated > 0);
     }
   CHECK(changed > 3);
 }

@@ -90,15 +90,15 @@ TEST_CASE("planted faults: a saved state that lacks something, by the first run'
         }
         const double t = first.run.frames.front();
         changes.insert(changes.end(), {{"run.initial", "{ run = \"" + folder.string() +
-                                                           "\", t = " + base::shortest(t) + " }"},
+                                                           "\", t = " + base::format_number(t) + " }"},
                                        {"run.t_end", "0.05"},
                                        {"run.frames", "[]"}});
         const Scene second = prepared(parse_scene(text, "second.toml", changes));
         const Model rest = build_model(second);
-        REQUIRE(rest.continues.size() == rest.contacts.size());
+        REQUIRE(rest.saved_contacts.size() == rest.contacts.size());
         const Result run = simulate(rest, second.run);
-        CHECK((run.report.witness.violated > 0) == (loss.text != nullptr));
-        if (loss.text == nullptr) tell(run.report.witness);
+        CHECK((run.report.law_checks.violated > 0) == (loss.text != nullptr));
+        if (loss.text == nullptr) tell(run.report.law_checks);
       }
 }
 

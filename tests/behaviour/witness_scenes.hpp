@@ -241,7 +241,7 @@ inline Report run_with(const Way& way, run::FaultInjector& faults) {
   return run_of(scene_text, way, faults).report;
 }
 
-inline void tell(const Testimony& witness) {
+inline void tell(const LawCheckSummary& witness) {
   for (const Violation& v : witness.violations)
     MESSAGE(v.t << " " << v.event << " " << v.contact << " " << v.law << " " << v.value << " " << v.limit);
 }

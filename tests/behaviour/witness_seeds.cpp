@@ -17,7 +17,7 @@ Result run_scene(std::uint64_t seed, const std::vector<Override>& changes) {
   Result result = simulate(build_model(scene), scene.run);
   CAPTURE(seed);
   CHECK(result.report.outcome.reason == "");
-  CHECK(result.report.witness.violations.empty());
+  CHECK(result.report.law_checks.violations.empty());
   return result;
 }
 

@@ -52,14 +52,14 @@ class Deadline : public Recorder {
 };
 
 struct Truth {
-  certify::Track track;
+  certify::EventSequence track;
   Certificate certificate;
 };
 
 std::optional<Truth> truth_of(const Model& model, RunSpec run, double seconds) {
   run.engine = Engine::exact;
   run.certify = Certify::yes;
-  if (!run::exact_takes(model, run)) return std::nullopt;
+  if (!run::exact_accepts(model, run)) return std::nullopt;
   Deadline deadline(seconds);
   certify::CompanionTracker tracker(model, false, &deadline);
   CertifyOptions options;
@@ -94,7 +94,7 @@ struct Answers {
   }
 };
 
-void judge_run(const std::string& name, const certify::Track& track, const Certificate& certificate,
+void judge_run(const std::string& name, const certify::EventSequence& track, const Certificate& certificate,
                const Truth& truth, std::size_t contacts, Tally& tally, std::FILE* rows) {
   const Answers answers(truth, contacts);
   std::vector<std::size_t> next(contacts, 0);
@@ -181,7 +181,7 @@ void examine(const std::string& name, const Scene& scene, const Asked& asked,
       tally.own_seconds += report.report.wall_time;
       tally.companion_seconds += report.certificate->wall_time;
       tally.wait_seconds += report.certificate->wait;
-      const certify::Track track{std::move(tracker.events), report.report.outcome.t, ""};
+      const certify::EventSequence track{std::move(tracker.events), report.report.outcome.t, ""};
       judge_run(fmt::format("{}, rtol {:g}, {}", name, rtol, report.certificate->companion), track,
                 *report.certificate, *truth, model.contacts.size(), tally, asked.rows);
     }

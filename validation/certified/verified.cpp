@@ -45,7 +45,7 @@ verify::VerifyRequest request_of(const Scene& scene, double seconds) {
   verify::VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;
-  request.most_seconds = seconds;
+  request.max_seconds = seconds;
   return request;
 }
 

@@ -58,7 +58,7 @@ struct Asked {
   std::vector<std::string> changes;
 
   [[nodiscard]] Engine engine_of_ways() const {
-    for (const EngineName& engine : all_engines)
+    for (const EngineInfo& engine : all_engines)
       if (engine.name == transformed) return engine.engine;
     return Engine::exact;
   }

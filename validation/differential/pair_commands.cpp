@@ -19,8 +19,9 @@ using Kind = Checked::Kind;
 namespace {
 
 bool is_linear(const Scene& scene) {
-  return std::none_of(scene.contacts.begin(), scene.contacts.end(),
-                      [](const ContactSpec& c) { return c.friction.varies() || c.bowl || c.own; });
+  return std::none_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactSpec& c) {
+    return c.friction.is_rate_dependent() || c.pendulum_surface || c.user_law;
+  });
 }
 
 /// Something of a run at one place of it.
@@ -95,7 +96,7 @@ Checked by_derivatives(const SceneReader& read, const std::string& path) {
   const Scene scene = read({});
   const Sensitivities s = sensitivities(read, {path});
   const Parameter& p = s.parameters[0];
-  const bool linear = is_linear(scene), in_steps = name_of(scene.run.engine).accuracy == Accuracy::step;
+  const bool linear = is_linear(scene), in_steps = engine_info(scene.run.engine).accuracy == Accuracy::step;
   Differences differences(read, path, p.value, linear);
   const double size = p.value != 0.0 ? std::abs(p.value) : 1.0;
   differences.run((linear ? 2e-4 : 1e-3) * size);
@@ -276,7 +277,7 @@ Checked by_verify(const Scene& scene) {
   request.run = scene.run;
   request.run.engine = Engine::ida;
   request.dt = scene.run.dt ? *scene.run.dt : scene.run.t_end / 2000.0;
-  request.most_seconds = 2.0;
+  request.max_seconds = 2.0;
   const Model model = build_model(scene);
   const verify::Verification found = verify::verify(model, model, request);
   if (found.verdict == verify::Agreement::agree) return {Kind::held, "verify", ""};

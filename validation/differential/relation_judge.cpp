@@ -230,7 +230,7 @@ double greatest_displacement(const SeenRun& run) {
 
 /// What a displacement is rounded by, relative to the greatest: engines with a step add so many increments, each rounded.
 double rounding_of_steps(const RunSpec& run) {
-  return run.dt && name_of(run.engine).accuracy == Accuracy::step ? run.t_end / *run.dt * eps : 0.0;
+  return run.dt && engine_info(run.engine).accuracy == Accuracy::step ? run.t_end / *run.dt * eps : 0.0;
 }
 
 /// Forces of elements are k times a difference of displacements, which are known to some eps of the greatest.
@@ -253,10 +253,10 @@ bool shares_motion(const Model& model) {
   std::vector<Vector> rows;
   std::vector<std::size_t> tangents;
   for (const Contact& c : model.contacts) {
-    if (c.takes_impulses()) rows.push_back(assembly::full(c.normal, model.size()));
+    if (c.takes_impulses()) rows.push_back(assembly::dense_vector(c.normal, model.size()));
     if (!c.sticks_rigidly()) continue;
     tangents.push_back(rows.size());
-    rows.push_back(assembly::full(c.tangent, model.size()));
+    rows.push_back(assembly::dense_vector(c.tangent, model.size()));
   }
   Eigen::MatrixXd all(model.size(), static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = rows[i].normalized();
@@ -314,8 +314,9 @@ Scene tightened(Scene scene, double part) {
 
 /// By an engine without steps, where it takes the scene; else with a hundredth of the tolerance.
 Scene better(Scene scene) {
-  const bool linear = std::none_of(scene.contacts.begin(), scene.contacts.end(),
-                                   [](const ContactSpec& c) { return c.friction.varies() || c.bowl; });
+  const bool linear = std::none_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactSpec& c) {
+    return c.friction.is_rate_dependent() || c.pendulum_surface;
+  });
   if (linear)
     scene.run.engine = Engine::exact;
   else
@@ -559,7 +560,7 @@ RelationJudge::RelationJudge(Scene scene, const Bounds& bounds, bool with_peaks)
   // Two runs of ida err by so much a step even where the exact flow is near one of them.
   const double relative = m_->scene.run.engine == Engine::ida ? of_steps * m_->scene.run.rtol : 0.0;
   const Model model = build_model(m_->scene);
-  m_->open_start = !model.statics.doubts.empty();
+  m_->open_start = !model.statics.undetermined.empty();
   m_->shared_motion = shares_motion(model);
   const double in_steps = rounding_of_steps(m_->scene.run);
   m_->floor = floors(m_->run, model.scales, std::max(rounding_of_sums, in_steps) + relative);

@@ -9,7 +9,7 @@ namespace {
 
 /// Its forces come from springs, of which two halves are one.
 bool is_elastic(const ContactSpec& contact) {
-  return !contact.own && !contact.friction.by_force() &&
+  return !contact.user_law && !contact.friction.is_load_dependent() &&
          (contact.law == Law::compliant ||
           (contact.law == Law::slider && contact.tangential_stiffness.has_value()));
 }

@@ -89,7 +89,7 @@ class KeptRun {
         "initial = {{ run = '{}', t = {} }}\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = 1.0\n",
         path_.string(), t);
     SavedState saved = *parse_scene(text, (path_ / "reader.toml").string()).initial.saved;
-    saved.differing.clear();
+    saved.structure_differences.clear();
     return saved;
   }
 

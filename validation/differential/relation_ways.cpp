@@ -71,7 +71,7 @@ std::optional<Related> related_turned(const Scene& scene, std::uint64_t seed) {
 std::optional<Related> related_mirrored(const Scene& scene, std::uint64_t /*seed*/) {
   // A pad that is crushed is called slip- whichever way it lies.
   for (const ContactSpec& contact : scene.contacts)
-    if (contact.own) return std::nullopt;
+    if (contact.user_law) return std::nullopt;
   std::optional<Related> result = related(mirrored(scene));
   if (!result) return result;
   for (OutputSpec& output : result->scene.outputs) {

@@ -115,7 +115,7 @@ SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify, run::Faul
         seen.said.substr(seen.said.find(": ") == std::string::npos ? 0 : seen.said.rfind(": ") + 2));
     return seen;
   }
-  seen.open_start = !model.statics.doubts.empty();
+  seen.open_start = !model.statics.undetermined.empty();
   const Outcome& outcome = found.report.outcome;
   seen.t = outcome.t;
   seen.said = outcome.reason;

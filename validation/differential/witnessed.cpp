@@ -65,8 +65,8 @@ Witnessed before_the_witness(const Scene& scene, long steps) {
     const Track track = run(model, spec, {steps, seconds_of_a_run});
     if (track.end == Track::End::refused) continue;
     ++result.runs;
-    result.checked += track.report.witness.checked;
-    for (const Violation& v : track.report.witness.violations) add(way, model, v, result.alarms);
+    result.checked += track.report.law_checks.checked;
+    for (const Violation& v : track.report.law_checks.violations) add(way, model, v, result.alarms);
   }
   return result;
 }

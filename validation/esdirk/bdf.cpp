@@ -43,9 +43,9 @@ class Bdf final : public Integrator {
   }
 
   void run(const Stretch& stretch, bool through, std::vector<double>& y, Tally& tally) override {
-    flow_.start(stretch.mode, stretch.begin);
-    linear_.set_mode(stretch.mode);
-    mode_ = stretch.mode;
+    flow_.start(stretch.states, stretch.begin);
+    linear_.set_contact_states(stretch.states);
+    states_ = stretch.states;
     const auto n = flow_.size();
     double *x = NV_DATA_S(y_), *xp = NV_DATA_S(yp_);
     std::copy(stretch.u0.begin(), stretch.u0.end(), x);
@@ -113,8 +113,8 @@ class Bdf final : public Integrator {
       m.an = contact.normal.dot(a);
       m.at += contact.tangent.dot(a);
       r[f] = flow_.rows()[k].normal.value(m);
-      r[f + 1] = contact::slips_nonlinearly(contact, mode_[k].state)
-                     ? stribeck_row(contact, mode_[k].state, m.vt).value(m)
+      r[f + 1] = contact::slips_nonlinearly(contact, states_[k].state)
+                     ? stribeck_row(contact, states_[k].state, m.vt).value(m)
                      : flow_.rows()[k].tangent.value(m);
     }
   }
@@ -123,7 +123,7 @@ class Bdf final : public Integrator {
     auto* b = static_cast<Bdf*>(self);
     const double* x = NV_DATA_S(y);
     for (std::size_t k = 0; k < b->model_.contacts.size(); ++k)
-      if (const State state = b->mode_[k].state; contact::slips_nonlinearly(b->model_.contacts[k], state)) {
+      if (const State state = b->states_[k].state; contact::slips_nonlinearly(b->model_.contacts[k], state)) {
         const ContactMotion m = b->flow_.motion(k, t, 0, x, x + b->flow_.size());
         b->linear_.linearise(k, stribeck_tangent(b->model_.contacts[k], state, m.vt, x[b->layout_.force(k)]));
       }
@@ -147,7 +147,7 @@ class Bdf final : public Integrator {
   linear::SystemMatrices structure_;
   ida::Layout layout_;
   ida::IdaLinearSolver linear_;
-  contact::ContactStates mode_;
+  contact::ContactStates states_;
   Parts parts_;
   N_Vector y_ = nullptr, yp_ = nullptr;
   void* ida_ = nullptr;

@@ -45,7 +45,7 @@ class Esdirk final : public Integrator {
   }
 
   void run(const Stretch& stretch, bool through, std::vector<double>& y, Tally& tally) override {
-    flow_.start(stretch.mode, stretch.begin);
+    flow_.start(stretch.states, stretch.begin);
     const int n = flow_.size();
     std::copy(stretch.u0.begin(), stretch.u0.end(), NV_DATA_S(y_));
     std::copy(stretch.v0.begin(), stretch.v0.end(), NV_DATA_S(y_) + n);

@@ -35,14 +35,14 @@ ModeFlow::ModeFlow(const Model& model, const linear::SystemMatrices& structure)
   }
 }
 
-void ModeFlow::start(const contact::ContactStates& mode, double t) {
-  const bool same = !mode_.empty() && contact::states_of(mode) == contact::states_of(mode_);
-  mode_ = mode;
-  rows_ = tangents_ = linear::rows_of(model_, mode);
+void ModeFlow::start(const contact::ContactStates& states, double t) {
+  const bool same = !states_.empty() && contact::states_of(states) == contact::states_of(states_);
+  states_ = states;
+  rows_ = tangents_ = linear::rows_of(model_, states);
   forcing_.emplace(model_, t, motion::Side::after);
   linear_ = true;
-  for (std::size_t k = 0; k < mode.size(); ++k)
-    if (contact::slips_nonlinearly(model_.contacts[k], mode[k].state)) {
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (contact::slips_nonlinearly(model_.contacts[k], states[k].state)) {
       if (!model_.contacts[k].normal_force_given())
         throw std::runtime_error("Stribeck's friction is treated on sliders only");
       linear_ = false;
@@ -83,7 +83,7 @@ void ModeFlow::derivative(double t, int order, const double* y, double* dy) {
     rhs_[row] = side(rows_[k].normal);
     rhs_[row + 1] = side(rows_[k].tangent);
     // N of a slider is known, so the friction of the slip rate is a constant of its row.
-    if (const State state = mode_[k].state;
+    if (const State state = states_[k].state;
         order == 0 && contact::slips_nonlinearly(model_.contacts[k], state))
       rhs_[row + 1] =
           (rows_[k].tangent.N - stribeck_row(model_.contacts[k], state, m.vt).N) * -m.applied_normal_force;
@@ -96,10 +96,10 @@ void ModeFlow::derivative(double t, int order, const double* y, double* dy) {
 void ModeFlow::linearise(double t, const double* y) {
   if (linear_) return;
   for (std::size_t k = 0; k < rows_.size(); ++k)
-    if (contact::slips_nonlinearly(model_.contacts[k], mode_[k].state)) {
+    if (contact::slips_nonlinearly(model_.contacts[k], states_[k].state)) {
       const ContactMotion m = motion(k, t, 0, y, y + n_);
       tangents_[k].tangent =
-          stribeck_tangent(model_.contacts[k], mode_[k].state, m.vt, -m.applied_normal_force);
+          stribeck_tangent(model_.contacts[k], states_[k].state, m.vt, -m.applied_normal_force);
     }
 }
 

@@ -21,7 +21,7 @@ class ModeFlow {
   ModeFlow(const Model& model, const linear::SystemMatrices& structure);
 
   /// Puts a mode and the pieces of the loads just after t in force.
-  void start(const contact::ContactStates& mode, double t);
+  void start(const contact::ContactStates& states, double t);
   /// dy = f(t, y); order k > 0: the k-th derivative of f along a motion whose k-th derivative is y (not for
   /// Stribeck's friction).
   void derivative(double t, int order, const double* y, double* dy);
@@ -60,7 +60,7 @@ class ModeFlow {
   const linear::SystemMatrices& structure_;
   int n_;
   linear::SystemMatrix mass_, implicit_;
-  contact::ContactStates mode_;
+  contact::ContactStates states_;
   std::vector<Rows> rows_, tangents_;
   std::vector<double> rhs_, work_, scale_;
   std::optional<motion::Forcing> forcing_;

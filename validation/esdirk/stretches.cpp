@@ -7,7 +7,8 @@
 namespace signorini::esdirk {
 namespace {
 
-std::optional<Ending> ending_of(const Model& model, const Event& event, const contact::ContactStates& mode) {
+std::optional<Ending> ending_of(const Model& model, const Event& event,
+                                const contact::ContactStates& states) {
   const auto contact = static_cast<std::size_t>(event.contact);
   if (!event.guard_rate || *event.guard_rate == 0.0) return std::nullopt;
   Guard guard = Guard::none;
@@ -16,7 +17,7 @@ std::optional<Ending> ending_of(const Model& model, const Event& event, const co
   if (event.type == EventType::stick || event.type == EventType::reversal) guard = Guard::sliding;
   if (event.type == EventType::slip)
     guard = event.to == State::slip_plus ? Guard::slip_plus : Guard::slip_minus;
-  for (const GuardForm& g : contact::guards(model.contacts[contact], mode[contact]))
+  for (const GuardForm& g : contact::guards(model.contacts[contact], states[contact]))
     if (g.kind == guard && guard != Guard::none) return Ending{contact, g.form, *event.guard_rate};
   return std::nullopt;
 }
@@ -64,11 +65,11 @@ Cut cut(Scene scene, const Model& model, double restart) {
   for (std::size_t i = 0; i + 1 < full.rows.size(); ++i) {
     const Result::Row &from = full.rows[i], &to = full.rows[i + 1];
     Stretch s{from.t, to.t, from.u, from.v, to.u, to.v, {}, {}};
-    for (const ContactSample& c : from.contacts) s.mode.push_back({c.state, c.slip});
+    for (const ContactSample& c : from.contacts) s.states.push_back({c.state, c.slip});
     int events = 0;
     for (const Event& event : full.events)
       if (event.t == to.t && (++events, event.contact >= 0 && event.type != EventType::time))
-        s.ending = ending_of(model, event, s.mode);
+        s.ending = ending_of(model, event, s.states);
     if (events > 1) s.ending.reset();
     result.stretches.push_back(std::move(s));
   }

@@ -24,7 +24,7 @@ struct Ending {
 struct Stretch {
   double begin = 0.0, end = 0.0;
   Vector u0, v0, u1, v1;
-  contact::ContactStates mode;
+  contact::ContactStates states;
   std::optional<Ending> ending;  ///< empty: the end of the run, a load's jump, several events, a cut
 };
 

@@ -29,8 +29,8 @@ double of_function(const Piece& p, double t, int order) {
   double sum = 0.0, factor = 1.0;
   for (std::size_t r = 0; r < p.rates.size(); ++r)
     if (p.rates[r] != 0.0)
-      sum += p.rates[r] * p.function(p.stretch * (t - p.origin), order + static_cast<int>(r));
-  for (int i = 0; i < order; ++i) factor *= p.stretch;
+      sum += p.rates[r] * p.function(p.time_scale * (t - p.origin), order + static_cast<int>(r));
+  for (int i = 0; i < order; ++i) factor *= p.time_scale;
   return factor * sum;
 }
 
@@ -76,8 +76,8 @@ Piece with_rates_of(const Piece& p, double c0, double c1, double c2) {
   q.rates.assign(p.rates.size() + 2, 0.0);
   for (std::size_t r = 0; r < p.rates.size(); ++r) {
     q.rates[r] += c0 * p.rates[r];
-    q.rates[r + 1] += c1 * p.stretch * p.rates[r];
-    q.rates[r + 2] += c2 * p.stretch * p.stretch * p.rates[r];
+    q.rates[r + 1] += c1 * p.time_scale * p.rates[r];
+    q.rates[r + 2] += c2 * p.time_scale * p.time_scale * p.rates[r];
   }
   return q;
 }
@@ -153,7 +153,7 @@ double roundoff(const Piece& piece, double t) {
     size += std::abs(of_function(piece, t, 0));
     slope += std::abs(of_function(piece, t, 1));
   }
-  return rounding::of_many * (size + (std::abs(t) + std::abs(piece.origin)) * slope);
+  return rounding::many_operations * (size + (std::abs(t) + std::abs(piece.origin)) * slope);
 }
 
 double roundoff_of_rate(const Piece& piece, double t) {
@@ -163,7 +163,7 @@ double roundoff_of_rate(const Piece& piece, double t) {
     size += static_cast<double>(j) * std::abs(piece.coefficients[j]) * power;
   size += std::abs(piece.amplitude * piece.omega) * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
   if (piece.function) size += std::abs(of_function(piece, t, 1));
-  return rounding::of_many * size;
+  return rounding::many_operations * size;
 }
 
 }  // namespace signorini::history
@@ -280,7 +280,7 @@ History History::repeated(double from, double period, int rounds) const {
   };
   for (std::size_t i = 0; i < starts_.size() && starts_[i] < from; ++i) add(starts_[i], pieces_[i + 1], 0.0);
   // A shape that lasts the whole period ends where it restarts, in spite of the rounding of that sum.
-  const double end = from + period - rounding::of_many * (std::abs(from) + rounds * period);
+  const double end = from + period - rounding::many_operations * (std::abs(from) + rounds * period);
   for (int round = 0; round < rounds; ++round) {
     const double dt = round * period;
     add(from + dt, piece(from), dt);
@@ -365,7 +365,7 @@ double search(const Piece& p, double from, double to) {
   const double r = std::max(m - from, to - m);
   if (lower_bound(p, m, r) >= -history::roundoff(p, m)) return -1.0;
   // no numbers between the ends
-  if (r <= rounding::of_few * std::max(std::abs(from), std::abs(to))) return -1.0;
+  if (r <= rounding::few_operations * std::max(std::abs(from), std::abs(to))) return -1.0;
   const double left = search(p, from, m);
   return left >= 0.0 ? left : search(p, m, to);
 }
@@ -416,7 +416,7 @@ double magnitude(const History& f, double t_end) {
   return largest;
 }
 
-double greatest_impulse(const History& f, double t_end, double width) {
+double max_impulse(const History& f, double t_end, double width) {
   std::vector<double> ends{0.0}, until{0.0}, size;  // ends of parts, integral up to each end, |f| in each
                                                     // part
   each_part(f, t_end + width, [&](const Piece& p, double from, double to) {
@@ -439,7 +439,7 @@ double greatest_impulse(const History& f, double t_end, double width) {
   return greatest;
 }
 
-double negative_at(const History& f, double t_end) {
+double find_negative_time(const History& f, double t_end) {
   double found = -1.0;
   each_part(f, t_end, [&](const Piece& p, double from, double to) {
     if (found < 0.0) found = negative_in(p, from, to);

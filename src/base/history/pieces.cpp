@@ -8,9 +8,9 @@ std::size_t end_of_instant(const History& f, std::size_t from, double t_end) {
   const std::vector<double>& starts = f.starts();
   // Pieces that began before the run need no resolution.
   if (starts[from] < 0.0) return from + 1;
-  const double first = starts[from] <= rounding::of_time * t_end ? 0.0 : starts[from];
+  const double first = starts[from] <= rounding::time_resolution * t_end ? 0.0 : starts[from];
   std::size_t to = from + 1;
-  while (to < starts.size() && starts[to] - first <= rounding::of_time * (first + t_end)) ++to;
+  while (to < starts.size() && starts[to] - first <= rounding::time_resolution * (first + t_end)) ++to;
   return to;
 }
 
@@ -20,7 +20,7 @@ History resolved(const History& f, double t_end) {
   for (std::size_t from = 0, to = 0; from < f.starts().size(); from = to) {
     to = end_of_instant(f, from, t_end);
     const double last = f.starts()[to - 1];
-    starts.push_back(last > 0.0 && last <= rounding::of_time * t_end ? 0.0 : last);
+    starts.push_back(last > 0.0 && last <= rounding::time_resolution * t_end ? 0.0 : last);
     pieces.push_back(f.pieces()[to]);
   }
   return {std::move(starts), std::move(pieces)};

@@ -22,12 +22,12 @@ namespace signorini::history {
 
 /// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]; each piece
 /// counts with its largest |f|. Units of f times time.
-[[nodiscard]] double greatest_impulse(const History& f, double t_end, double width);
+[[nodiscard]] double max_impulse(const History& f, double t_end, double width);
 
 /// A time in [0, t_end] at which f is negative beyond rounding, or -1 if there is none: proved with the minima of sines
 /// and with bounds of polynomials, not sampled (except user-defined functions). A piece counts up to and including the
 /// start of the next one.
-[[nodiscard]] double negative_at(const History& f, double t_end);
+[[nodiscard]] double find_negative_time(const History& f, double t_end);
 
 // Merges starts of pieces that the time resolution of a run cannot separate.
 //

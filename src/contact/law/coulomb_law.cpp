@@ -11,10 +11,10 @@ namespace signorini {
 namespace {
 
 /// Distance of T from the limit of friction on one side.
-Form friction_left(const Contact& contact, double side) {
+Form friction_margin(const Contact& contact, double side) {
   Form form;
   form.T = -side;
-  if (contact.friction.by_force())
+  if (contact.friction.is_load_dependent())
     form.limit = 1.0;
   else
     form.N = -contact::static_friction(contact);
@@ -33,7 +33,7 @@ Form tangent_row(const Contact& contact, const ContactState& state) {
       (contact.shear ? row.vt : row.at) = 1.0;
     }
   } else if (const int s = slip_sign(state.state); s != 0) {
-    if (contact.friction.by_force())
+    if (contact.friction.is_load_dependent())
       row.limit = -s;
     else
       row = contact::sliding_row(s, contact::slipping_friction(contact, state.state));
@@ -55,7 +55,7 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
     const double pull = *contact.tangential_stiffness * std::abs(d.ut);
     // At the apex, friction that depends on N has the coefficient of light loads.
     if (pull > contact.friction.static_ * contact.normal_stiffness * std::abs(d.gap))
-      next.state = contact::slip_along(d.ut);
+      next.state = contact::slip_state(d.ut);
     break;
   }
   return next;
@@ -67,7 +67,7 @@ Form CoulombLaw::slip_rate(const Contact& contact, int s) const {
   Form form;
   form.vt = 1.0;
   if (!contact.tangential_stiffness) return form;
-  if (contact.friction.by_force())
+  if (contact.friction.is_load_dependent())
     form.limit_rate = -s / *contact.tangential_stiffness;
   else
     add_normal_rate(contact, s * contact::kinetic_friction(contact) / *contact.tangential_stiffness, form);
@@ -94,7 +94,7 @@ void CoulombLaw::set_normal_guards(const Contact& contact, const ContactState& s
   result[0].form.gap = 1.0;
   if (state.state != State::inside) return;
   result[0].form.vn = contact.normal_damping / contact.normal_stiffness;
-  result[1].kind = Guard::clearing;
+  result[1].kind = Guard::opening;
   result[1].form.gap = -1.0;
 }
 
@@ -103,13 +103,14 @@ ContactLaw::Guards CoulombLaw::guards(const Contact& contact, const ContactState
   set_normal_guards(contact, state, result);
   if (state.state == State::stick) {
     result[1].kind = Guard::slip_plus;
-    result[1].form = friction_left(contact, 1.0);
+    result[1].form = friction_margin(contact, 1.0);
     result[2].kind = Guard::slip_minus;
-    result[2].form = friction_left(contact, -1.0);
+    result[2].form = friction_margin(contact, -1.0);
   } else if (const int s = slip_sign(state.state); s != 0) {
     result[1].kind = Guard::sliding;
     result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
-    if (contact.shear && contact.friction.rises()) {  // the limit determines the rate and is more accurate
+    if (contact.shear &&
+        contact.friction.is_rate_strengthening()) {  // the limit determines the rate and is more accurate
       result[1].form = {};
       result[1].form.N = contact::static_friction(contact);
       result[1].form.T = s;
@@ -118,28 +119,28 @@ ContactLaw::Guards CoulombLaw::guards(const Contact& contact, const ContactState
   return result;
 }
 
-ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& now, Guard fallen,
+ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& now, Guard failed,
                                     const MotionJet& jet) const {
   const ContactMotion& m = jet.motion[0];
-  switch (fallen) {
+  switch (failed) {
     case Guard::separation:
-      return {contact::let_go(contact, m.gap), 0.0};
-    case Guard::clearing:
+      return {contact::separated_state(contact, m.gap), 0.0};
+    case Guard::opening:
       return {State::open, 0.0};
     case Guard::closing:
       return close(contact, jet);
     case Guard::slip_plus:
     case Guard::slip_minus: {
-      const double s = fallen == Guard::slip_plus ? 1.0 : -1.0;
+      const double s = failed == Guard::slip_plus ? 1.0 : -1.0;
       const double T = s * contact::sliding_limit(contact, m.N);
-      return {contact::slip_along(s), contact::slip_of(contact, m.ut, T)};
+      return {contact::slip_state(s), contact::slip_of(contact, m.ut, T)};
     }
     case Guard::sliding:
       return {State::stick, contact::slip_of(contact, m)};
     case Guard::none:
-    case Guard::own_1:
-    case Guard::own_2:
-    case Guard::own_3:
+    case Guard::user_1:
+    case Guard::user_2:
+    case Guard::user_3:
       break;
   }
   return now;
@@ -150,7 +151,8 @@ std::vector<ContactState> CoulombLaw::candidates(const Contact& contact, const C
   // A contact that stuck keeps its anchor; a contact that slipped sticks at its current position.
   const double anchor = now.state == State::stick ? now.anchor : contact::slip_of(contact, before);
   std::vector<ContactState> result;
-  if (!capabilities.normal_force_given) result.push_back({contact::let_go(contact, before.gap), 0.0});
+  if (!capabilities.normal_force_given)
+    result.push_back({contact::separated_state(contact, before.gap), 0.0});
   if (!contact.has_friction()) {
     result.push_back({State::closed, 0.0});
     return result;
@@ -165,7 +167,7 @@ double CoulombLaw::working_slip_rate(const Contact& contact, State state, const 
 }
 
 ContactWork CoulombLaw::work(const Contact& contact, State state, double N, double T,
-                             const ContactPath& path) const {
+                             const ContactIncrement& path) const {
   ContactWork work;
   if (slip_sign(state) != 0) work.friction = T * path.slip;
   work.surface = -T * path.surface;
@@ -191,7 +193,7 @@ Violations CoulombLaw::violations(const Contact& contact, State state, const Con
   v.tension = m.N;
   add_normal_violations(contact, state, m, v);
   const int s = slip_sign(state);
-  const double limit = s == 0 || is_held(state) || contact.friction.by_force()
+  const double limit = s == 0 || is_at_static_limit(state) || contact.friction.is_load_dependent()
                            ? contact::sticking_limit(contact, m.N)
                            : -contact::sliding_friction(contact, s * m.vt) * m.N;
   if (!is_open(state)) v.friction = std::abs(m.T) - limit;

@@ -22,14 +22,14 @@ class CoulombLaw : public ContactLaw {
   [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state) const override;
   [[nodiscard]] Guards guards(const Contact& contact, const ContactState& state) const override;
   [[nodiscard]] Form slip_rate(const Contact& contact, int s) const override;
-  [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard fallen,
+  [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                         const MotionJet& jet) const override;
   [[nodiscard]] std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
                                                      const ContactMotion& before) const override;
   [[nodiscard]] double working_slip_rate(const Contact& contact, State state,
                                          const ContactMotion& m) const override;
   [[nodiscard]] ContactWork work(const Contact& contact, State state, double N, double T,
-                                 const ContactPath& path) const override;
+                                 const ContactIncrement& path) const override;
   [[nodiscard]] double stored_energy(const Contact& contact, State state,
                                      const ContactMotion& m) const override;
   [[nodiscard]] Violations violations(const Contact& contact, State state,

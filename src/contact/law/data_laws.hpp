@@ -27,8 +27,8 @@ struct DataLaw {
   /// Makes the law from kn and the constants, in their order.
   UserContactLaw (*make)(double normal_stiffness, const std::vector<double>& constants);
   /// Key whose value contradicts the others, and a message; nullopt: the values are valid.
-  std::optional<std::pair<std::string_view, std::string>> (*objection)(double normal_stiffness,
-                                                                       const std::vector<double>& constants);
+  std::optional<std::pair<std::string_view, std::string>> (*validate)(double normal_stiffness,
+                                                                      const std::vector<double>& constants);
 };
 
 [[nodiscard]] std::span<const DataLaw* const> data_laws();

@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-Form with_memory(const OwnForm& own, double memory) {
+Form with_memory(const UserLawForm& own, double memory) {
   Form form = own.form;
   form.constant += own.memory * memory;
   return form;
@@ -19,8 +19,8 @@ Form with_memory(const OwnForm& own, double memory) {
 
 /// True if no guard contains products of forms.
 bool has_linear_guards(const UserContactLaw& law) {
-  for (const OwnState& state : law.states)
-    for (const OwnGuard& guard : state.guards)
+  for (const UserLawState& state : law.states)
+    for (const UserLawGuard& guard : state.guards)
       if (!guard.products.empty()) return false;
   return true;
 }
@@ -38,15 +38,15 @@ class UserLaw final : public ContactLaw {
   [[nodiscard]] bool is_named() const override { return !data_->name.empty(); }
 
   [[nodiscard]] Rows rows(const Contact& /*contact*/, const ContactState& state) const override {
-    const OwnState& in = at(state.state);
+    const UserLawState& in = at(state.state);
     return {with_memory(in.normal, state.anchor), with_memory(in.tangent, state.anchor)};
   }
 
   [[nodiscard]] Guards guards(const Contact& /*contact*/, const ContactState& state) const override {
-    constexpr std::array kinds = {Guard::own_1, Guard::own_2, Guard::own_3};
+    constexpr std::array kinds = {Guard::user_1, Guard::user_2, Guard::user_3};
     static_assert(kinds.size() == most_guards);
     Guards result;
-    const OwnState& in = at(state.state);
+    const UserLawState& in = at(state.state);
     for (std::size_t i = 0; i < in.guards.size(); ++i)
       result[i] = {kinds[i], with_memory(in.guards[i].positive, state.anchor), products_of(in.guards[i])};
     return result;
@@ -54,11 +54,11 @@ class UserLaw final : public ContactLaw {
 
   [[nodiscard]] Form slip_rate(const Contact& /*contact*/, int /*s*/) const override { return {.vt = 1.0}; }
 
-  [[nodiscard]] ContactState next_state(const Contact& /*contact*/, const ContactState& now, Guard fallen,
+  [[nodiscard]] ContactState next_state(const Contact& /*contact*/, const ContactState& now, Guard failed,
                                         const MotionJet& jet) const override {
-    if (fallen == Guard::none) return now;
-    const auto i = static_cast<std::size_t>(fallen) - static_cast<std::size_t>(Guard::own_1);
-    const OwnGuard& guard = at(now.state).guards[i];
+    if (failed == Guard::none) return now;
+    const auto i = static_cast<std::size_t>(failed) - static_cast<std::size_t>(Guard::user_1);
+    const UserLawGuard& guard = at(now.state).guards[i];
     return in_state(guard.next, guard.memory ? guard.memory->value(jet.motion[0]) : now.anchor);
   }
 
@@ -76,7 +76,7 @@ class UserLaw final : public ContactLaw {
 
   /// Friction is the whole work done on the contact, stored or dissipated.
   [[nodiscard]] ContactWork work(const Contact& /*contact*/, State /*state*/, double N, double T,
-                                 const ContactPath& path) const override {
+                                 const ContactIncrement& path) const override {
     ContactWork work;
     work.friction = N * path.gap + T * path.slip;
     work.surface = -T * path.surface;
@@ -93,19 +93,19 @@ class UserLaw final : public ContactLaw {
     return {};
   }
 
-  [[nodiscard]] std::vector<State> own_states() const override {
+  [[nodiscard]] std::vector<State> user_law_states() const override {
     std::vector<State> states;
     for (std::size_t i = 0; i < data_->states.size(); ++i) states.push_back(in_state(i, 0.0).state);
     return states;
   }
   [[nodiscard]] bool has_memory() const override {
-    for (const OwnState& state : data_->states)
-      for (const OwnGuard& guard : state.guards)
+    for (const UserLawState& state : data_->states)
+      for (const UserLawGuard& guard : state.guards)
         if (guard.memory) return true;
     return false;
   }
   [[nodiscard]] std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const override {
-    return std::make_shared<const UserLaw>(visited(*data_, visit));
+    return std::make_shared<const UserLaw>(visit_law_constants(*data_, visit));
   }
   [[nodiscard]] bool equals(const ContactLaw& other) const override {
     const auto* user = dynamic_cast<const UserLaw*>(&other);
@@ -113,15 +113,15 @@ class UserLaw final : public ContactLaw {
   }
 
  private:
-  [[nodiscard]] const OwnState& at(State state) const {
-    return data_->states[is_own(state) ? number_of(state) : 0];
+  [[nodiscard]] const UserLawState& at(State state) const {
+    return data_->states[is_user_law_state(state) ? user_law_state_number(state) : 0];
   }
   [[nodiscard]] ContactState in_state(std::size_t i, double memory) const {
-    return {own_state(i, data_->states[i].kind), memory};
+    return {user_law_state(i, data_->states[i].kind), memory};
   }
 
   /// Products of a guard; they live as long as the law.
-  [[nodiscard]] std::shared_ptr<const std::vector<FormProduct>> products_of(const OwnGuard& guard) const {
+  [[nodiscard]] std::shared_ptr<const std::vector<FormProduct>> products_of(const UserLawGuard& guard) const {
     if (guard.products.empty()) return nullptr;
     return {data_, &guard.products};
   }
@@ -143,7 +143,7 @@ void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& vis
   visit(form.constant, of);
 }
 
-void visit_form(OwnForm& own, const Unit& of, const ContactLaw::VisitConstant& visit) {
+void visit_form(UserLawForm& own, const Unit& of, const ContactLaw::VisitConstant& visit) {
   visit_form(own.form, of, visit);
   visit(own.memory, Unit{of.force, of.length - 1, of.time});
 }
@@ -158,19 +158,19 @@ bool has_unit(const Form& f) {
   return f.N != 0.0 || f.T != 0.0 || f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0;
 }
 
-std::string refusal_of(const OwnState& state, std::size_t states) {
+std::string validation_error(const UserLawState& state, std::size_t states) {
   const auto refuse = [&](const std::string& what) {
     return fmt::format("state '{}': {}", state.name, what);
   };
   if (state.guards.size() > ContactLaw::most_guards)
     return refuse(
         fmt::format("found {} guards, expected at most {}", state.guards.size(), ContactLaw::most_guards));
-  if (is_own(state.kind) || state.kind == State::inside)
+  if (is_user_law_state(state.kind) || state.kind == State::inside)
     return refuse("expected a kind: open, closed, stick or slip");
   std::vector<Form> forms = {state.normal.form, state.tangent.form};
   if (forms[0].N == 0.0 || forms[1].T == 0.0)
     return refuse("expected N in its normal row and T in its tangent row");
-  for (const OwnGuard& guard : state.guards) {
+  for (const UserLawGuard& guard : state.guards) {
     forms.push_back(guard.positive.form);
     if (guard.memory) forms.push_back(*guard.memory);
     for (const FormProduct& p : guard.products) {
@@ -193,23 +193,23 @@ std::string refusal_of(const OwnState& state, std::size_t states) {
 
 }  // namespace
 
-std::string refusal_of(const UserContactLaw& law) {
-  if (law.states.empty() || law.states.size() > most_own_states)
-    return fmt::format("found {} states, expected 1 to {}", law.states.size(), most_own_states);
-  for (const OwnState& state : law.states)
-    if (std::string refusal = refusal_of(state, law.states.size()); !refusal.empty()) return refusal;
+std::string validation_error(const UserContactLaw& law) {
+  if (law.states.empty() || law.states.size() > max_user_law_states)
+    return fmt::format("found {} states, expected 1 to {}", law.states.size(), max_user_law_states);
+  for (const UserLawState& state : law.states)
+    if (std::string refusal = validation_error(state, law.states.size()); !refusal.empty()) return refusal;
   return {};
 }
 
 bool acts_along_tangent(const UserContactLaw& law) {
   const auto looks = [](const Form& f) { return f.ut != 0.0 || f.vt != 0.0; };
   const auto depends = [&](const Form& f) { return f.T != 0.0 || looks(f); };
-  for (const OwnState& state : law.states) {
+  for (const UserLawState& state : law.states) {
     const Form& tangent = state.tangent.form;
     if (looks(tangent) || tangent.N != 0.0 || tangent.gap != 0.0 || tangent.vn != 0.0 ||
         tangent.constant != 0.0 || state.tangent.memory != 0.0 || depends(state.normal.form))
       return true;
-    for (const OwnGuard& guard : state.guards)
+    for (const UserLawGuard& guard : state.guards)
       if (depends(guard.positive.form) || (guard.memory && depends(*guard.memory)) ||
           std::any_of(guard.products.begin(), guard.products.end(),
                       [&](const FormProduct& p) { return depends(p.a) || depends(p.b); }))
@@ -218,11 +218,12 @@ bool acts_along_tangent(const UserContactLaw& law) {
   return false;
 }
 
-std::shared_ptr<const UserContactLaw> visited(UserContactLaw law, const ContactLaw::VisitConstant& visit) {
-  for (OwnState& state : law.states) {
+std::shared_ptr<const UserContactLaw> visit_law_constants(UserContactLaw law,
+                                                          const ContactLaw::VisitConstant& visit) {
+  for (UserLawState& state : law.states) {
     visit_form(state.normal, contact::unit_of(state.normal.form), visit);
     visit_form(state.tangent, contact::unit_of(state.tangent.form), visit);
-    for (OwnGuard& guard : state.guards) {
+    for (UserLawGuard& guard : state.guards) {
       const Unit of =
           guard.products.empty() ? contact::unit_of(guard.positive.form) : unit_of(guard.products.front());
       visit_form(guard.positive, of, visit);

@@ -9,11 +9,11 @@
 namespace signorini {
 
 /// Message about the first error in the data of a law; empty: the data are valid.
-[[nodiscard]] std::string refusal_of(const UserContactLaw& law);
+[[nodiscard]] std::string validation_error(const UserContactLaw& law);
 /// True if the law acts along the tangent; otherwise its tangent rows are T = 0 and nothing depends on ut.
 [[nodiscard]] bool acts_along_tangent(const UserContactLaw& law);
 /// Law whose constants were visited with their units; the argument may be shared with other scenes.
-[[nodiscard]] std::shared_ptr<const UserContactLaw> visited(UserContactLaw law,
-                                                            const ContactLaw::VisitConstant& visit);
+[[nodiscard]] std::shared_ptr<const UserContactLaw> visit_law_constants(
+    UserContactLaw law, const ContactLaw::VisitConstant& visit);
 
 }  // namespace signorini

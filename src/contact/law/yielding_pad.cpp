@@ -11,9 +11,9 @@ namespace signorini {
 UserContactLaw yielding_pad(double normal_stiffness, double yield_force) {
   constexpr std::size_t off = 0, elastic = 1, crushed = 2;
   const double kn = normal_stiffness, Y = yield_force;
-  const OwnForm no_friction{{.T = 1.0}}, spring{{.N = 1.0, .gap = -kn}, kn},
+  const UserLawForm no_friction{{.T = 1.0}}, spring{{.N = 1.0, .gap = -kn}, kn},
       yields{{.N = 1.0, .constant = Y}};
-  const OwnForm above_dent{{.gap = 1.0}, -1.0}, presses{{.N = -1.0}}, sinks{{.vn = -1.0}};
+  const UserLawForm above_dent{{.gap = 1.0}, -1.0}, presses{{.N = -1.0}}, sinks{{.vn = -1.0}};
   const Form dent{.gap = 1.0, .constant = Y / kn};
   UserContactLaw law{"yielding", {}};
   law.states = {{"off", State::open, {{.N = 1.0}}, no_friction, {{above_dent, elastic}}},
@@ -38,7 +38,7 @@ const DataLaw& yielding_law() {
             std::string_view("yield_force"),
             fmt::format("found {}, with normal_stiffness a deflection of {} at yield, expected a "
                         "number > 0",
-                        base::shortest(constants[0]), base::shortest(deflection))};
+                        base::format_number(constants[0]), base::format_number(deflection))};
       }};
   return law;
 }

@@ -12,14 +12,14 @@ void ActiveGuards::start(const std::vector<decide::GuardStart>& guards) {
     if (guard.kind == Guard::none)
       guards_[slot] = {Status::idle, 0};
     else if (guard.at_zero)
-      guards_[slot] = {Status::waiting, static_cast<std::size_t>(std::max(guard.leading, 0))};
+      guards_[slot] = {Status::waiting, static_cast<std::size_t>(std::max(guard.leading_order, 0))};
     else
       guards_[slot] = {Status::armed, 0};
   }
 }
 
-void ActiveGuards::see(std::size_t slot, double value, double level) {
-  if (guards_[slot].standing != Status::waiting) return;
+void ActiveGuards::update(std::size_t slot, double value, double level) {
+  if (guards_[slot].status != Status::waiting) return;
   guards_[slot] = {value > level ? Status::armed : Status::waiting, 0};
 }
 
@@ -27,19 +27,19 @@ namespace {
 constexpr double relative_resolution = 1e-12;  // relative to a step; the engine refines on its dense output
 }
 
-void Watch::start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
-                  std::vector<double> levels) {
+void GuardMonitor::start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
+                         std::vector<double> levels) {
   active_guards_.start(guards);
   forms_ = std::move(forms);
   levels_ = std::move(levels);
 }
 
-void Watch::wait(std::size_t slot, double level) {
-  active_guards_.wait(slot);
+void GuardMonitor::set_waiting(std::size_t slot, double level) {
+  active_guards_.set_waiting(slot);
   levels_[slot] = std::max(levels_[slot], level);
 }
 
-double Watch::leeway(std::size_t contact, const GuardForm& guard) const {
+double GuardMonitor::allowed_depth(std::size_t contact, const GuardForm& guard) const {
   const std::size_t end = std::min(contact::guard_slot(contact + 1, 0), active_guards_.size());
   for (std::size_t slot = contact::guard_slot(contact, 0); slot < end; ++slot)
     if (!active_guards_.idle(slot) && forms_[contact][contact::guard_within(slot)] == guard)
@@ -47,7 +47,7 @@ double Watch::leeway(std::size_t contact, const GuardForm& guard) const {
   return 0.0;
 }
 
-std::vector<ZeroCrossing> Watch::check(const StepHistory& history, double limit) {
+std::vector<ZeroCrossing> GuardMonitor::check(const StepHistory& history, double limit) {
   std::vector<ZeroCrossing> falls;
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot) || (active_guards_.armed(slot) && history.clearly_positive(slot))) continue;
@@ -56,16 +56,16 @@ std::vector<ZeroCrossing> Watch::check(const StepHistory& history, double limit)
     double from = 0.0;
     if (!active_guards_.armed(slot)) {
       const double level = levels_[slot];
-      const auto rise = first_reach(p, level, relative_resolution);
+      const auto rise = first_upcrossing(p, level, relative_resolution);
       Bernstein negative = p;
       for (double& b : negative.b) b = -b;
-      const auto sink = first_reach(negative, level, relative_resolution);
+      const auto sink = first_upcrossing(negative, level, relative_resolution);
       if (sink && (!rise || *sink < *rise)) {
         if (*sink <= limit) falls.push_back({slot, *sink});
         continue;
       }
       if (!rise) continue;
-      active_guards_.arm(slot);
+      active_guards_.set_armed(slot);
       from = *rise;
       Bernstein before, after;
       p.split(from, before, after);

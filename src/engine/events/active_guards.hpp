@@ -20,28 +20,28 @@ class ActiveGuards {
   void start(const std::vector<decide::GuardStart>& guards);
 
   [[nodiscard]] std::size_t size() const { return guards_.size(); }
-  [[nodiscard]] bool idle(std::size_t slot) const { return guards_[slot].standing == Status::idle; }
-  [[nodiscard]] bool armed(std::size_t slot) const { return guards_[slot].standing == Status::armed; }
+  [[nodiscard]] bool idle(std::size_t slot) const { return guards_[slot].status == Status::idle; }
+  [[nodiscard]] bool armed(std::size_t slot) const { return guards_[slot].status == Status::armed; }
   /// The guard is x^leading times a polynomial that is positive at 0; 0: the guard is armed, or its derivatives are
   /// unknown.
   [[nodiscard]] std::size_t leading(std::size_t slot) const { return guards_[slot].leading; }
 
   /// The prediction by the guard's derivatives at the start has been refuted.
-  void doubt(std::size_t slot) { guards_[slot].leading = 0; }
+  void discard_leading(std::size_t slot) { guards_[slot].leading = 0; }
   /// The guard is zero again, and its derivatives are unknown.
-  void wait(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
-  void arm(std::size_t slot) { guards_[slot] = {Status::armed, 0}; }
+  void set_waiting(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
+  void set_armed(std::size_t slot) { guards_[slot] = {Status::armed, 0}; }
   /// Takes the guard's value at the end of a step without an event: a guard that started at zero is armed above the
   /// level, and its derivatives at the start are no longer used.
-  void see(std::size_t slot, double value, double level);
+  void update(std::size_t slot, double value, double level);
 
  private:
   enum class Status : unsigned char { idle, armed, waiting };
-  struct Guarded {
-    Status standing = Status::idle;
+  struct GuardEntry {
+    Status status = Status::idle;
     std::size_t leading = 0;
   };
-  std::vector<Guarded> guards_;
+  std::vector<GuardEntry> guards_;
 };
 
 // Guards between restarts: the armed guards, and the one that reaches zero first.
@@ -64,16 +64,16 @@ struct ZeroCrossing {
   double x = 0.0;        ///< 0..1 on the step
 };
 
-class Watch {
+class GuardMonitor {
  public:
   /// levels: re-arming levels, one for each slot.
   void start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
              std::vector<double> levels);
   [[nodiscard]] bool armed(std::size_t slot) const { return active_guards_.armed(slot); }
   /// The guard reached zero without an event: it waits again, and is an event only once it is below -`level`.
-  void wait(std::size_t slot, double level);
+  void set_waiting(std::size_t slot, double level);
   /// Depth below zero that this guard of the contact may reach before it is an event: 0 once it is armed.
-  [[nodiscard]] double leeway(std::size_t contact, const GuardForm& guard) const;
+  [[nodiscard]] double allowed_depth(std::size_t contact, const GuardForm& guard) const;
   /// All downward zero crossings in the part [0, limit] of the last step; scalars 0.. of the history are the guards.
   /// Arms guards that have risen enough.
   [[nodiscard]] std::vector<ZeroCrossing> check(const StepHistory& history, double limit);

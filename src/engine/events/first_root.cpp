@@ -106,7 +106,7 @@ void Bernstein::split(double x, Bernstein& left, Bernstein& right) const {
   }
 }
 
-std::optional<double> first_reach(const Bernstein& p, double level, double resolution) {
+std::optional<double> first_upcrossing(const Bernstein& p, double level, double resolution) {
   return first_nonpositive(shifted(p, -1.0, level), 0.0, 1.0, resolution);
 }
 
@@ -116,9 +116,9 @@ std::optional<double> first_root(const Bernstein& p, double resolution) {
 
 namespace {
 
-constexpr std::size_t size = most_fall_degree + 1;
-constexpr double near_root = 1e-6;            // relative: this close, Newton's next step has all digits
-constexpr double finest = rounding::of_many;  // width, relative to the whole step
+constexpr std::size_t size = max_root_degree + 1;
+constexpr double near_root = 1e-6;  // relative: this close, Newton's next step has all digits
+constexpr double finest = rounding::many_operations;  // width, relative to the whole step
 using Coefficients = std::array<double, size>;
 
 /// Factor of a_k in b_i for degree n: C(i,k)/C(n,k), row by row for k = 0 .. n, where i = k .. n.
@@ -205,7 +205,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
   double rest = 0.0;
   for (std::size_t k = 1; k <= degree; ++k) rest += std::abs(a[k]);
   if (!std::isfinite(a[0]) || !std::isfinite(rest) || !std::isfinite(slack))
-    return {FirstRoot::Kind::lost};  // a NaN would be halved endlessly
+    return {FirstRoot::Kind::not_finite};  // a NaN would be halved endlessly
   if (a[0] - rest > slack) return {};
 
   // Intervals not yet settled, the leftmost on top; each halving leaves one behind.

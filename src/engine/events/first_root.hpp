@@ -47,22 +47,22 @@ struct Bernstein {
 /// The smallest x in [0, 1] with p(x) <= 0 to within `resolution`, if any; p is positive before it.
 [[nodiscard]] std::optional<double> first_root(const Bernstein& p, double resolution);
 /// The smallest x in [0, 1] with p(x) >= level to within `resolution`, if any.
-[[nodiscard]] std::optional<double> first_reach(const Bernstein& p, double level, double resolution);
+[[nodiscard]] std::optional<double> first_upcrossing(const Bernstein& p, double level, double resolution);
 
 struct FirstRoot {
   enum class Kind {
-    none,      ///< p > 0 on [0, 1], up to slack
-    crossing,  ///< p > 0 before x, p < 0 after it
-    touch,     ///< like none, but |p| <= slack around x: a crossing there cannot be decided
-    lost,      ///< coefficients or slack are not finite: no statement is possible
+    none,        ///< p > 0 on [0, 1], up to slack
+    crossing,    ///< p > 0 before x, p < 0 after it
+    touch,       ///< like none, but |p| <= slack around x: a crossing there cannot be decided
+    not_finite,  ///< coefficients or slack are not finite: no statement is possible
   } kind = Kind::none;
   double x = 0.0;
   std::size_t intervals = 0;  ///< number of intervals examined: the cost
 };
 
-inline constexpr std::size_t most_fall_degree = 32;
+inline constexpr std::size_t max_root_degree = 32;
 
-/// a: degree + 1 coefficients, degree <= most_fall_degree; p(0) is positive up to slack.
+/// a: degree + 1 coefficients, degree <= max_root_degree; p(0) is positive up to slack.
 [[nodiscard]] FirstRoot first_root(const double* a, std::size_t degree, double slack);
 
 // Downward zero crossing of a function, bracketed (GSL, Brent's method).

@@ -17,7 +17,7 @@ struct NearHit {
   double t = 0.0;
   int contact = -1;
   double gap = 0.0;  ///< >= 0
-  double bend = 0.0;
+  double half_curvature = 0.0;
 };
 
 }  // namespace signorini::events

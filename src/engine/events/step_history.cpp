@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::events {
 namespace {
@@ -28,7 +28,7 @@ template <class T>
 SIGNORINI_WIDE_LANES void look_at_all(const Kept& rows, int order, double twice_bend, int degree,
                                       const double* weights, std::size_t n, double* bent, double* mean) {
   std::size_t s = 0;
-  for (; s + 3 < n; s += 4) look_at<base::Four>(rows, order, twice_bend, degree, weights, s, bent, mean);
+  for (; s + 3 < n; s += 4) look_at<base::Double4>(rows, order, twice_bend, degree, weights, s, bent, mean);
   for (; s < n; ++s) look_at<double>(rows, order, twice_bend, degree, weights, s, bent, mean);
 }
 
@@ -52,13 +52,13 @@ double* StepHistory::push(double t, double length) {
 }
 
 void StepHistory::prepare(int order) {
-  prepare(of_powers_, filled_ - 1);
-  same_ = order >= of_powers_.degree;
-  if (!same_) prepare(of_order_, order);
+  prepare(powers_basis_, filled_ - 1);
+  one_basis_ = order >= powers_basis_.degree;
+  if (!one_basis_) prepare(order_basis_, order);
   Kept rows{};
   for (int b = 0; b < filled_; ++b) rows[z(b)] = values_.data() + z(slot_[z(b)]) * scalars_;
-  look_at_all(rows, of_order().degree, 2.0 * of_order().bend, of_powers_.degree, of_powers_.integral.data(),
-              scalars_, bent_.data(), mean_.data());
+  look_at_all(rows, order_basis().degree, 2.0 * order_basis().variation_factor, powers_basis_.degree,
+              powers_basis_.integral.data(), scalars_, variation_bounds_.data(), mean_.data());
 }
 
 void StepHistory::prepare(Basis& basis, int degree) const {
@@ -86,31 +86,31 @@ void StepHistory::prepare(Basis& basis, int degree) const {
       basis.integral[z(b)] += lagrange.b[z(i)] / (degree + 1);
     }
   }
-  basis.bend = 0.0;
+  basis.variation_factor = 0.0;
   for (int i = 0; i <= degree; ++i) {
     double sum = 0.0;
     for (int b = 1; b <= degree; ++b) sum += std::abs(basis.to_bernstein[z(i)][z(b)]);
-    basis.bend = std::max(basis.bend, sum);
+    basis.variation_factor = std::max(basis.variation_factor, sum);
   }
-  basis.turn = 0.0;
+  basis.monotone_factor = 0.0;
   for (int i = 0; i < degree; ++i) {
     double sum = 0.0;
     for (int b = 2; b <= degree; ++b)
       sum += std::abs(basis.to_bernstein[z(i + 1)][z(b)] - basis.to_bernstein[z(i)][z(b)]);
-    basis.turn = std::max(basis.turn, 2.0 * degree * sum);
+    basis.monotone_factor = std::max(basis.monotone_factor, 2.0 * degree * sum);
   }
 }
 
-bool StepHistory::clearly_goes_one_way(std::size_t i) const {
-  const Basis& basis = of_order();
+bool StepHistory::clearly_monotone(std::size_t i) const {
+  const Basis& basis = order_basis();
   const double last = value(0, i), rise = last - value(1, i);
   double off = 0.0;
   for (int b = 2; b <= basis.degree; ++b)
     off = std::max(off, std::abs(value(b, i) - last - rise * (basis.nodes[z(b)] - 1.0)));
-  return basis.turn * off <= std::abs(rise);
+  return basis.monotone_factor * off <= std::abs(rise);
 }
 
-Bernstein StepHistory::through(const Basis& basis, std::size_t s) const {
+Bernstein StepHistory::interpolant(const Basis& basis, std::size_t s) const {
   Bernstein p;
   p.degree = basis.degree;
   for (int i = 0; i <= basis.degree; ++i)
@@ -118,9 +118,9 @@ Bernstein StepHistory::through(const Basis& basis, std::size_t s) const {
   return p;
 }
 
-std::optional<GuardPath::ZeroCrossing> GuardPath::crossing() const {
+std::optional<GuardCubic::ZeroCrossing> GuardCubic::cubic_root() const {
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
-  double lo = 0.0, hi = 1.0, x = linear(), slope = 0.0;
+  double lo = 0.0, hi = 1.0, x = linear_root(), slope = 0.0;
   constexpr int most_steps = 8;  // limit of Newton steps, within the bracket: the first guess needs no more
   for (int i = 0; i < most_steps; ++i) {
     const double value = g0 + x * (r0 + x * (b + x * c));
@@ -133,7 +133,7 @@ std::optional<GuardPath::ZeroCrossing> GuardPath::crossing() const {
   return ZeroCrossing{x, slope};
 }
 
-std::optional<double> GuardPath::dip() const {
+std::optional<double> GuardCubic::interior_minimum() const {
   // Bernstein coefficients bound the cubic from below.
   if (g0 + r0 / 3.0 > 0.0 && g1 - r1 / 3.0 > 0.0) return std::nullopt;
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
@@ -146,7 +146,7 @@ std::optional<double> GuardPath::dip() const {
   return x;
 }
 
-void rates_from_values(GuardPath& path, double h, double before, double h_before) {
+void rates_from_values(GuardCubic& path, double h, double before, double h_before) {
   const double slope = path.g1 - path.g0;
   path.r0 = path.r1 = slope;
   if (!(h_before > 0.0)) return;

@@ -19,7 +19,7 @@ namespace signorini::events {
 class StepHistory {
  public:
   explicit StepHistory(std::size_t scalars)
-      : scalars_(scalars), values_((max_degree + 1) * scalars), bent_(scalars), mean_(scalars) {}
+      : scalars_(scalars), values_((max_degree + 1) * scalars), variation_bounds_(scalars), mean_(scalars) {}
 
   /// Forgets everything and starts at t; returns the place for the scalars' values.
   double* restart(double t);
@@ -31,27 +31,27 @@ class StepHistory {
   void prepare(int order);
   /// True: the polynomial of scalar i is positive, since its last value exceeds the bend that the older values can
   /// cause. False: undecided.
-  [[nodiscard]] bool clearly_positive(std::size_t i) const { return value(0, i) > bent_[i]; }
+  [[nodiscard]] bool clearly_positive(std::size_t i) const { return value(0, i) > variation_bounds_[i]; }
   /// Bound on the difference between scalar i on the last step and its last value.
-  [[nodiscard]] double bend(std::size_t i) const { return bent_[i]; }
+  [[nodiscard]] double variation_bound(std::size_t i) const { return variation_bounds_[i]; }
   /// True: the polynomial of scalar i is monotone on the last step, since its values are too close to a straight line
   /// for a turning point: with e_b their distances from the line through the last two, and w_ib the weights of
   /// Bernstein coefficients,
   ///   b_i+1 - b_i = (f_0 - f_1) / q + sum_b (w_i+1,b - w_ib) e_b
   /// False: undecided.
-  [[nodiscard]] bool clearly_goes_one_way(std::size_t i) const;
+  [[nodiscard]] bool clearly_monotone(std::size_t i) const;
   /// Integral of power i over the whole last step.
   [[nodiscard]] double integral(std::size_t i) const { return (times_[0] - times_[1]) * mean_[i]; }
   /// The polynomial of scalar i on the last step.
-  [[nodiscard]] Bernstein polynomial(std::size_t i) const { return through(of_order(), i); }
+  [[nodiscard]] Bernstein polynomial(std::size_t i) const { return interpolant(order_basis(), i); }
   /// Polynomial of power i on the last step.
-  [[nodiscard]] Bernstein power(std::size_t i) const { return through(of_powers_, i); }
+  [[nodiscard]] Bernstein power(std::size_t i) const { return interpolant(powers_basis_, i); }
   [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
   /// Last values of all scalars; bends(): their bend().
-  [[nodiscard]] const double* lasts() const {
+  [[nodiscard]] const double* last_values() const {
     return values_.data() + static_cast<std::size_t>(slot_[0]) * scalars_;
   }
-  [[nodiscard]] const double* bends() const { return bent_.data(); }
+  [[nodiscard]] const double* variation_bounds() const { return variation_bounds_.data(); }
   [[nodiscard]] double begin() const { return times_[1]; }
   [[nodiscard]] double end() const { return times_[0]; }
 
@@ -67,24 +67,24 @@ class StepHistory {
     // to_bernstein[i][b]: weight of the value b steps back in Bernstein coefficient i
     std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein{};
     std::array<double, max_degree + 1> integral{};  // weight of the value b steps back in the mean
-    double bend = 0.0;  // greatest sum of |weights| of older values in a Bernstein coefficient
-    double turn = 0.0;  // 2 q max_i sum_b |w_i+1,b - w_ib|: the factor 2 covers rounding
+    double variation_factor = 0.0;  // greatest sum of |weights| of older values in a Bernstein coefficient
+    double monotone_factor = 0.0;   // 2 q max_i sum_b |w_i+1,b - w_ib|: the factor 2 covers rounding
   };
   void prepare(Basis& basis, int degree) const;
-  [[nodiscard]] const Basis& of_order() const { return same_ ? of_powers_ : of_order_; }
-  [[nodiscard]] Bernstein through(const Basis& basis, std::size_t i) const;
+  [[nodiscard]] const Basis& order_basis() const { return one_basis_ ? powers_basis_ : order_basis_; }
+  [[nodiscard]] Bernstein interpolant(const Basis& basis, std::size_t i) const;
 
   std::size_t scalars_;
   std::vector<double> values_;
   // For all scalars on the last step: twice the bend that older values can cause (the factor 2 covers the rounding of
   // the sums), and the mean of each power.
-  std::vector<double> bent_, mean_;
+  std::vector<double> variation_bounds_, mean_;
   std::array<int, max_degree + 1> slot_{};        // slot_[b]: storage index of the values b steps back
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
   std::array<double, max_degree + 1> lengths_{};  // length of the step that ended at times_[b]
   int filled_ = 0;
-  bool same_ = true;  // one basis serves scalars and powers
-  Basis of_order_, of_powers_;
+  bool one_basis_ = true;  // one basis serves scalars and powers
+  Basis order_basis_, powers_basis_;
 };
 
 // A guard along one step, from its values and rates at both ends.
@@ -96,22 +96,22 @@ class StepHistory {
 // the equations yield no rate, the rate of the parabola through the last three values is used.
 
 /// A guard at the ends of a step of length h.
-struct GuardPath {
+struct GuardCubic {
   double g0 = 0.0, g1 = 0.0;  ///< values
   double r0 = 0.0, r1 = 0.0;  ///< rates times h
 
   /// Place where the straight line between the ends reaches zero; g0 > 0 >= g1.
-  [[nodiscard]] double linear() const { return g0 / (g0 - g1); }
+  [[nodiscard]] double linear_root() const { return g0 / (g0 - g1); }
   struct ZeroCrossing {
     double x = 0.0, slope = 0.0;  ///< slope: derivative by x
   };
   /// Place where the cubic reaches zero, g0 > 0 >= g1. nullopt: the cubic rises there, or is not a number.
-  [[nodiscard]] std::optional<ZeroCrossing> crossing() const;
+  [[nodiscard]] std::optional<ZeroCrossing> cubic_root() const;
   /// For a path that is positive at both ends: the place of its least value inside, if that value is not positive.
-  [[nodiscard]] std::optional<double> dip() const;
+  [[nodiscard]] std::optional<double> interior_minimum() const;
 };
 
 /// Sets the rates from the value `before` at a distance h_before ahead of the step (0: a straight line).
-void rates_from_values(GuardPath& path, double h, double before, double h_before);
+void rates_from_values(GuardCubic& path, double h, double before, double h_before);
 
 }  // namespace signorini::events

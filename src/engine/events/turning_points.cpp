@@ -35,7 +35,7 @@ class Slope {
 
  private:
   std::size_t degree_;
-  std::array<double, most_fall_degree + 1> b_;  // 1 .. degree
+  std::array<double, max_root_degree + 1> b_;  // 1 .. degree
 };
 
 /// Approximate place, by bisection, at which a polynomial that is monotone from `end` turns before `next`. Newton steps
@@ -54,16 +54,17 @@ double turned_beside(const double* a, std::size_t degree, double end, double nex
 
 }  // namespace
 
-void TurningPoints::start(const decide::Decision& decision) {
+void TurningPointDetector::start(const decide::Decision& decision) {
   values_.resize(ranges_.size());
   for (std::size_t c = 0; c < decision.after.size(); ++c) {
     const ContactMotion& m = decision.after[c];
     const std::array<double, 4> now{m.N, m.T, m.gap, decision.slides_after[c].ut};
     for (std::size_t i = 0; i < now.size(); ++i) {
-      Range& range = ranges_[watched.size() * c + i];
-      values_[watched.size() * c + i] = now[i];
+      Range& range = ranges_[watched_fields.size() * c + i];
+      values_[watched_fields.size() * c + i] = now[i];
       // Each landing has a separate peak.
-      const bool lands = watched[i] == motion::ContactSeries::N && began_ && decision.before[c].N == 0.0;
+      const bool lands =
+          watched_fields[i] == motion::ContactSeries::N && began_ && decision.before[c].N == 0.0;
       if (lands) range = {now[i], now[i]};
       range.least = began_ ? std::min(range.least, now[i]) : now[i];
       range.greatest = began_ ? std::max(range.greatest, now[i]) : now[i];
@@ -72,31 +73,32 @@ void TurningPoints::start(const decide::Decision& decision) {
   began_ = true;
 }
 
-void TurningPoints::Range::see(double value) {
+void TurningPointDetector::Range::extend(double value) {
   least = std::min(least, value);
   greatest = std::max(greatest, value);
 }
 
-void TurningPoints::open() {
-  turns_.clear();
+void TurningPointDetector::open() {
+  turning_points_.clear();
   times_.clear();
 }
 
-void TurningPoints::close() {
-  if (turns_.empty()) return;
-  for (const Turn& turn : turns_) times_.push_back(turn.time);
+void TurningPointDetector::close() {
+  if (turning_points_.empty()) return;
+  for (const TurningPoint& turn : turning_points_) times_.push_back(turn.time);
   std::sort(times_.begin(), times_.end());
 }
 
-void TurningPoints::find(const std::vector<motion::ContactSeries>& contacts, const motion::Series& series,
-                         double x_begin, double x_end, Ends ends) {
+void TurningPointDetector::find(const std::vector<motion::ContactSeries>& contacts,
+                                const motion::Series& series, double x_begin, double x_end, Ends ends) {
   open();
   double origin = 0.0;
   Samples x = samples_of(x_begin, x_end);
   const auto stays_by_rate = [&](std::size_t place, double rate) {
     if (values_.empty()) return false;
-    const double value = values_[place], change = (1.0 + rounding::of_many) * rate * (x_end - x_begin);
-    return ranges_[place].holds(value, change, rounding::of_many * (std::abs(value) + change));
+    const double value = values_[place],
+                 change = (1.0 + rounding::many_operations) * rate * (x_end - x_begin);
+    return ranges_[place].contains(value, change, rounding::many_operations * (std::abs(value) + change));
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts[c].origin() != origin) {
@@ -104,54 +106,55 @@ void TurningPoints::find(const std::vector<motion::ContactSeries>& contacts, con
       x = samples_of(x_begin - origin, x_end - origin);
     }
     const double begin = series.t + origin * series.scale;
-    for (std::size_t f = 0; f < watched.size(); ++f) {
-      const std::size_t place = watched.size() * c + f;
-      if (stays_by_rate(place, contacts[c].rate(watched[f]))) continue;
-      find_of({contacts[c].of(watched[f]), contacts[c].degree(), begin, series.scale}, place, x, ends);
+    for (std::size_t f = 0; f < watched_fields.size(); ++f) {
+      const std::size_t place = watched_fields.size() * c + f;
+      if (stays_by_rate(place, contacts[c].rate(watched_fields[f]))) continue;
+      find_on_path({contacts[c].coefficients(watched_fields[f]), contacts[c].degree(), begin, series.scale},
+                   place, x, ends);
     }
   }
   values_.clear();
   close();
 }
 
-void TurningPoints::find(std::size_t contact, motion::ContactSeries::Field field, const double* a,
-                         std::size_t degree, double x_end, double begin, double scale) {
-  find_of({a, degree, begin, scale}, place_of(contact, field), samples_of(0.0, x_end), Ends::observed);
+void TurningPointDetector::find(std::size_t contact, motion::ContactSeries::Field field, const double* a,
+                                std::size_t degree, double x_end, double begin, double scale) {
+  find_on_path({a, degree, begin, scale}, range_index(contact, field), samples_of(0.0, x_end),
+               Ends::observed);
 }
 
-std::optional<TurningPoints::Turn> TurningPoints::begins(std::size_t contact,
-                                                         motion::ContactSeries::Field field, double value,
-                                                         double rate, double time) {
-  const std::size_t place = place_of(contact, field);
+std::optional<TurningPointDetector::TurningPoint> TurningPointDetector::find_at_start(
+    std::size_t contact, motion::ContactSeries::Field field, double value, double rate, double time) {
+  const std::size_t place = range_index(contact, field);
   Range& range = ranges_[place];
   const bool above = value > range.greatest, below = value < range.least;
   if (!(above && rate <= 0.0) && !(below && rate >= 0.0)) return std::nullopt;
-  range.see(value);
-  return Turn{2 * place + (above ? 1 : 0), time};
+  range.extend(value);
+  return TurningPoint{2 * place + (above ? 1 : 0), time};
 }
 
-TurningPoints::Samples TurningPoints::samples_of(double x_begin, double x_end) {
+TurningPointDetector::Samples TurningPointDetector::samples_of(double x_begin, double x_end) {
   Samples x{};
-  for (std::size_t i = 0; i <= turn_samples; ++i)
-    x[i] = x_begin + (x_end - x_begin) * static_cast<double>(i) / static_cast<double>(turn_samples);
+  for (std::size_t i = 0; i <= sample_intervals; ++i)
+    x[i] = x_begin + (x_end - x_begin) * static_cast<double>(i) / static_cast<double>(sample_intervals);
   return x;
 }
 
-void TurningPoints::record(const Path& path, std::size_t place, double at) {
+void TurningPointDetector::record(const Path& path, std::size_t place, double at) {
   Range& range = ranges_[place];
   const double turn = motion::value_at(path.a, path.degree, at);
   if (turn >= range.least && turn <= range.greatest) return;
-  turns_.push_back({2 * place + (turn > range.greatest ? 1 : 0), path.begin + at * path.scale});
-  range.see(turn);
+  turning_points_.push_back({2 * place + (turn > range.greatest ? 1 : 0), path.begin + at * path.scale});
+  range.extend(turn);
 }
 
 /// Turning point between an end and the adjacent sample, if the samples are monotone: at a peak the slope at the end
 /// has the opposite sign, or is zero. One-sided differences give the slope to 0.04 of an amplitude whose samples, 0.5
 /// rad apart, differ by 0.12 there: half of that difference excludes a peak.
-void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t place, const Samples& x,
-                                const Samples& value, Ends ends) {
+void TurningPointDetector::find_near_end(std::size_t end, const Path& path, std::size_t place,
+                                         const Samples& x, const Samples& value, Ends ends) {
   const bool first = end == 0;
-  const std::size_t next = first ? 1 : turn_samples - 1, third = first ? 2 : turn_samples - 2;
+  const std::size_t next = first ? 1 : sample_intervals - 1, third = first ? 2 : sample_intervals - 2;
   const Range& range = ranges_[place];
   const double inward = value[next] - value[end], slope = 2.0 * inward - 0.5 * (value[third] - value[end]);
   if (inward == 0.0 && slope == 0.0) return;
@@ -171,15 +174,15 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
 
 /// True if the sums of the magnitudes of the terms prove that f stays within its earlier range: terms of f from the
 /// origin, terms of its slope from the middle.
-bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x) {
-  const double x_end = x[turn_samples];
+bool TurningPointDetector::stays_in_range(const Path& path, const Range& range, const Samples& x) {
+  const double x_end = x[sample_intervals];
   double reach = 0.0, power = 1.0;
   for (std::size_t k = 1; k <= path.degree; ++k) {
     power *= x_end;
     reach += std::abs(path.a[k]) * power;
   }
-  const double a = path.a[0], rounding = rounding::of_many * (std::abs(a) + reach);
-  if (range.holds(a, reach, rounding)) return true;
+  const double a = path.a[0], rounding = rounding::many_operations * (std::abs(a) + reach);
+  if (range.contains(a, reach, rounding)) return true;
   if (x[0] == 0.0) return false;
   double slope = 0.0;
   power = 1.0;
@@ -188,20 +191,20 @@ bool TurningPoints::stays(const Path& path, const Range& range, const Samples& x
     power *= x_end;
   }
   const double middle = motion::value_at(path.a, path.degree, 0.5 * (x[0] + x_end));
-  return range.holds(middle, 0.5 * (x_end - x[0]) * slope, rounding);
+  return range.contains(middle, 0.5 * (x_end - x[0]) * slope, rounding);
 }
 
-void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& x, Ends ends) {
+void TurningPointDetector::find_on_path(const Path& path, std::size_t place, const Samples& x, Ends ends) {
   Range& range = ranges_[place];
-  if (stays(path, range, x)) return;
+  if (stays_in_range(path, range, x)) return;
   Samples value{};
   value.fill(path.a[path.degree]);
   for (std::size_t k = path.degree; k-- > 0;)
-    for (std::size_t i = 0; i <= turn_samples; ++i) value[i] = value[i] * x[i] + path.a[k];
-  if (ends != Ends::part) range.see(value.front());
-  if (ends == Ends::observed) range.see(value.back());
-  find_beside(0, path, place, x, value, ends);
-  for (std::size_t i = 1; i < turn_samples; ++i) {
+    for (std::size_t i = 0; i <= sample_intervals; ++i) value[i] = value[i] * x[i] + path.a[k];
+  if (ends != Ends::part) range.extend(value.front());
+  if (ends == Ends::observed) range.extend(value.back());
+  find_near_end(0, path, place, x, value, ends);
+  for (std::size_t i = 1; i < sample_intervals; ++i) {
     const double left = value[i] - value[i - 1], right = value[i + 1] - value[i];
     if (left * right > 0.0 || left == right) continue;
     // The parabola through three values turns here; a tenth more for its error.
@@ -214,7 +217,7 @@ void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& 
     // The Newton steps may have led away from the turning point.
     record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
   }
-  find_beside(turn_samples, path, place, x, value, ends);
+  find_near_end(sample_intervals, path, place, x, value, ends);
 }
 
 }  // namespace signorini::events

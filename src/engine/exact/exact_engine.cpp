@@ -9,14 +9,14 @@
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "motion/point.hpp"
 #include "motion/state_systems.hpp"
 
 namespace signorini::exact {
 namespace {
 
-constexpr int fewest_levels = 12, more_levels = 3;
+constexpr int min_levels = 12, more_levels = 3;
 constexpr double least_share = 1e-6;    // of the greatest motion; above it each one keeps its digits
 constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a growing load
 constexpr double flights_a_step = 3.0;
@@ -28,17 +28,17 @@ constexpr double least_step = 1.0 / longer;        // lower limit of a random sh
 constexpr double times_pace = 2.0, shortest_turn = 0.3;
 // A series that outlives its events contains some of them, limited to an angle at which its levels still save time.
 constexpr double events_a_series = 12.0, longest_turn = 2.0;
-constexpr double least_left = 0.5;      // part of the remaining series, from which on a local update is made
-constexpr double fresh = 0.25;          // weight of the last time between events among those before; chosen
-constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
+constexpr double least_left = 0.5;     // part of the remaining series, from which on a local update is made
+constexpr double fresh = 0.25;         // weight of the last time between events among those before; chosen
+constexpr double max_cancelled = 0.9;  // greatest later term over the greatest first one
 constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
-constexpr int most_touches = 5;                   // warnings of the same kind
+constexpr int max_touches = 5;                    // warnings of the same kind
 constexpr char overflow[] = "the motion leaves the range of numbers";
 
 }  // namespace
 
 ExactEngine::ExactEngine(const Model& model, const linear::SystemMatrices& structure,
-                         motion::StateSystems& systems, double t_end, const SeriesUse& use)
+                         motion::StateSystems& systems, double t_end, const SeriesOptions& use)
     : model_(model),
       structure_(structure),
       taylor_(systems),
@@ -46,69 +46,69 @@ ExactEngine::ExactEngine(const Model& model, const linear::SystemMatrices& struc
       norm_(model),
       growth_(model, taylor_, norm_, scales_, t_end),
       motion_(model),
-      reached_(model.contacts.size()),
+      local_remainders_(model.contacts.size()),
       crossings_(contact::guard_count(model.contacts.size())),
-      sizes_(most_levels + 3),
-      guard_(std::max<std::size_t>(most_levels, events::most_fall_degree) + 1),
+      sizes_(max_levels + 3),
+      guard_(std::max<std::size_t>(max_levels, events::max_root_degree) + 1),
       works_(model, structure),
       turns_(model.contacts.size()) {
   for (const Dof& dof : model.dofs)
     scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
   weights_ = scales_;
-  if (use.pieces && model.size() >= motion::large_structure && motion::follows_from_motion(model))
-    beside_.emplace(systems);
-  if (use.step_seed != 0) chance_.emplace(use.step_seed);
-  knows_low_flights = true;
+  if (use.local_updates && model.size() >= motion::large_structure && motion::follows_from_motion(model))
+    local_series_.emplace(systems);
+  if (use.step_seed != 0) random_.emplace(use.step_seed);
+  resolves_low_flights = true;
 }
 
 void ExactEngine::start(const engine::Segment& segment) {
   segment_ = segment;
   const decide::Decision& decision = *segment.decision;
-  const bool same_motion = goes_on(decision, segment.same_forcing);
+  const bool same_motion = can_continue_series(decision, segment.same_forcing);
   const contact::ContactStates before =
-      beside_ ? std::exchange(mode_, decision.mode) : contact::ContactStates();
+      local_series_ ? std::exchange(states_, decision.states) : contact::ContactStates();
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ =
-      std::max({growth_.of(decision.system), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
+      std::max({growth_.growth_rate(decision.system), 2.0 * segment.forcing->max_omega(), 1.0 / t_end_});
   choose_first_step();
-  polynomial_ = segment.forcing->greatest_degree();
+  polynomial_ = segment.forcing->max_degree();
   active_guards_.start(decision.guards);
   turns_.start(decision);
-  went_on_ = same_motion && go_on(before);
+  series_continued_ = same_motion && continue_series(before);
   ++counters.restarts;
 }
 
 /// True if the motion begins at the end of the last step, within its series.
-bool ExactEngine::goes_on(const decide::Decision& decision, bool same_forcing) const {
-  return beside_ && beside_->possible() && same_forcing && decision.jet.t == t_ && end_x_ < reach_ &&
-         decision.u == end_.u && decision.v == end_.v;
+bool ExactEngine::can_continue_series(const decide::Decision& decision, bool same_forcing) const {
+  return local_series_ && local_series_->possible() && same_forcing && decision.jet.t == t_ &&
+         end_x_ < reach_ && decision.u == end_.u && decision.v == end_.v;
 }
 
 /// Continues the series of the last step with the changes by the event. False: the series must be made anew.
-bool ExactEngine::go_on(const contact::ContactStates& before) {
+bool ExactEngine::continue_series(const contact::ContactStates& before) {
   std::vector<std::size_t> changed;
-  for (std::size_t c = 0; c < mode_.size(); ++c)
-    if (mode_[c] != before[c]) changed.push_back(c);
+  for (std::size_t c = 0; c < states_.size(); ++c)
+    if (states_[c] != before[c]) changed.push_back(c);
   const double rest = reach_ - end_x_;
-  std::optional<motion::LocalSeries::Made> near;
+  std::optional<motion::LocalSeries::LocalExpansion> near;
   if (!changed.empty()) {
-    near =
-        beside_->expand(changed, segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v,
-                        motion_.whole.levels, motion_.whole.scale, rest, {scales_, least_share * greatest_},
-                        {[&](int dof, double* out) { motion_.displacement(dof, end_x_, out); },
-                         [&](std::size_t slot, double* out) { motion_.force(slot, end_x_, out); }});
+    near = local_series_->expand(changed, segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v,
+                                 motion_.whole.levels, motion_.whole.scale, rest,
+                                 {scales_, least_share * greatest_},
+                                 {[&](int dof, double* out) { motion_.displacement(dof, end_x_, out); },
+                                  [&](std::size_t slot, double* out) { motion_.force(slot, end_x_, out); }});
     if (!near) return false;
-    const double reach = reach_near(*near, rest);
+    const double reach = local_radius(*near, rest);
     if (reach < least_left * rest) return false;
     if (reach < rest) {
       reach_ = end_x_ + reach;
       reach_time_ = motion_.whole.t + motion_.whole.scale * reach_;
     }
-    motion_.take_over(*near, end_x_, reach);
-    const Reached reached{rest_near(*near, reach), reach};
+    motion_.patch(*near, end_x_, reach);
+    const LocalRemainder reached{local_remainder(*near, reach), reach};
     for (const std::size_t c : near->where->contacts) {
-      reached_[c] = reached;
+      local_remainders_[c] = reached;
       for (std::size_t slot = contact::guard_slot(c, 0); slot < contact::guard_slot(c + 1, 0); ++slot)
         crossings_[slot] = {};
     }
@@ -119,18 +119,18 @@ bool ExactEngine::go_on(const contact::ContactStates& before) {
 
 void ExactEngine::choose_first_step() {
   if (counters.restarts > 0)
-    fast_mode_cutoff_ += (fast_mode_cutoff_ > 0.0 ? fresh : 1.0) * (t_ - begun_ - fast_mode_cutoff_);
-  begun_ = t_;
-  const double flights = few_flights();
+    fast_mode_cutoff_ += (fast_mode_cutoff_ > 0.0 ? fresh : 1.0) * (t_ - segment_begin_ - fast_mode_cutoff_);
+  segment_begin_ = t_;
+  const double flights = flights_limit();
   paced_ = !(flights > 0.0) && fast_mode_cutoff_ > 0.0;
-  next_ = flights > 0.0 ? longer * flights
-          : paced_      ? paced_length()
-                        : std::numeric_limits<double>::infinity();
+  max_next_step_ = flights > 0.0 ? longer * flights
+                   : paced_      ? paced_length()
+                                 : std::numeric_limits<double>::infinity();
 }
 
 double ExactEngine::paced_length() const {
   const double shortest = shortest_turn / growth_now_, longest = longest_turn / growth_now_;
-  if (beside_ && beside_->possible() && fast_mode_cutoff_ < longest)
+  if (local_series_ && local_series_->possible() && fast_mode_cutoff_ < longest)
     return std::clamp(events_a_series * fast_mode_cutoff_, shortest, longest);
   return std::max(times_pace * fast_mode_cutoff_, shortest);
 }
@@ -142,22 +142,22 @@ double ExactEngine::paced_length() const {
 /// no step repeats it: if a guard leaves zero below rounding, the event of that step is as uncertain as reported, and
 /// no later one.
 double ExactEngine::share_of_step() {
-  if (!chance_ || t_ == begun_) return 1.0;
-  return std::uniform_real_distribution<double>(least_step, 1.0)(*chance_);
+  if (!random_ || t_ == segment_begin_) return 1.0;
+  return std::uniform_real_distribution<double>(least_step, 1.0)(*random_);
 }
 
 /// A few times the shortest flight ahead; 0: none. The rounding of a gap grows with the motion of the whole step, and
 /// must stay small beside the flight's height.
-double ExactEngine::few_flights() const {
+double ExactEngine::flights_limit() const {
   const decide::Decision& decision = *segment_.decision;
   double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < decision.mode.size(); ++c) {
+  for (std::size_t c = 0; c < decision.states.size(); ++c) {
     const ContactMotion& m = decision.after[c];
-    if (!model_.contacts[c].takes_impulses() || !decision.mode[c].is_open() || !(m.an < 0.0)) continue;
+    if (!model_.contacts[c].takes_impulses() || !decision.states[c].is_open() || !(m.an < 0.0)) continue;
     // A contact that leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight computed
     // from it.
     const decide::GuardStart& closing = decision.guards[contact::guard_slot(c, 0)];
-    if (closing.leading < 0 || closing.leading > 1) continue;
+    if (closing.leading_order < 0 || closing.leading_order > 1) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
   }
@@ -166,7 +166,7 @@ double ExactEngine::few_flights() const {
 }
 
 /// Weights of the degrees of freedom from their own motion, so that each keeps its digits.
-void ExactEngine::weigh() {
+void ExactEngine::set_weights() {
   const std::size_t n = scales_.size();
   double greatest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -182,7 +182,7 @@ void ExactEngine::weigh() {
 }
 
 /// Sizes of the coefficients first .. last, relative to the first ones of their degrees of freedom.
-void ExactEngine::measure(std::size_t first, std::size_t last) {
+void ExactEngine::measure_coefficients(std::size_t first, std::size_t last) {
   for (std::size_t k = first; k <= last; ++k) {
     const double* u = motion_.whole.u.data() + k * weights_.size();
     double size = 0.0;
@@ -193,7 +193,7 @@ void ExactEngine::measure(std::size_t first, std::size_t last) {
 
 /// True if the coefficients 0 .. last form a series that is valid up to x when cut after `degree_`: the remainder is
 /// below rounding, and no term is much greater than the first nonzero ones.
-bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
+bool ExactEngine::converges(const double* a, std::size_t last, double x) const {
   double first = 0.0, power = 1.0;
   std::size_t begin = last + 1;
   for (std::size_t k = 0; k <= last; ++k, power *= x) {
@@ -205,53 +205,54 @@ bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
     if (begin > last && term > 0.0) begin = k;
     if (k < begin + first_terms)
       first = std::max(first, term);
-    else if (term > most_cancelled * first)
+    else if (term > max_cancelled * first)
       return false;
   }
   return true;
 }
 
 /// Checks the series of the motion and of its forcing: in a block that sticks, T follows its load alone.
-bool ExactEngine::stands(const std::vector<double>& sizes, const motion::ForcingSeries& f, double x) const {
-  if (!stands(sizes.data(), degree_ + 2, x)) return false;
+bool ExactEngine::converges(const std::vector<double>& sizes, const motion::ForcingSeries& f,
+                            double x) const {
+  if (!converges(sizes.data(), degree_ + 2, x)) return false;
   for (const std::vector<double>* rows : {&f.loads, &f.applied_normal_force, &f.surface})
     for (std::size_t i = 0; i + f.count <= rows->size(); i += f.count)
-      if (!stands(rows->data() + i, f.count - 1, x)) return false;
+      if (!converges(rows->data() + i, f.count - 1, x)) return false;
   return true;
 }
 
-/// Expands to the number of levels that a step of the given scale needs, limited by most_levels; returns the part of
+/// Expands to the number of levels that a step of the given scale needs, limited by max_levels; returns the part of
 /// the step that the series reaches.
 double ExactEngine::expand(double scale) {
   motion::Series& series = motion_.whole;
   const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
-  taylor_.begin(segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v, most_levels, scale, series);
+  taylor_.begin(segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v, max_levels, scale, series);
   std::size_t measured = 0;
-  for (int level = fewest_levels;; level = std::min(level + more_levels, most_levels)) {
+  for (int level = min_levels;; level = std::min(level + more_levels, max_levels)) {
     taylor_.extend(*segment_.forcing, level, series);
     degree_ = static_cast<std::size_t>(level - late);
-    if (measured == 0) weigh();
-    measure(measured, degree_ + 2);
+    if (measured == 0) set_weights();
+    measure_coefficients(measured, degree_ + 2);
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
     // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
     if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
-        stands(sizes_, series.forcing, 1.0))
+        converges(sizes_, series.forcing, 1.0))
       break;
-    if (level == most_levels) break;
+    if (level == max_levels) break;
   }
   counters.solves += series.levels + 1;
   double x = std::min(1.0, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * scale));
-  while (x > std::numeric_limits<double>::min() && !stands(sizes_, series.forcing, x)) x *= 0.9;
+  while (x > std::numeric_limits<double>::min() && !converges(sizes_, series.forcing, x)) x *= 0.9;
   return x;
 }
 
 /// Bound on the remainder of a form's polynomial on [0, x]; rest: that of the displacements, in norm_.
-double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double rest) const {
+double ExactEngine::remainder_of(const Form& form, std::size_t c, double x, double rest) const {
   const Contact& contact = model_.contacts[c];
   const double rate = static_cast<double>(degree_ + 3) / (motion_.whole.scale * x);
   const double gap = norm_.normal(c) * rest, ut = norm_.tangent(c) * rest;
   double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap, T = 0.0;
-  const State state = segment_.decision->mode[c].state;
+  const State state = segment_.decision->states[c].state;
   if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
     T = contact::slipping_friction(contact, state) * N;
@@ -265,12 +266,13 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
 }
 
 /// |a b - p q| <= |p| db + (|q| + db) da where p, q are the polynomials of a, b
-double ExactEngine::rest_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
-  double sum = rest_of(guard.form, c, x, rest);
+double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
+  double sum = remainder_of(guard.form, c, x, rest);
   const motion::ContactSeries& contact = motion_.contacts()[c];
   for (std::size_t i = 0; !guard.is_linear() && i < guard.products->size(); ++i) {
     const auto& [a, b] = (*guard.products)[i];
-    const double reach = reach_ - contact.origin(), da = rest_of(a, c, x, rest), db = rest_of(b, c, x, rest);
+    const double reach = reach_ - contact.origin(), da = remainder_of(a, c, x, rest),
+                 db = remainder_of(b, c, x, rest);
     sum += contact.magnitude(a, reach) * db + (contact.magnitude(b, reach) + db) * da;
   }
   return sum;
@@ -282,13 +284,13 @@ double ExactEngine::drift_of(const decide::GuardStart& guard, double x) const {
 }
 
 /// First zero crossing on the remaining series; x: 1 at its end.
-events::FirstRoot ExactEngine::fall_of(std::size_t slot) {
+events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   const std::size_t c = contact::contact_of_guard(slot);
   const motion::ContactSeries& contact = motion_.contacts()[c];
   const GuardForm& form = segment_.decision->guard(slot);
   const auto [degree, cut, products] =
-      contact.expand(form, reach_ - contact.origin(), events::most_fall_degree, guard_.data());
+      contact.expand(form, reach_ - contact.origin(), events::max_root_degree, guard_.data());
   const double from = begin_x_ - contact.origin(), x = reach_ - begin_x_;
   double power = 1.0, terms = products;
   if (from > 0.0) {  // terms about the origin bound those about the step's beginning
@@ -303,13 +305,13 @@ events::FirstRoot ExactEngine::fall_of(std::size_t slot) {
       terms += std::abs(guard_[k]);
     }
   }
-  const double rounding = (from > 0.0 ? rounding::of_many : rounding::of_few) * terms;
-  const double slack =
-      rest_of(form, c, reached_[c].x, reached_[c].rest) + cut + rounding + rounding_of_guard * guard.noise;
+  const double rounding = (from > 0.0 ? rounding::many_operations : rounding::few_operations) * terms;
+  const double slack = remainder_of(form, c, local_remainders_[c].x, local_remainders_[c].rest) + cut +
+                       rounding + rounding_of_guard * guard.noise;
   if (active_guards_.armed(slot)) return events::first_root(guard_.data(), degree, slack);
   if (const std::size_t m = active_guards_.leading(slot);
       m > 0)  // the decision found the lower orders to be zero
-    return events::first_root(guard_.data() + m, degree - m, rounding::of_few * std::abs(guard_[m]));
+    return events::first_root(guard_.data() + m, degree - m, rounding::few_operations * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack + drift_of(guard, x);
   return events::first_root(guard_.data(), degree, 0.0);
 }
@@ -323,7 +325,7 @@ engine::Step ExactEngine::failed(std::string reason) {
 }
 
 /// Reason why no step of this length can be made from here; empty: none.
-std::string ExactEngine::hindrance(double scale) const {
+std::string ExactEngine::failure_reason(double scale) const {
   if (growth_now_ * motion::resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
         "the fastest motion, {:.3g} rad per unit of time, is too fast for the resolution of time here",
@@ -335,30 +337,30 @@ std::string ExactEngine::hindrance(double scale) const {
 
 /// Bound on the remainder of all displacements on [0, x], in norm_: from |x_k| on the series is below a geometric one
 /// with ratio 1/2.
-double ExactEngine::rest_of_series(double x) {
+double ExactEngine::series_remainder(double x) {
   double rest = 0.0;
   for (int k = 1; k <= 2; ++k) {
     const auto order = static_cast<Eigen::Index>(degree_) + k;
-    rest =
-        std::max(rest, 2.0 * norm_.of(motion_.whole.u.col(order)) * std::pow(x, static_cast<double>(order)));
+    rest = std::max(rest,
+                    2.0 * norm_.norm(motion_.whole.u.col(order)) * std::pow(x, static_cast<double>(order)));
   }
   return rest;
 }
 
 /// Same for a locally updated part; the rest of the structure is bounded elsewhere.
-double ExactEngine::rest_near(const motion::LocalSeries::Made& near, double x) {
+double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& near, double x) {
   double rest = 0.0;
   near_column_.setZero(model_.size());
   for (int k = 1; k <= 2; ++k) {
     const auto order = static_cast<Eigen::Index>(degree_) + k;
     near_column_(near.where->dofs) = near.series->u.col(order);
-    rest = std::max(rest, 2.0 * norm_.of(near_column_) * std::pow(x, static_cast<double>(order)));
+    rest = std::max(rest, 2.0 * norm_.norm(near_column_) * std::pow(x, static_cast<double>(order)));
   }
   return rest;
 }
 
 /// Validity of a locally updated part, x at most: by the criteria of weigh(), measure() and expand() for the whole.
-double ExactEngine::reach_near(const motion::LocalSeries::Made& near, double x) {
+double ExactEngine::local_radius(const motion::LocalSeries::LocalExpansion& near, double x) {
   const std::vector<int>& dofs = near.where->dofs;
   const Eigen::MatrixXd& u = near.series->u;
   near_sizes_.assign(degree_ + 3, 0.0);
@@ -374,11 +376,11 @@ double ExactEngine::reach_near(const motion::LocalSeries::Made& near, double x) 
       near_sizes_[k] = std::max(near_sizes_[k], weight * std::abs(u(row, static_cast<Eigen::Index>(k))));
   }
   x = std::min(x, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * near.series->scale));
-  while (x > std::numeric_limits<double>::min() && !stands(near_sizes_, near.series->forcing, x)) x *= 0.9;
+  while (x > std::numeric_limits<double>::min() && !converges(near_sizes_, near.series->forcing, x)) x *= 0.9;
   return x;
 }
 
-ExactEngine::Earliest ExactEngine::earliest_fall() {
+ExactEngine::Earliest ExactEngine::earliest_crossing() {
   Earliest first;
   first.at = reach_;
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
@@ -387,9 +389,9 @@ ExactEngine::Earliest ExactEngine::earliest_fall() {
     // A later decision has excluded the crossing found before.
     const bool past = known.kind != events::FirstRoot::Kind::none && known.at <= begin_x_;
     if (!known.stands || !active_guards_.armed(slot) || past) {
-      const events::FirstRoot fall = fall_of(slot);
-      if (fall.kind == events::FirstRoot::Kind::lost) {
-        first.lost = true;
+      const events::FirstRoot fall = first_root_of(slot);
+      if (fall.kind == events::FirstRoot::Kind::not_finite) {
+        first.not_finite = true;
         return first;
       }
       known = {fall.kind, active_guards_.armed(slot), begin_x_ + fall.x * (reach_ - begin_x_)};
@@ -412,26 +414,26 @@ ExactEngine::Earliest ExactEngine::earliest_fall() {
 
 void ExactEngine::warn_of_touch(std::size_t slot, double t) {
   ++touches_;
-  if (touches_ <= most_touches)
+  if (touches_ <= max_touches)
     warnings.push_back(fmt::format(
         "contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
         "at this precision; it counts as not fallen",
         model_.contacts[contact::contact_of_guard(slot)].name,
         contact::to_string(segment_.decision->guards[slot].kind), model::time_in_scene_units(model_, t)));
-  else if (touches_ == most_touches + 1)
+  else if (touches_ == max_touches + 1)
     warnings.emplace_back("more guards touch zero; these are not listed");
 }
 
 /// Updates guards that were zero when the segment began, at the end of a step without an event.
-void ExactEngine::see_unarmed(double x) {
+void ExactEngine::update_unarmed(double x) {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot) || active_guards_.armed(slot)) continue;
     const decide::GuardStart& guard = segment_.decision->guards[slot];
     const motion::ContactSeries& contact = motion_.contacts()[contact::contact_of_guard(slot)];
     const auto polynomial = contact.expand(segment_.decision->guard(slot), x - contact.origin(),
-                                           events::most_fall_degree, guard_.data());
-    active_guards_.see(slot, motion::value_at(guard_.data(), polynomial.degree, x - contact.origin()),
-                       4.0 * (guard.noise + drift_of(guard, x)));
+                                           events::max_root_degree, guard_.data());
+    active_guards_.update(slot, motion::value_at(guard_.data(), polynomial.degree, x - contact.origin()),
+                          4.0 * (guard.noise + drift_of(guard, x)));
   }
 }
 
@@ -439,28 +441,28 @@ void ExactEngine::see_unarmed(double x) {
 void ExactEngine::begin_series(double scale) {
   double x = expand(scale);
   paced_ = paced_ && x == 1.0;
-  next_ = (paced_ ? much_longer : longer) * scale * x;
+  max_next_step_ = (paced_ ? much_longer : longer) * scale * x;
   reach_time_ = t_ + scale * x;
   if (reach_time_ > segment_.end || segment_.end - reach_time_ < 0.01 * scale * x) reach_time_ = segment_.end;
   begin_x_ = 0.0;
   reach_ = (reach_time_ - t_) / scale;
-  motion_.taken(degree_);
-  if (beside_) motion_.bound_rates(reach_);
-  reached_.assign(reached_.size(), {rest_of_series(reach_), reach_});
+  motion_.set_complete(degree_);
+  if (local_series_) motion_.bound_rates(reach_);
+  local_remainders_.assign(local_remainders_.size(), {series_remainder(reach_), reach_});
   crossings_.assign(crossings_.size(), {});
 }
 
 engine::Step ExactEngine::advance() {
-  if (!std::exchange(went_on_, false)) {
+  if (!std::exchange(series_continued_, false)) {
     const double remaining = segment_.end - t_;
-    const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
-    const double scale = std::min(share_of_step() * std::min(longest, next_), remaining);
-    if (std::string why = hindrance(scale); !why.empty()) return failed(std::move(why));
+    const double longest = 0.5 * static_cast<double>(max_levels) / growth_now_;
+    const double scale = std::min(share_of_step() * std::min(longest, max_next_step_), remaining);
+    if (std::string why = failure_reason(scale); !why.empty()) return failed(std::move(why));
     begin_series(scale);
   }
   ++counters.steps;
-  const Earliest first = earliest_fall();
-  if (first.lost) return failed(overflow);
+  const Earliest first = earliest_crossing();
+  if (first.not_finite) return failed(overflow);
   step_ = {};
   step_.begin = t_;
   const double x = first.at;
@@ -471,7 +473,7 @@ engine::Step ExactEngine::advance() {
                         !active_guards_.armed(*first.slot)}};
     end = motion_.whole.t + motion_.whole.scale * x;
   } else {
-    see_unarmed(x);
+    update_unarmed(x);
   }
   step_.end = end;
   step_.resolution = motion::resolution_at(end, end - t_);
@@ -480,7 +482,8 @@ engine::Step ExactEngine::advance() {
   motion_.evaluate_at(x, end_);  // more accurate than at the rounded time
   t_ = end;
   // Rounding in g'' is integrated twice over a long contact phase.
-  if (!beside_) motion::hold(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
+  if (!local_series_)
+    motion::project_constraints(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
   return step_;
 }
 
@@ -495,24 +498,26 @@ void ExactEngine::evaluate_watched(double t, std::optional<std::size_t> contact,
   if (t == t_ && end_.u.size() > 0) return evaluate(t, point);
   point.a.resize(0);
   if (contact)
-    motion_.place_at(x_of(t), *contact, point);
+    motion_.evaluate_without_accelerations(x_of(t), *contact, point);
   else
-    motion_.place_at(x_of(t), point);
+    motion_.evaluate_without_accelerations(x_of(t), point);
 }
 
 engine::StepFacts ExactEngine::facts() const {
   engine::StepFacts facts;
   facts.turning_points = turns_.times();
-  facts.contact_turns = &turns_.turns();
+  facts.contact_turning_points = &turns_.turning_points();
   facts.expansion = {&motion_.whole, motion_.degree(), end_x_, taylor_.system().get()};
-  facts.radians = std::numbers::pi * static_cast<double>(motion_.degree());
+  facts.phase_angle = std::numbers::pi * static_cast<double>(motion_.degree());
   return facts;
 }
 
 void ExactEngine::integrate(double from, double to, motion::WorkIntegrals& works) {
-  works_.add(segment_.decision->mode, *segment_.forcing, motion_, growth_now_, from, to, works);
+  works_.add(segment_.decision->states, *segment_.forcing, motion_, growth_now_, from, to, works);
 }
 
-double ExactEngine::residual() { return motion::imbalance(model_, structure_, *segment_.forcing, t_, end_); }
+double ExactEngine::residual() {
+  return motion::equilibrium_residual(model_, structure_, *segment_.forcing, t_, end_);
+}
 
 }  // namespace signorini::exact

@@ -28,11 +28,11 @@
 namespace signorini::exact {
 
 /// Greatest number of terms of a series.
-inline constexpr int most_levels = 30;
+inline constexpr int max_levels = 30;
 
 /// Intended use of the steps.
-struct SeriesUse {
-  bool pieces = false;          ///< allows local updates: no listener reads the series
+struct SeriesOptions {
+  bool local_updates = false;   ///< allows local updates: no listener reads the series
   std::uint64_t step_seed = 0;  ///< not 0: steps have random lengths (share_of_step)
 };
 
@@ -40,7 +40,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
  public:
   /// All arguments except t_end must outlive the object.
   ExactEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
-              double t_end, const SeriesUse& use = {});
+              double t_end, const SeriesOptions& use = {});
 
   void start(const engine::Segment& segment) override;
   [[nodiscard]] engine::Step advance() override;
@@ -57,36 +57,36 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] engine::StepFacts facts() const override;
 
  private:
-  [[nodiscard]] double few_flights() const;
+  [[nodiscard]] double flights_limit() const;
   void choose_first_step();
   [[nodiscard]] double paced_length() const;
   [[nodiscard]] double share_of_step();
-  void weigh();
-  void measure(std::size_t first, std::size_t last);
-  [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
-  [[nodiscard]] bool stands(const std::vector<double>& sizes, const motion::ForcingSeries& forcing,
-                            double x) const;
+  void set_weights();
+  void measure_coefficients(std::size_t first, std::size_t last);
+  [[nodiscard]] bool converges(const double* a, std::size_t last, double x) const;
+  [[nodiscard]] bool converges(const std::vector<double>& sizes, const motion::ForcingSeries& forcing,
+                               double x) const;
   [[nodiscard]] double expand(double scale);
   void begin_series(double scale);
-  [[nodiscard]] bool goes_on(const decide::Decision& decision, bool same_forcing) const;
-  [[nodiscard]] bool go_on(const contact::ContactStates& before);
-  [[nodiscard]] double reach_near(const motion::LocalSeries::Made& near, double x);
-  [[nodiscard]] double rest_near(const motion::LocalSeries::Made& near, double x);
-  [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
-  [[nodiscard]] double rest_of(const GuardForm& guard, std::size_t contact, double x, double rest) const;
-  [[nodiscard]] double rest_of_series(double x);
+  [[nodiscard]] bool can_continue_series(const decide::Decision& decision, bool same_forcing) const;
+  [[nodiscard]] bool continue_series(const contact::ContactStates& before);
+  [[nodiscard]] double local_radius(const motion::LocalSeries::LocalExpansion& near, double x);
+  [[nodiscard]] double local_remainder(const motion::LocalSeries::LocalExpansion& near, double x);
+  [[nodiscard]] double remainder_of(const Form& form, std::size_t contact, double x, double rest) const;
+  [[nodiscard]] double remainder_of(const GuardForm& guard, std::size_t contact, double x, double rest) const;
+  [[nodiscard]] double series_remainder(double x);
   [[nodiscard]] double drift_of(const decide::GuardStart& guard, double x) const;
-  [[nodiscard]] events::FirstRoot fall_of(std::size_t slot);
+  [[nodiscard]] events::FirstRoot first_root_of(std::size_t slot);
   /// The guard that reaches zero first among all guards, and the place in the series.
   struct Earliest {
     std::optional<std::size_t> slot;
     double at = 1.0;
-    bool lost = false;  // the motion is not a number
+    bool not_finite = false;  // the motion is not a number
   };
-  [[nodiscard]] Earliest earliest_fall();
+  [[nodiscard]] Earliest earliest_crossing();
   void warn_of_touch(std::size_t slot, double t);
-  void see_unarmed(double x);
-  [[nodiscard]] std::string hindrance(double scale) const;
+  void update_unarmed(double x);
+  [[nodiscard]] std::string failure_reason(double scale) const;
   [[nodiscard]] engine::Step failed(std::string reason);
   [[nodiscard]] double x_of(double t) const { return (t - motion_.whole.t) / motion_.whole.scale; }
 
@@ -100,17 +100,17 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   engine::Segment segment_;
   PatchedSeries motion_;
   std::optional<motion::LocalSeries>
-      beside_;                   // nullopt: each event makes the series of the whole structure anew
-  contact::ContactStates mode_;  // states of the segment, if beside_ is used
-  bool went_on_ = false;         // the segment begins within motion_
-  double begin_x_ = 0.0;         // beginning of the step in motion_
-  double reach_ = 0.0;           // end of the validity of motion_
-  double reach_time_ = 0.0;      // time of reach_
+      local_series_;               // nullopt: each event makes the series of the whole structure anew
+  contact::ContactStates states_;  // states of the segment, if beside_ is used
+  bool series_continued_ = false;  // the segment begins within motion_
+  double begin_x_ = 0.0;           // beginning of the step in motion_
+  double reach_ = 0.0;             // end of the validity of motion_
+  double reach_time_ = 0.0;        // time of reach_
   /// Remainder of a contact's polynomials in displacements, in norm_, and their reach from their origin.
-  struct Reached {
+  struct LocalRemainder {
     double rest = 0.0, x = 0.0;
   };
-  std::vector<Reached> reached_;
+  std::vector<LocalRemainder> local_remainders_;
   /// The first zero crossing of a guard in motion_, once found.
   struct ZeroCrossing {
     events::FirstRoot::Kind kind = events::FirstRoot::Kind::none;
@@ -124,17 +124,17 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   double greatest_ = 0.0;       // greatest motion, by scales_
   std::size_t polynomial_ = 0;  // greatest degree in the forcing
   int touches_ = 0;
-  std::optional<std::mt19937_64> chance_;  // random lengths of steps
+  std::optional<std::mt19937_64> random_;  // random lengths of steps
   motion::Point end_;                      // end of the last step
   double t_ = 0.0, growth_now_ = 0.0;
-  double next_ = 0.0;              // greatest length of the segment's next step
-  double begun_ = 0.0;             // beginning of the segment
+  double max_next_step_ = 0.0;     // greatest length of the segment's next step
+  double segment_begin_ = 0.0;     // beginning of the segment
   double fast_mode_cutoff_ = 0.0;  // recent time between events; 0: none
   bool paced_ = false;             // no series so far was too short for a step that pace_ allows
   double end_x_ = 0.0;             // end of the last step in its series
   engine::Step step_;
   SeriesWorkIntegrals works_;
-  events::TurningPoints turns_;
+  events::TurningPointDetector turns_;
 };
 
 }  // namespace signorini::exact

@@ -12,7 +12,7 @@ namespace signorini::exact {
 namespace {
 
 constexpr int probe_levels = 20;
-constexpr double most_beside =
+constexpr double max_beside =
     0.1;  // of the square of a growth: steps are five in a hundred shorter at most; chosen
 
 }  // namespace
@@ -27,14 +27,14 @@ FlowGrowth::FlowGrowth(const Model& model, motion::Taylor& taylor, FlowNorm& nor
                          model::diagonal_decay(model.mass.diagonal(), model.damping.diagonal(),
                                                model.stiffness.diagonal())})) {}
 
-double FlowGrowth::of(const motion::StateSystemPtr& system) {
-  std::vector<State> states = contact::states_of(system->mode());
+double FlowGrowth::growth_rate(const motion::StateSystemPtr& system) {
+  std::vector<State> states = contact::states_of(system->states());
   if (const double* known = known_.find(states)) return *known;
-  if (const auto near = beside(*system)) return *near;
-  nearest_ = probed(system);
-  known_.insert(states, nearest_, states.size() * sizeof(State));
-  near_ = std::move(states);
-  return nearest_;
+  if (const auto near = bound_from_near(*system)) return *near;
+  near_rate_ = rate_from_series(system);
+  known_.insert(states, near_rate_, states.size() * sizeof(State));
+  near_states_ = std::move(states);
+  return near_rate_;
 }
 
 /// Upper limit of a contact's contribution to the square of the growth, by closing, sticking or slipping.
@@ -47,7 +47,7 @@ double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) 
     x.setZero();
     form.add_to(x, 1.0);
     system.solve(x.data(), work.data());
-    return norm_.of(x.head(model_.size()));
+    return norm_.norm(x.head(model_.size()));
   };
   const double n = effect(contact.normal), t = effect(contact.tangent);
   const double kn = contact.normal_stiffness, kt = contact.tangential_stiffness.value_or(0.0);
@@ -56,26 +56,26 @@ double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) 
 }
 
 /// Growth of states that differ from the nearest known ones in few soft contacts. nullopt: they differ in too many.
-std::optional<double> FlowGrowth::beside(const motion::StateSystem& system) {
-  if (near_.empty() || !system.factorised().by_mass) return std::nullopt;
-  stiffenings_.resize(near_.size(), -1.0);
-  const double square = nearest_ * nearest_;
+std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& system) {
+  if (near_states_.empty() || !system.factorised().by_mass) return std::nullopt;
+  stiffenings_.resize(near_states_.size(), -1.0);
+  const double square = near_rate_ * near_rate_;
   double more = 0.0;
-  for (std::size_t c = 0; c < near_.size(); ++c) {
-    if (system.mode()[c].state == near_[c]) continue;
+  for (std::size_t c = 0; c < near_states_.size(); ++c) {
+    if (system.states()[c].state == near_states_[c]) continue;
     const Contact& contact = model_.contacts[c];
     // Rows on accelerations, dashpots and forces without constant stiffness change the growth in other ways.
     if (contact.normal_damping > 0.0 || !contact.has_constant_stiffness() || contact.takes_impulses() ||
-        contact.sticks_rigidly() || contact.friction.varies())
+        contact.sticks_rigidly() || contact.friction.is_rate_dependent())
       return std::nullopt;
     more += margin * margin * stiffening(system, c);
-    if (!(more <= most_beside * square)) return std::nullopt;
+    if (!(more <= max_beside * square)) return std::nullopt;
   }
   return std::sqrt(square + more);
 }
 
 /// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
-double FlowGrowth::probed(const motion::StateSystemPtr& system) {
+double FlowGrowth::rate_from_series(const motion::StateSystemPtr& system) {
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
   std::mt19937_64 random(1);  // the same motion in every run
@@ -88,7 +88,7 @@ double FlowGrowth::probed(const motion::StateSystemPtr& system) {
   taylor_.expand(system, motion::Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
   double greatest = 0.0;
   for (Eigen::Index k = probe_levels / 2; k + 2 <= probe_levels - 2; ++k) {
-    const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
+    const double a = norm_.norm(series.u.col(k)), b = norm_.norm(series.u.col(k + 2));
     if (a > 0.0)
       greatest = std::max(greatest, fastest_ * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
   }
@@ -121,7 +121,7 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   }
 }
 
-double FlowNorm::of(const Eigen::Ref<const Vector>& x) {
+double FlowNorm::norm(const Eigen::Ref<const Vector>& x) {
   const double size = x.cwiseAbs().maxCoeff();  // squares must not overflow
   if (!(size > 0.0) || !std::isfinite(size)) return size;
   product_.noalias() = g_ * (x / size);

@@ -25,7 +25,7 @@ class FlowNorm {
  public:
   explicit FlowNorm(const Model& model);
 
-  [[nodiscard]] double of(const Eigen::Ref<const Vector>& x);
+  [[nodiscard]] double norm(const Eigen::Ref<const Vector>& x);
   /// Greatest |n . x| and |t . x| of contact k among |x| = 1.
   [[nodiscard]] double normal(std::size_t k) const { return normal_[k]; }
   [[nodiscard]] double tangent(std::size_t k) const { return tangent_[k]; }
@@ -37,7 +37,7 @@ class FlowNorm {
 };
 
 /// Growth rates of states are kept longer than their systems: a rate takes a series to compute and 8 bytes to keep.
-inline constexpr base::CacheBounds most_growths{16384, std::size_t{1} << 20};
+inline constexpr base::CacheLimits max_growth_rates{16384, std::size_t{1} << 20};
 
 class FlowGrowth {
  public:
@@ -49,11 +49,11 @@ class FlowGrowth {
              double t_end);
 
   /// W with its margin. Unit: 1/time.
-  [[nodiscard]] double of(const motion::StateSystemPtr& system);
+  [[nodiscard]] double growth_rate(const motion::StateSystemPtr& system);
 
  private:
-  [[nodiscard]] double probed(const motion::StateSystemPtr& system);
-  [[nodiscard]] std::optional<double> beside(const motion::StateSystem& system);
+  [[nodiscard]] double rate_from_series(const motion::StateSystemPtr& system);
+  [[nodiscard]] std::optional<double> bound_from_near(const motion::StateSystem& system);
   [[nodiscard]] double stiffening(const motion::StateSystem& system, std::size_t contact);
 
   const Model& model_;
@@ -61,9 +61,9 @@ class FlowGrowth {
   FlowNorm& norm_;
   const std::vector<double>& scales_;
   const double fastest_;  // bound on all rates of the structure, for scaling
-  base::BoundedCache<std::vector<State>, double> known_{most_growths};
-  std::vector<State> near_;          // last states whose growth was computed from a series; empty: none
-  double nearest_ = 0.0;             // growth of near_
+  base::LruCache<std::vector<State>, double> known_{max_growth_rates};
+  std::vector<State> near_states_;   // last states whose growth was computed from a series; empty: none
+  double near_rate_ = 0.0;           // growth of near_
   std::vector<double> stiffenings_;  // one for each contact; negative: unknown
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::exact {
 namespace {
@@ -13,9 +13,9 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
                                  std::size_t n) {
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4)
-    base::lanes_at<base::Four>(sum + i).v =
-        base::lanes_at<base::Four>(sum + i).v * base::lanes_at<base::Four>(x + i).v +
-        factor * base::lanes_at<base::Four>(a + i).v;
+    base::lanes_at<base::Double4>(sum + i).v =
+        base::lanes_at<base::Double4>(sum + i).v * base::lanes_at<base::Double4>(x + i).v +
+        factor * base::lanes_at<base::Double4>(a + i).v;
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
 }
 
@@ -44,7 +44,7 @@ void copy_shifted(const Eigen::MatrixXd& from, Eigen::Index row, std::size_t cou
 
 PatchedSeries::PatchedSeries(const Model& model) : model_(model), contacts_(model.contacts.size()) {}
 
-void PatchedSeries::taken(std::size_t degree) {
+void PatchedSeries::set_complete(std::size_t degree) {
   degree_ = degree;
   for (std::size_t k = 0; k <= degree_; ++k) {
     to_rate_[k] = static_cast<double>(k + 1) / whole.scale;
@@ -58,7 +58,7 @@ void PatchedSeries::taken(std::size_t degree) {
   }
 }
 
-void PatchedSeries::take_over(const motion::LocalSeries::Made& near, double x, double reach) {
+void PatchedSeries::patch(const motion::LocalSeries::LocalExpansion& near, double x, double reach) {
   origins_.resize(static_cast<std::size_t>(whole.u.rows()), 0.0);
   force_origins_.resize(static_cast<std::size_t>(whole.forces.rows()), 0.0);
   const std::vector<int>& dofs = near.where->dofs;
@@ -98,26 +98,26 @@ void PatchedSeries::force(std::size_t slot, double x, double* out) const {
                x - (force_origins_.empty() ? 0.0 : force_origins_[slot]), out);
 }
 
-void PatchedSeries::pieces_at(double x, motion::Point& point) const {
+void PatchedSeries::evaluate_patches(double x, motion::Point& point) const {
   const std::size_t n = origins_.size(), forces = force_origins_.size();
-  of_dofs_.resize(n);
-  of_forces_.resize(forces);
-  for (std::size_t i = 0; i < n; ++i) of_dofs_[i] = x - origins_[i];
-  for (std::size_t i = 0; i < forces; ++i) of_forces_[i] = x - force_origins_[i];
+  dof_offsets_.resize(n);
+  force_offsets_.resize(forces);
+  for (std::size_t i = 0; i < n; ++i) dof_offsets_[i] = x - origins_[i];
+  for (std::size_t i = 0; i < forces; ++i) force_offsets_[i] = x - force_origins_[i];
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* u = whole.u.data() + k * n;
-    horner(point.u.data(), of_dofs_.data(), u, 1.0, n);
-    horner(point.v.data(), of_dofs_.data(), u + n, to_rate_[k], n);
-    horner(point.forces.data(), of_forces_.data(), whole.forces.data() + k * forces, 1.0, forces);
+    horner(point.u.data(), dof_offsets_.data(), u, 1.0, n);
+    horner(point.v.data(), dof_offsets_.data(), u + n, to_rate_[k], n);
+    horner(point.forces.data(), force_offsets_.data(), whole.forces.data() + k * forces, 1.0, forces);
   }
 }
 
-void PatchedSeries::place_at(double x, motion::Point& point) const {
+void PatchedSeries::evaluate_without_accelerations(double x, motion::Point& point) const {
   const auto n = static_cast<std::size_t>(whole.u.rows());
   point.u.setZero(whole.u.rows());
   point.v.setZero(whole.u.rows());
   point.forces.setZero(whole.forces.rows());
-  if (!origins_.empty()) return pieces_at(x, point);
+  if (!origins_.empty()) return evaluate_patches(x, point);
   double *u = point.u.data(), *v = point.v.data(), *f = point.forces.data();
   const auto forces = static_cast<std::size_t>(whole.forces.rows());
   if (n <= few) {
@@ -141,7 +141,7 @@ void PatchedSeries::place_at(double x, motion::Point& point) const {
 }
 
 void PatchedSeries::evaluate_at(double x, motion::Point& point) const {
-  place_at(x, point);
+  evaluate_without_accelerations(x, point);
   const auto n = static_cast<std::size_t>(whole.u.rows());
   point.a.setZero(whole.u.rows());
   double* a = point.a.data();
@@ -153,14 +153,15 @@ void PatchedSeries::evaluate_at(double x, motion::Point& point) const {
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* c2 = whole.u.data() + (k + 2) * n;
     if (!origins_.empty()) {
-      horner(a, of_dofs_.data(), c2, to_acceleration_[k], n);
+      horner(a, dof_offsets_.data(), c2, to_acceleration_[k], n);
       continue;
     }
     for (std::size_t i = 0; i < n; ++i) a[i] = a[i] * x + to_acceleration_[k] * c2[i];
   }
 }
 
-void PatchedSeries::place_at(double x, std::size_t contact, motion::Point& point) const {
+void PatchedSeries::evaluate_without_accelerations(double x, std::size_t contact,
+                                                   motion::Point& point) const {
   point.u.resize(whole.u.rows());
   point.v.resize(whole.u.rows());
   point.forces.resize(whole.forces.rows());

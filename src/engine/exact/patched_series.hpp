@@ -23,10 +23,10 @@ class PatchedSeries {
 
   /// Series of the whole structure, filled by its owner, which keeps the coefficients until taken().
   motion::Series whole;
-  /// `whole` has been filled: u, v, a and forces are complete up to this degree, most_fall_degree at most.
-  void taken(std::size_t degree);
+  /// `whole` has been filled: u, v, a and forces are complete up to this degree, max_root_degree at most.
+  void set_complete(std::size_t degree);
   /// Replaces a part of the series from x on, up to `reach` further.
-  void take_over(const motion::LocalSeries::Made& near, double x, double reach);
+  void patch(const motion::LocalSeries::LocalExpansion& near, double x, double reach);
   /// Bounds the rates of all contacts up to x from the origin: ContactSeries::bound_rates.
   void bound_rates(double x) {
     for (motion::ContactSeries& contact : contacts_) contact.bound_rates(x);
@@ -42,22 +42,22 @@ class PatchedSeries {
   void force(std::size_t slot, double x, double* out) const;
 
   /// Evaluates all but accelerations; evaluate_at(): all.
-  void place_at(double x, motion::Point& point) const;
+  void evaluate_without_accelerations(double x, motion::Point& point) const;
   void evaluate_at(double x, motion::Point& point) const;
   /// Evaluates the degrees of freedom and forces of one contact, by the same sums.
-  void place_at(double x, std::size_t contact, motion::Point& point) const;
+  void evaluate_without_accelerations(double x, std::size_t contact, motion::Point& point) const;
 
  private:
   [[nodiscard]] double origin_of(std::size_t dof) const { return origins_.empty() ? 0.0 : origins_[dof]; }
-  void pieces_at(double x, motion::Point& point) const;
+  void evaluate_patches(double x, motion::Point& point) const;
 
   const Model& model_;
   std::size_t degree_ = 0;
-  std::array<double, events::most_fall_degree + 1> to_rate_{},
+  std::array<double, events::max_root_degree + 1> to_rate_{},
       to_acceleration_{};  // (k + 1)/s, (k + 1) (k + 2)/s^2
   std::vector<motion::ContactSeries> contacts_;
-  std::vector<double> origins_, force_origins_;      // empty: all are zero
-  mutable std::vector<double> of_dofs_, of_forces_;  // x - o; scratch
+  std::vector<double> origins_, force_origins_;              // empty: all are zero
+  mutable std::vector<double> dof_offsets_, force_offsets_;  // x - o; scratch
 };
 
 }  // namespace signorini::exact

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 #include "contact/curved_surface.hpp"
 #include "contact/law.hpp"
 
@@ -49,9 +49,9 @@ SIGNORINI_WIDE_LANES void velocities_of_block(const double* a, std::size_t strid
     for (std::size_t j = 0; j < block; ++j) scaled[j] = factor * a[k * stride + j];
     for (std::size_t i = 0; i < times * block; i += block)
       for (std::size_t j = 0; j < block; j += lanes)
-        base::lanes_at<base::Four>(v + i + j).v =
-            base::lanes_at<base::Four>(v + i + j).v * base::lanes_at<base::Four>(at + i + j).v +
-            base::lanes_at<base::Four>(scaled + j).v;
+        base::lanes_at<base::Double4>(v + i + j).v =
+            base::lanes_at<base::Double4>(v + i + j).v * base::lanes_at<base::Double4>(at + i + j).v +
+            base::lanes_at<base::Double4>(scaled + j).v;
   }
 }
 
@@ -107,7 +107,7 @@ void SeriesWorkIntegrals::velocities_at(const Nodes& x, std::size_t times, const
   }
 }
 
-void SeriesWorkIntegrals::add(const contact::ContactStates& mode, const motion::Forcing& forcing,
+void SeriesWorkIntegrals::add(const contact::ContactStates& states, const motion::Forcing& forcing,
                               const PatchedSeries& motion, double growth, double from, double to,
                               motion::WorkIntegrals& works) {
   const motion::Series& series = motion.whole;
@@ -115,11 +115,11 @@ void SeriesWorkIntegrals::add(const contact::ContactStates& mode, const motion::
   const std::size_t degree = motion.degree();
   const double h = to - from;
   if (!(h > 0.0)) return;
-  const bool is_short = !motion.origins().empty() && growth * h <= short_turn;
+  const bool is_short = !motion.origins().empty() && growth * h <= short_angle;
   const GaussRule& rule = is_short ? short_gauss_rule() : gauss_rule();
   Nodes x{};
   for (std::size_t i = 0; i < rule.count; ++i) x[i] = (from + h * rule.x[i] - series.t) / series.scale;
-  const bool loaded = forcing.loaded();
+  const bool loaded = forcing.has_loads();
   if (damped_ || loaded) velocities_at(x, rule.count, motion);
   for (std::size_t i = 0; i < rule.count && (damped_ || loaded); ++i) {
     const double* v = velocities_.col(static_cast<Eigen::Index>(i)).data();
@@ -129,10 +129,11 @@ void SeriesWorkIntegrals::add(const contact::ContactStates& mode, const motion::
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const ContactState& state = mode[c];
-    if (contact.curved_surface()) add_bowl(c, forcing, series, contacts[c], degree, from, to, works);
+    const ContactState& state = states[c];
+    if (contact.curved_surface())
+      add_curved_surface(c, forcing, series, contacts[c], degree, from, to, works);
     if (!contact.obeys_coulomb()) {
-      add_own(c, forcing, series, contacts[c], from, to, works);
+      add_contact(c, forcing, series, contacts[c], from, to, works);
       continue;
     }
     if (state.state == State::inside) {
@@ -149,13 +150,13 @@ void SeriesWorkIntegrals::add(const contact::ContactStates& mode, const motion::
       works.applied_normal_force[c] -= series.scale * (pressed(to) - pressed(from));
     }
     const int s = slip_sign(state.state);
-    const bool moved = forcing.moves(c);
+    const bool moved = forcing.surface_moves(c);
     if (s == 0 && !moved && contact.normal_damping == 0.0) continue;
     slide_rate_.resize(degree + 1);
     if (s != 0) contacts[c].combine(contact::slip_rate(contact, s), slide_rate_.data());
     for (std::size_t i = 0; i < rule.count; ++i) {
       const double weight = h * rule.w[i];
-      ContactPath path;
+      ContactIncrement path;
       double T = 0.0;
       if (s != 0 || moved) T = contacts[c].value(motion::ContactSeries::T, x[i]);
       if (s != 0) path.slip = motion::value_at(slide_rate_.data(), degree, x[i] - contacts[c].origin());
@@ -168,16 +169,16 @@ void SeriesWorkIntegrals::add(const contact::ContactStates& mode, const motion::
 }
 
 /// A user's law dissipates power in every state.
-void SeriesWorkIntegrals::add_own(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
-                                  const motion::ContactSeries& contact, double from, double to,
-                                  motion::WorkIntegrals& works) const {
+void SeriesWorkIntegrals::add_contact(std::size_t c, const motion::Forcing& forcing,
+                                      const motion::Series& series, const motion::ContactSeries& contact,
+                                      double from, double to, motion::WorkIntegrals& works) const {
   const GaussRule& rule = gauss_rule();
   const double h = to - from;
   for (std::size_t i = 0; i < nodes; ++i) {
     const double t = from + h * rule.x[i], x = (t - series.t) / series.scale;
     const auto value = [&](motion::ContactSeries::Field field) { return contact.value(field, x); };
     const double rate = value(motion::ContactSeries::vn);
-    const ContactPath path{value(motion::ContactSeries::vt), forcing.surface(c, t, 1), rate, rate, 1.0};
+    const ContactIncrement path{value(motion::ContactSeries::vt), forcing.surface(c, t, 1), rate, rate, 1.0};
     works.add(c,
               contact::work_on(model_.contacts[c], State::open, value(motion::ContactSeries::N),
                                value(motion::ContactSeries::T), path),
@@ -186,9 +187,10 @@ void SeriesWorkIntegrals::add_own(std::size_t c, const motion::Forcing& forcing,
 }
 
 /// Work of a curved surface's force in addition to its spring; it counts as work of the loads, also off the surface.
-void SeriesWorkIntegrals::add_bowl(std::size_t c, const motion::Forcing& forcing,
-                                   const motion::Series& series, const motion::ContactSeries& path,
-                                   std::size_t degree, double from, double to, motion::WorkIntegrals& works) {
+void SeriesWorkIntegrals::add_curved_surface(std::size_t c, const motion::Forcing& forcing,
+                                             const motion::Series& series, const motion::ContactSeries& path,
+                                             std::size_t degree, double from, double to,
+                                             motion::WorkIntegrals& works) {
   const Contact& contact = model_.contacts[c];
   const GaussRule& rule = gauss_rule();
   const double h = to - from;
@@ -199,8 +201,8 @@ void SeriesWorkIntegrals::add_bowl(std::size_t c, const motion::Forcing& forcing
   for (std::size_t i = 0; i < nodes; ++i) {
     const double t = from + h * rule.x[i], x = (t - series.t) / series.scale;
     const double rate = motion::value_at(slide_rate_.data(), degree, x) - forcing.surface(c, t, 1);
-    const double force = contact::bowl_force(contact, path.value(motion::ContactSeries::N, x),
-                                             path.value(motion::ContactSeries::slide, x));
+    const double force = contact::restoring_force(contact, path.value(motion::ContactSeries::N, x),
+                                                  path.value(motion::ContactSeries::slide, x));
     works.loads -= h * rule.w[i] * force * rate;
   }
 }

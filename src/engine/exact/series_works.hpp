@@ -24,9 +24,9 @@ struct GaussRule {
   std::array<double, nodes> x{}, w{};
 };
 [[nodiscard]] const GaussRule& gauss_rule();
-/// Rule with six nodes, for stretches on which the motion turns by `short_turn` at most. Unit: rad.
+/// Rule with six nodes, for stretches on which the motion turns by `short_angle` at most. Unit: rad.
 [[nodiscard]] const GaussRule& short_gauss_rule();
-inline constexpr double short_turn = 0.5;
+inline constexpr double short_angle = 0.5;
 
 class SeriesWorkIntegrals {
  public:
@@ -35,19 +35,19 @@ class SeriesWorkIntegrals {
   static constexpr std::size_t nodes = GaussRule::nodes;
 
   /// Adds the integrals over [from, to] of the series. growth: upper limit for the motion's rate, rad per time.
-  void add(const contact::ContactStates& mode, const motion::Forcing& forcing, const PatchedSeries& motion,
+  void add(const contact::ContactStates& states, const motion::Forcing& forcing, const PatchedSeries& motion,
            double growth, double from, double to, motion::WorkIntegrals& works);
 
  private:
   using Nodes = std::array<double, nodes>;
   void velocities_at(const Nodes& x, std::size_t count, const PatchedSeries& motion);
   void velocities_of_pieces(const Nodes& x, std::size_t count, const PatchedSeries& motion);
-  void add_own(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
-               const motion::ContactSeries& contact, double from, double to,
-               motion::WorkIntegrals& works) const;
-  void add_bowl(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
-                const motion::ContactSeries& path, std::size_t degree, double from, double to,
-                motion::WorkIntegrals& works);
+  void add_contact(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
+                   const motion::ContactSeries& contact, double from, double to,
+                   motion::WorkIntegrals& works) const;
+  void add_curved_surface(std::size_t c, const motion::Forcing& forcing, const motion::Series& series,
+                          const motion::ContactSeries& path, std::size_t degree, double from, double to,
+                          motion::WorkIntegrals& works);
 
   const Model& model_;
   const linear::SystemMatrices& structure_;

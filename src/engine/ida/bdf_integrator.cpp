@@ -15,12 +15,12 @@
 #include "engine/ida/fast_vector.hpp"
 #include "engine/ida/ida_problem.hpp"
 #include "engine/ida/step_newton.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 
 namespace signorini::ida {
 namespace {
 
-constexpr int most_retries = 4;        // restarts with a tenth of the first step before giving up
+constexpr int max_retries = 4;         // restarts with a tenth of the first step before giving up
 constexpr double surface_step = 0.25;  // rad of a surface's oscillation a step: 1e-7 of it at order 5
 // Part of the step whose local error would just be accepted. After a rebound the error of the order-one start stays in
 // the gap for the whole flight, and each hit adds one: with rigid contacts a start with five more steps is ten times
@@ -156,8 +156,8 @@ struct BdfIntegrator::Memory {
   /// rehearsed.
   void begin(double h0, int steps = 0) {
     const double before = steps * h0;
-    problem.along(*start, -before, 0, NV_DATA_S(y));
-    problem.along(*start, -before, 1, NV_DATA_S(yp));
+    problem.evaluate_jet(*start, -before, 0, NV_DATA_S(y));
+    problem.evaluate_jet(*start, -before, 1, NV_DATA_S(yp));
     check(IDAReInit(ida, start->t - before, y, yp), "IDAReInit");
     IDASetInitStep(ida, h0);
     first = h0;
@@ -181,11 +181,11 @@ struct BdfIntegrator::Memory {
   /// time.
   void rehearse(int steps) {
     rehearsing = true;
-    newton->rehearse(start);
+    newton->prescribe_jet(start);
     double t = 0.0;
     for (int i = 0; i < steps; ++i)
       check(IDASolve(ida, segment.end + std::abs(segment.end), &t, y, yp, IDA_ONE_STEP), "IDASolve");
-    newton->rehearse(nullptr);
+    newton->prescribe_jet(nullptr);
     rehearsing = false;
   }
 
@@ -315,7 +315,7 @@ BdfIntegrator::~BdfIntegrator() = default;
 void BdfIntegrator::count() { m_->add_counters(counters_); }
 
 RestartOrder BdfIntegrator::start(const engine::Segment& segment, const motion::Jet& jet,
-                                  const events::Watch& watch) {
+                                  const events::GuardMonitor& watch) {
   count();  // IDA resets its counts at a restart
   m_->segment = segment;
   m_->start = &jet;
@@ -337,7 +337,7 @@ BdfStep BdfIntegrator::advance() {
   if (flag >= 0 && m_->rooted) flag = m_->leave_step(flag, far, t);
   const bool first = m_->reported_end == m_->start->t;
   double h0 = 0.0;
-  for (int retry = 0; flag < 0 && first && retry < most_retries; ++retry) {
+  for (int retry = 0; flag < 0 && first && retry < max_retries; ++retry) {
     count();
     if (h0 == 0.0) h0 = m_->first_step();
     h0 /= 10.0;

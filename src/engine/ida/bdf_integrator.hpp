@@ -40,7 +40,8 @@ class BdfIntegrator {
 
   /// jet: whole jet at the segment's beginning; watch: armed guards. Both must outlive the segment. Returns the past
   /// that IDA was given.
-  RestartOrder start(const engine::Segment& segment, const motion::Jet& jet, const events::Watch& watch);
+  RestartOrder start(const engine::Segment& segment, const motion::Jet& jet,
+                     const events::GuardMonitor& watch);
   [[nodiscard]] BdfStep advance();
   void evaluate(double t, motion::Point& point);
   /// Keeps the correction of the last step: solution minus prediction. IDA estimates the local error from it; with

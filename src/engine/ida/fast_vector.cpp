@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::ida {
 namespace {
@@ -37,7 +37,7 @@ template <int count>
     f[static_cast<std::size_t>(i)] = c[i];
   }
   Index j = 0;
-  for (; j + 3 < n; j += 4) combined<base::Four, count>(f.data(), x.data(), j, z);
+  for (; j + 3 < n; j += 4) combined<base::Double4, count>(f.data(), x.data(), j, z);
   for (; j < n; ++j) combined<double, count>(f.data(), x.data(), j, z);
 }
 
@@ -80,14 +80,14 @@ SIGNORINI_WIDE_LANES void linear_sum(double a, N_Vector x_vector, double b, N_Ve
   Index j = 0;
   if (a == 1.0) {  // every sum of IDA's steps
     for (; j + 3 < n; j += 4)
-      base::lanes_at<base::Four>(z + j).v =
-          base::lanes_at<base::Four>(x + j).v + b * base::lanes_at<base::Four>(y + j).v;
+      base::lanes_at<base::Double4>(z + j).v =
+          base::lanes_at<base::Double4>(x + j).v + b * base::lanes_at<base::Double4>(y + j).v;
     for (; j < n; ++j) z[j] = x[j] + b * y[j];
     return;
   }
   for (; j + 3 < n; j += 4)
-    base::lanes_at<base::Four>(z + j).v =
-        a * base::lanes_at<base::Four>(x + j).v + b * base::lanes_at<base::Four>(y + j).v;
+    base::lanes_at<base::Double4>(z + j).v =
+        a * base::lanes_at<base::Double4>(x + j).v + b * base::lanes_at<base::Double4>(y + j).v;
   for (; j < n; ++j) z[j] = a * x[j] + b * y[j];
 }
 
@@ -100,7 +100,8 @@ SIGNORINI_WIDE_LANES void scale(double c, N_Vector x_vector, N_Vector z_vector) 
     return;
   }
   Index j = 0;
-  for (; j + 3 < n; j += 4) base::lanes_at<base::Four>(z + j).v = c * base::lanes_at<base::Four>(x + j).v;
+  for (; j + 3 < n; j += 4)
+    base::lanes_at<base::Double4>(z + j).v = c * base::lanes_at<base::Double4>(x + j).v;
   for (; j < n; ++j) z[j] = c * x[j];
 }
 
@@ -127,7 +128,7 @@ template <int count>
   std::array<double*, count> x{};
   for (int i = 0; i < count; ++i) x[static_cast<std::size_t>(i)] = NV_DATA_S(vectors[i]);
   Index j = 0;
-  for (; j + 3 < n; j += 4) cascaded<base::Four, count>(e, x.data(), j);
+  for (; j + 3 < n; j += 4) cascaded<base::Double4, count>(e, x.data(), j);
   for (; j < n; ++j) cascaded<double, count>(e, x.data(), j);
 }
 
@@ -166,25 +167,28 @@ SIGNORINI_WIDE_LANES double wrms_norm(N_Vector x_vector, N_Vector w_vector) {
   const Index n = NV_LENGTH_S(x_vector);
   const double *x = NV_DATA_S(x_vector), *w = NV_DATA_S(w_vector);
   // Four sums of four lanes: with a single sum each addition would wait for the previous one.
-  base::Four s0{}, s1{}, s2{}, s3{};
+  base::Double4 s0{}, s1{}, s2{}, s3{};
   Index j = 0;
   for (; j + 15 < n; j += 16) {
-    const base::Four p0 = base::lanes_at<base::Four>(x + j).v * base::lanes_at<base::Four>(w + j).v,
-                     p1 = base::lanes_at<base::Four>(x + j + 4).v * base::lanes_at<base::Four>(w + j + 4).v,
-                     p2 = base::lanes_at<base::Four>(x + j + 8).v * base::lanes_at<base::Four>(w + j + 8).v,
-                     p3 = base::lanes_at<base::Four>(x + j + 12).v * base::lanes_at<base::Four>(w + j + 12).v;
+    const base::Double4 p0 = base::lanes_at<base::Double4>(x + j).v * base::lanes_at<base::Double4>(w + j).v,
+                        p1 = base::lanes_at<base::Double4>(x + j + 4).v *
+                             base::lanes_at<base::Double4>(w + j + 4).v,
+                        p2 = base::lanes_at<base::Double4>(x + j + 8).v *
+                             base::lanes_at<base::Double4>(w + j + 8).v,
+                        p3 = base::lanes_at<base::Double4>(x + j + 12).v *
+                             base::lanes_at<base::Double4>(w + j + 12).v;
     s0 += p0 * p0;
     s1 += p1 * p1;
     s2 += p2 * p2;
     s3 += p3 * p3;
   }
   for (; j + 3 < n; j += 4) {
-    const base::Four p = base::lanes_at<base::Four>(x + j).v * base::lanes_at<base::Four>(w + j).v;
+    const base::Double4 p = base::lanes_at<base::Double4>(x + j).v * base::lanes_at<base::Double4>(w + j).v;
     s0 += p * p;
   }
   double rest = 0.0;
   for (; j < n; ++j) rest += (x[j] * w[j]) * (x[j] * w[j]);
-  const base::Four s = (s0 + s1) + (s2 + s3);
+  const base::Double4 s = (s0 + s1) + (s2 + s3);
   return std::sqrt(((s[0] + s[1]) + (s[2] + s[3]) + rest) / static_cast<double>(n));
 }
 

@@ -11,7 +11,7 @@
 #include "decide/guard_signs.hpp"
 #include "decide/massless_jump.hpp"
 #include "engine/ida/locate.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "motion/point.hpp"
 
 namespace signorini::ida {
@@ -25,7 +25,7 @@ std::string tolerance_in_force(Guard guard, const engine::Tolerance& tolerance, 
   const Units& units = model.units;
   if (guard == Guard::sliding)
     return as_key("velocity", tolerance.velocity, unit::velocity, units.length + "/" + units.time);
-  if (guard == Guard::closing || guard == Guard::clearing)
+  if (guard == Guard::closing || guard == Guard::opening)
     return as_key("displacement", tolerance.displacement, unit::length, units.length);
   return as_key("force", tolerance.force, unit::force, units.force);
 }
@@ -48,7 +48,7 @@ IdaEngine::IdaEngine(const Model& model, const linear::SystemMatrices& structure
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
     accelerations_ = accelerations_ || contact.normal_damping > 0.0;
-  knows_low_flights = follows_low_flights(model);
+  resolves_low_flights = follows_low_flights(model);
 }
 
 bool IdaEngine::follows_low_flights(const Model& model) {
@@ -62,18 +62,19 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t, point);
-    const double still = segment_.forcing->moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
-    const double ut = contact.body_tangent().dot(point.u) - still;      // locate.hpp
-    for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // order: TurningPoints::watched
+    const double still = segment_.forcing->surface_moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
+    const double ut = contact.body_tangent().dot(point.u) - still;  // locate.hpp
+    for (const double value : {m.N, m.T, m.gap, ut})
+      *shown++ = value;  // order: TurningPointDetector::watched
     for (const GuardForm& guard : decision.forms[k])
       *out++ = guard.is_linear() ? decide::QuickForm(guard.form).value(m) : guard.value(m);
   }
-  powers_.at(*segment_.forcing, t, decision.mode, point, out);
+  powers_.at(*segment_.forcing, t, decision.states, point, out);
 }
 
 /// Below the mean of tolerance and size half of a height's digits are lost: the series takes lower flights (04a at rtol
 /// 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
-double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
+double IdaEngine::flight_level(const Contact& contact, const Vector& u) const {
   double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
   for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
   const double tolerance = flight_tolerances_ * (tolerance_.rtol * size + absolute * tolerance_.displacement);
@@ -84,21 +85,20 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
 /// True if there are massless parts and no damper acts on one. Their velocities follow from K v = P' - ...; the
 /// derivative of a step's polynomial has the error h u''/2 after a restart, which is far above the tolerance of
 /// velocities in a short step. If dampers act, C v = P - K u - ... would amplify errors of u by K/C (BdfIntegrator).
-bool IdaEngine::follows_at_once() const {
+bool IdaEngine::has_undamped_massless_parts() const {
   if (!consistent_.massless()) return false;
   const std::vector<linear::DofKind>& kinds = segment_.decision->system->kinds();
   return std::find(kinds.begin(), kinds.end(), linear::DofKind::damped) == kinds.end();
 }
 
 void IdaEngine::start(const engine::Segment& segment) {
-  grazes_.end(fallen_);
-  fallen_.clear();
+  graze_detector_.end(triggered_slots_);
+  triggered_slots_.clear();
   segment_ = segment;
-  touchable_.clear();
+  zero_start_guards_.clear();
   const decide::Decision& decision = *segment.decision;
-  consistently_ = accelerations_ || follows_at_once();
-  flight_ =
-      flights_.take(segment, [&](const Contact& contact) { return lowest_flight(contact, decision.u); });
+  makes_points_consistent_ = accelerations_ || has_undamped_massless_parts();
+  flight_ = flights_.take(segment, [&](const Contact& contact) { return flight_level(contact, decision.u); });
   if (flight_) return;
   std::vector<double> levels;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
@@ -110,27 +110,27 @@ void IdaEngine::start(const engine::Segment& segment) {
     // tolerance.
     if (guard.at_zero) level += 2.0 * std::abs(decision.guard(slot).value(motion));
     levels.push_back(level);
-    if (guard.at_zero && guard.kind != Guard::closing) add_touchable(slot);
+    if (guard.at_zero && guard.kind != Guard::closing) add_zero_start_guard(slot);
   }
-  grazes_.start(decision.guards, levels);
+  graze_detector_.start(decision.guards, levels);
   near_hits_.start(decision.guards, levels);
   turns_.start(decision, *segment.forcing);
-  watch_.start(decision.guards, decision.forms, std::move(levels));
-  if (!decision.jet.whole())
+  guard_monitor_.start(decision.guards, decision.forms, std::move(levels));
+  if (!decision.jet.is_complete())
     jet_ = jets_.expand(decision.system, *segment.forcing, decision.jet.t, decision.u, decision.v);
-  const motion::Jet& jet = decision.jet.whole() ? decision.jet : jet_;
-  remember(jet, bdf_.start(segment, jet, watch_));
+  const motion::Jet& jet = decision.jet.is_complete() ? decision.jet : jet_;
+  restart_history(jet, bdf_.start(segment, jet, guard_monitor_));
 }
 
 /// Stores the past that IDA was given, and the beginning, for the polynomials of the first steps.
-void IdaEngine::remember(const motion::Jet& jet, const RestartOrder& past) {
+void IdaEngine::restart_history(const motion::Jet& jet, const RestartOrder& past) {
   const decide::Decision& decision = *segment_.decision;
   const double t = jet.t;
   for (int i = past.steps; i > 0; --i) {
     const double x = -i * past.length;
     const auto along = [&](Eigen::Index p, Vector& places) {
       places.resize(jet.u.rows());
-      places_along(
+      displacement_derivatives(
           jet, p, x, consistent_.massless(),
           [&](Eigen::Index dof) { return model_.dofs[static_cast<std::size_t>(dof)].massless; }, places);
     };
@@ -138,7 +138,7 @@ void IdaEngine::remember(const motion::Jet& jet, const RestartOrder& past) {
     along(1, point_.v);
     along(2, point_.a);
     point_.forces.resize(jet.forces.rows());
-    on_polynomials(jet.forces, motion::Jet::orders, 0, x, point_.forces);
+    taylor_derivatives(jet.forces, motion::Jet::orders, 0, x, point_.forces);
     fill(t + x, point_, i == past.steps ? history_.restart(t + x) : history_.push(t + x, past.length));
   }
   const motion::Point point{decision.u, decision.v, jet.forces.col(0), jet.a()};
@@ -148,7 +148,7 @@ void IdaEngine::remember(const motion::Jet& jet, const RestartOrder& past) {
 void IdaEngine::evaluate(double t, motion::Point& point) {
   if (flight_) return flights_.motion().evaluate(t, point);
   bdf_.evaluate(t, point);
-  if (consistently_)
+  if (makes_points_consistent_)
     consistent_.make(segment_.decision->system, *segment_.forcing, t, point);
   else
     point.a.resize(0);  // its entries belong to another time
@@ -166,12 +166,12 @@ engine::StepFacts IdaEngine::facts() const {
   if (flight_) {
     const engine::StepFacts flight = flights_.motion().facts();
     facts.turning_points = flight.turning_points;
-    facts.radians = flight.radians;
+    facts.phase_angle = flight.phase_angle;
     return facts;
   }
   facts.turning_points = turns_.times();
-  facts.contact_turns = &turns_.turns();
-  facts.radians = std::numbers::pi * 5.0;
+  facts.contact_turning_points = &turns_.turning_points();
+  facts.phase_angle = std::numbers::pi * 5.0;
   return facts;
 }
 
@@ -198,21 +198,22 @@ engine::Step IdaEngine::advance() {
     return step;
   }
   bdf_.evaluate(bdf.end, point_);
-  if (consistently_) consistent_.make(segment_.decision->system, *segment_.forcing, bdf.end, point_);
+  if (makes_points_consistent_)
+    consistent_.make(segment_.decision->system, *segment_.forcing, bdf.end, point_);
   fill(bdf.end, point_, history_.push(bdf.end, bdf.length));
   history_.prepare(bdf.order);
   add_errors();
   step.resolution = motion::resolution_at(bdf.end, bdf.end - bdf.begin);
   const auto event = first_event(bdf, step.resolution);
   const double part = event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0;
-  grazes_.see(history_, part);
-  near_hits_.see(history_, part);
+  graze_detector_.update(history_, part);
+  near_hits_.update(history_, part);
   if (event) {
-    fallen_ = {event->slot};
+    triggered_slots_ = {event->slot};
     step.kind = engine::Step::Kind::event;
     step.end = event->time;
     step.triggered = {{contact::contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind,
-                       !watch_.armed(event->slot)}};
+                       !guard_monitor_.armed(event->slot)}};
   }
   turns_.find(history_, event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0);
   return step;
@@ -223,7 +224,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   const double h = step.end - step.begin;
   const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
   std::vector<Located> candidates;
-  for (const events::ZeroCrossing& fall : watch_.check(history_, 1.0))
+  for (const events::ZeroCrossing& fall : guard_monitor_.check(history_, 1.0))
     candidates.push_back({fall.slot, step.begin + fall.x * h});
   for (const decide::TriggeredGuard& fired : step.triggered)
     for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
@@ -234,9 +235,9 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
       if (same == candidates.end()) candidates.push_back({slot, step.root});
     }
   std::erase_if(candidates, [&](const Located& c) {
-    if (!only_touches(c.slot, (c.time - step.begin) / h)) return false;
-    watch_.wait(c.slot, allowance(c.slot));
-    if (!std::exchange(touched_, true))
+    if (!is_touch(c.slot, (c.time - step.begin) / h)) return false;
+    guard_monitor_.set_waiting(c.slot, allowance(c.slot));
+    if (!std::exchange(touch_warned_, true))
       warnings.push_back(fmt::format(
           "contact '{}': its {} returns to zero at {:.9g} and sinks below it by less than its steps may be "
           "off; "
@@ -276,11 +277,12 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
 /// its own spring). Its depth below zero is then the error of the steps. A gap that opened and returns to zero is a
 /// landing, however short its flight was. If friction rises with the slip rate, a sinking guard continues against
 /// reversed friction, and no force brings it back.
-bool IdaEngine::only_touches(std::size_t slot, double x) const {
+bool IdaEngine::is_touch(std::size_t slot, double x) const {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
-  if (guard.kind == Guard::closing || !guard.at_zero || !watch_.armed(slot)) return false;
+  if (guard.kind == Guard::closing || !guard.at_zero || !guard_monitor_.armed(slot)) return false;
   const std::size_t contact = contact::contact_of_guard(slot);
-  if (model_.contacts[contact].friction.rises() && slip_sign(segment_.decision->mode[contact].state) != 0)
+  if (model_.contacts[contact].friction.is_rate_strengthening() &&
+      slip_sign(segment_.decision->states[contact].state) != 0)
     return false;
   const events::Bernstein p = history_.polynomial(slot), slope = p.derivative();
   const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
@@ -289,7 +291,7 @@ bool IdaEngine::only_touches(std::size_t slot, double x) const {
   return depth <= allowance(slot);
 }
 
-void IdaEngine::add_touchable(std::size_t slot) {
+void IdaEngine::add_zero_start_guard(std::size_t slot) {
   const decide::Decision& decision = *segment_.decision;
   const std::size_t contact = contact::contact_of_guard(slot);
   const GuardForm& guard = decision.guard(slot);
@@ -297,16 +299,17 @@ void IdaEngine::add_touchable(std::size_t slot) {
   const bool by_velocity = form.vn != 0.0 || form.vt != 0.0;
   const bool known = guard.is_linear() && form.limit == 0.0 && form.limit_rate == 0.0 && form.an == 0.0 &&
                      form.at == 0.0 &&
-                     !(by_velocity && decide::carries_massless(model_, model_.contacts[contact]));
-  touchable_.push_back({slot, engine::tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
+                     !(by_velocity && decide::acts_on_massless(model_, model_.contacts[contact]));
+  zero_start_guards_.push_back(
+      {slot, engine::tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
 
 /// Adds the correction of each guard that began at zero. A step keeps its tolerance, so one tolerance is the upper
 /// limit; it is also used if the correction is unknown.
 void IdaEngine::add_errors() {
-  if (touchable_.empty()) return;
+  if (zero_start_guards_.empty()) return;
   bdf_.keep_correction();
-  for (Touchable& guard : touchable_) {
+  for (ZeroStartGuard& guard : zero_start_guards_) {
     const double change = guard.known
                               ? std::abs(segment_.decision->form(guard.slot)
                                              .rate(bdf_.correction(contact::contact_of_guard(guard.slot))))
@@ -317,8 +320,8 @@ void IdaEngine::add_errors() {
 
 /// Possible error of a guard since the segment began: that of its steps, plus one tolerance for the last value.
 double IdaEngine::allowance(std::size_t slot) const {
-  const auto guard = std::lower_bound(touchable_.begin(), touchable_.end(), slot,
-                                      [](const Touchable& g, std::size_t s) { return g.slot < s; });
+  const auto guard = std::lower_bound(zero_start_guards_.begin(), zero_start_guards_.end(), slot,
+                                      [](const ZeroStartGuard& g, std::size_t s) { return g.slot < s; });
   return guard->off + guard->tolerance;
 }
 
@@ -336,23 +339,24 @@ void IdaEngine::integrate(double from, double to, motion::WorkIntegrals& works) 
     }
   }
   powers_.add(integrals_.data(), 1.0, works);
-  const contact::ContactStates& mode = segment_.decision->mode;
-  if (std::none_of(mode.begin(), mode.end(), [](const ContactState& s) { return s.state == State::inside; }))
+  const contact::ContactStates& states = segment_.decision->states;
+  if (std::none_of(states.begin(), states.end(),
+                   [](const ContactState& s) { return s.state == State::inside; }))
     return;
   motion::Point first, last;
   bdf_.evaluate(from, first);
   bdf_.evaluate(to, last);
-  for (std::size_t k = 0; k < mode.size(); ++k) {
+  for (std::size_t k = 0; k < states.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     works.damping +=
-        contact::inside_loss(contact, mode[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
+        contact::inside_loss(contact, states[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
   }
 }
 
 engine::StepperReport IdaEngine::report() {
   bdf_.count();
   engine::StepperReport report{counters, warnings, {}, near_hits_.list()};
-  if (const auto& first = grazes_.first())
+  if (const auto& first = graze_detector_.first())
     report.graze = {first->t, static_cast<int>(contact::contact_of_guard(first->slot)),
                     contact::to_string(first->guard)};
   return report;
@@ -361,7 +365,8 @@ engine::StepperReport IdaEngine::report() {
 /// One tolerance; for a guard that started at zero and never clearly rose, the event is triggered at minus its level.
 double IdaEngine::guard_error(const GuardForm& guard, const ContactMotion& motion,
                               std::size_t contact) const {
-  return engine::tolerance(guard, motion, tolerance_) + (flight_ ? 0.0 : watch_.leeway(contact, guard));
+  return engine::tolerance(guard, motion, tolerance_) +
+         (flight_ ? 0.0 : guard_monitor_.allowed_depth(contact, guard));
 }
 
 }  // namespace signorini::ida

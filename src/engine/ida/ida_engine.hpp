@@ -7,13 +7,13 @@
 #pragma once
 
 #include "engine/events/active_guards.hpp"
-#include "engine/events/near_events.hpp"
+#include "engine/events/graze_detector.hpp"
 #include "engine/events/step_history.hpp"
 #include "engine/ida/bdf_integrator.hpp"
 #include "engine/ida/locate.hpp"
 #include "engine/ida/short_flight.hpp"
 #include "engine/stepper.hpp"
-#include "motion/consistent.hpp"
+#include "motion/consistent_motion.hpp"
 
 namespace signorini::ida {
 
@@ -44,20 +44,20 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
     double time;
   };
   /// A guard that began at zero, other than a closing gap.
-  struct Touchable {
+  struct ZeroStartGuard {
     std::size_t slot;
     double tolerance;  // tolerance of its value
     bool known;        // its change in a step follows from N, T, u and v
     double off;        // possible error of the steps so far
   };
-  [[nodiscard]] bool follows_at_once() const;
+  [[nodiscard]] bool has_undamped_massless_parts() const;
   void fill(double t, const motion::Point& point, double* out);
-  void remember(const motion::Jet& jet, const RestartOrder& past);
-  [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
+  void restart_history(const motion::Jet& jet, const RestartOrder& past);
+  [[nodiscard]] double flight_level(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
   [[nodiscard]] bool opens_instead(const Located& slip, const Located& opening, double x, double h) const;
-  [[nodiscard]] bool only_touches(std::size_t slot, double x) const;
-  void add_touchable(std::size_t slot);
+  [[nodiscard]] bool is_touch(std::size_t slot, double x) const;
+  void add_zero_start_guard(std::size_t slot);
   void add_errors();
   [[nodiscard]] double allowance(std::size_t slot) const;
 
@@ -68,22 +68,22 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   const double flight_tolerances_;
   motion::Powers powers_;
   BdfIntegrator bdf_;
-  HistoryTurns turns_;
+  HistoryTurningPoints turns_;
   events::StepHistory history_;
-  events::Watch watch_;
-  events::Grazes grazes_;
-  events::NearHits near_hits_;
-  std::vector<std::size_t> fallen_;  // guards whose zero crossings ended the segment
+  events::GuardMonitor guard_monitor_;
+  events::GrazeDetector graze_detector_;
+  events::NearHitDetector near_hits_;
+  std::vector<std::size_t> triggered_slots_;  // guards whose zero crossings ended the segment
   ShortFlight flights_;
   std::optional<engine::Step> flight_;  // the step taken by a short flight
   engine::Segment segment_;
   motion::Jet jet_;  // whole jet, if the decision's jet is not
   motion::Point point_;
   std::vector<double> integrals_;
-  bool accelerations_ = false;        // at least one guard needs accelerations
-  bool consistently_ = false;         // points of the segment are made consistent
-  std::vector<Touchable> touchable_;  // ascending slots
-  bool touched_ = false;              // the warning has been issued
+  bool accelerations_ = false;                     // at least one guard needs accelerations
+  bool makes_points_consistent_ = false;           // points of the segment are made consistent
+  std::vector<ZeroStartGuard> zero_start_guards_;  // ascending slots
+  bool touch_warned_ = false;                      // the warning has been issued
 };
 
 }  // namespace signorini::ida

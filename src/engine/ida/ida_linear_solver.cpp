@@ -18,16 +18,16 @@ IdaLinearSolver::IdaLinearSolver(const Model& model, const linear::SystemMatrice
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(layout.dofs)),
       rhs_(static_cast<std::size_t>(matrix_.size())) {
-  if (linear::is_economical(model, structure, matrix_.shared_rows()))
-    condensed_rows_ = linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
+  if (linear::saves_factorisations(model, structure, matrix_.redundant_rows()))
+    condensed_rows_ = linear::CondensedRows::create(model, structure, linear::CondensedMatrix::max_width);
   if (condensed_rows_) condensed_.emplace(*condensed_rows_);
 }
 
-void IdaLinearSolver::set_mode(const contact::ContactStates& mode) {
-  rows_ = linear::rows_of(model_, mode);
+void IdaLinearSolver::set_contact_states(const contact::ContactStates& states) {
+  rows_ = linear::rows_of(model_, states);
   fresh_ = true;
-  if (condensed_rows_) condensed_rows_->put(rows_);
-  pinned_ = linear::pinned_by(model_, rows_);
+  if (condensed_rows_) condensed_rows_->set_rows(rows_);
+  pinned_ = linear::prescribed_dofs(model_, rows_);
   held_.resize(pinned_.size());
 }
 
@@ -53,7 +53,7 @@ void IdaLinearSolver::solve(const double* b, double* x) {
   }
   const linear::Unknowns at{n, rows_.size(), layout_.contacts};
   for (std::size_t i = 0; i < held_.size(); ++i) {
-    const linear::Pinned& p = pinned_[i];
+    const linear::PrescribedDof& p = pinned_[i];
     held_[i] =
         (p.normal * rhs_[at.normal(p.contact)] + p.tangent * rhs_[at.tangent(p.contact)]) / (cj_ * p.divisor);
   }

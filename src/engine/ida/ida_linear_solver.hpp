@@ -41,17 +41,17 @@ class IdaLinearSolver {
   IdaLinearSolver(const Model& model, const linear::SystemMatrices& structure, const Layout& layout);
 
   /// New contact state: the next factorisation chooses new pivots.
-  void set_mode(const contact::ContactStates& mode);
+  void set_contact_states(const contact::ContactStates& states);
   void set_cj(double cj) { cj_ = cj; }
   [[nodiscard]] double cj() const { return cj_; }
   [[nodiscard]] bool factor();
   void solve(const double* b, double* x);
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
-  [[nodiscard]] const linear::RedundantRows& shared_rows() const { return matrix_.shared_rows(); }
+  [[nodiscard]] const linear::RedundantRows& shared_rows() const { return matrix_.redundant_rows(); }
   /// Replaces a nonlinear row by its tangent.
   void linearise(std::size_t contact, const Form& tangent) {
     rows_[contact].tangent = tangent;
-    if (condensed_rows_) condensed_rows_->put(contact, rows_[contact]);
+    if (condensed_rows_) condensed_rows_->set_rows(contact, rows_[contact]);
   }
   [[nodiscard]] long factorisations() const {
     return matrix_.klu().factorisations + (condensed_ ? condensed_->factorisations : 0);
@@ -72,7 +72,7 @@ class IdaLinearSolver {
   std::vector<Rows> rows_;
   std::vector<linear::Weights> weights_;
   // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
-  std::vector<linear::Pinned> pinned_;
+  std::vector<linear::PrescribedDof> pinned_;
   std::vector<double> held_;  // values of the held accelerations
   std::vector<double> rhs_;
   double cj_ = 1.0;

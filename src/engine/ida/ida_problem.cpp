@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 #include "contact/curved_surface.hpp"
 #include "contact/friction.hpp"
 #include "decide/guard_signs.hpp"
@@ -30,9 +30,10 @@ SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y
                                      const double* yp, double* r, double* u) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const base::Four off = base::lanes_at<base::Four>(yp + i).v - base::lanes_at<base::Four>(v + i).v;
-    base::lanes_at<base::Four>(r + i).v = off;
-    base::lanes_at<base::Four>(u + i).v = base::lanes_at<base::Four>(y + i).v - step * off;
+    const base::Double4 off =
+        base::lanes_at<base::Double4>(yp + i).v - base::lanes_at<base::Double4>(v + i).v;
+    base::lanes_at<base::Double4>(r + i).v = off;
+    base::lanes_at<base::Double4>(u + i).v = base::lanes_at<base::Double4>(y + i).v - step * off;
   }
   for (; i < n; ++i) {
     r[i] = yp[i] - v[i];
@@ -45,10 +46,11 @@ SIGNORINI_WIDE_LANES void weigh(std::size_t n, double rtol, const double* factor
                                 const double* y, double* w) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const base::Four size = base::lanes_at<base::Four>(y + i).v < 0.0 ? -base::lanes_at<base::Four>(y + i).v
-                                                                      : base::lanes_at<base::Four>(y + i).v;
-    base::lanes_at<base::Four>(w + i).v =
-        base::lanes_at<base::Four>(factor + i).v / (rtol * size + base::lanes_at<base::Four>(atol + i).v);
+    const base::Double4 size = base::lanes_at<base::Double4>(y + i).v < 0.0
+                                   ? -base::lanes_at<base::Double4>(y + i).v
+                                   : base::lanes_at<base::Double4>(y + i).v;
+    base::lanes_at<base::Double4>(w + i).v = base::lanes_at<base::Double4>(factor + i).v /
+                                             (rtol * size + base::lanes_at<base::Double4>(atol + i).v);
   }
   for (; i < n; ++i) w[i] = factor[i] / (rtol * std::abs(y[i]) + atol[i]);
 }
@@ -62,7 +64,7 @@ IdaProblem::IdaProblem(const Model& model, const linear::SystemMatrices& structu
       layout_(model),
       linear_(model, structure, layout_),
       tolerance_(tolerance),
-      momentum_(model, structure),
+      structural_forces_(model, structure),
       forces_(layout_.massive < layout_.dofs ? static_cast<std::size_t>(layout_.dofs) : 0),
       u_(static_cast<std::size_t>(layout_.dofs)) {
   const auto size = static_cast<std::size_t>(layout_.size());
@@ -93,8 +95,9 @@ IdaProblem::IdaProblem(const Model& model, const linear::SystemMatrices& structu
     factor_.push_back(std::sqrt(static_cast<double>(size) / members[group[i]]) / local_part);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
-    if (contact.takes_impulses()) stop(contact.normal, layout_.normal(k));
-    if (contact.takes_impulses() || contact.sticks_rigidly()) stop(contact.tangent, layout_.tangent(k));
+    if (contact.takes_impulses()) add_stopped_mass(contact.normal, layout_.normal(k));
+    if (contact.takes_impulses() || contact.sticks_rigidly())
+      add_stopped_mass(contact.tangent, layout_.tangent(k));
   }
   for (int i = 0; i < layout_.dofs; ++i) {
     if (layout_.velocity[static_cast<std::size_t>(i)] >= 0) continue;
@@ -115,30 +118,31 @@ IdaProblem::IdaProblem(const Model& model, const linear::SystemMatrices& structu
   }
 }
 
-void IdaProblem::stop(const Combination& form, int force) {
+void IdaProblem::add_stopped_mass(const Combination& form, int force) {
   double compliance = 0.0;
   for (const auto& [dof, factor] : form.terms)
     if (const double mass = model_.mass.coeff(dof, dof); mass > 0.0) compliance += factor * factor / mass;
-  if (compliance > 0.0) stops_.push_back({&form, force, 1.0 / compliance});
+  if (compliance > 0.0) stopped_masses_.push_back({&form, force, 1.0 / compliance});
 }
 
-void IdaProblem::start(const engine::Segment& segment, const events::Watch& watch) {
+void IdaProblem::start(const engine::Segment& segment, const events::GuardMonitor& watch) {
   segment_ = segment;
-  watch_ = &watch;
-  linear_.set_mode(segment.decision->mode);
+  guard_monitor_ = &watch;
+  linear_.set_contact_states(segment.decision->states);
   shared_ = linear_.shared_rows().in_force(linear_.rows());
   nonlinear_.clear();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (contact::slips_nonlinearly(model_.contacts[k], segment.decision->mode[k].state))
+    if (contact::slips_nonlinearly(model_.contacts[k], segment.decision->states[k].state))
       nonlinear_.push_back(k);
-  knee_ = std::any_of(nonlinear_.begin(), nonlinear_.end(),
-                      [&](std::size_t k) { return model_.contacts[k].friction.rises(); });
+  rate_dependent_ = std::any_of(nonlinear_.begin(), nonlinear_.end(), [&](std::size_t k) {
+    return model_.contacts[k].friction.is_rate_strengthening();
+  });
 }
 
 void IdaProblem::linearise(double t, const double* y, const double* yp) {
   for (const std::size_t k : nonlinear_)
     linear_.linearise(
-        k, contact::sliding_row_tangent(model_.contacts[k], slip_sign(segment_.decision->mode[k].state),
+        k, contact::sliding_row_tangent(model_.contacts[k], slip_sign(segment_.decision->states[k].state),
                                         motion(k, t, y, yp)));
 }
 
@@ -149,7 +153,7 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   ContactMotion m;
   m.N = y[layout_.normal(k)];
   m.T = y[layout_.tangent(k)];
-  contact::set_place(contact, y, forcing.surface(k, t, 0), m);
+  contact::set_displacement(contact, y, forcing.surface(k, t, 0), m);
   if (step != 0.0) {
     const auto off = by_dof([&](std::size_t i, int v) { return v >= 0 ? yp[i] - y[v] : 0.0; });
     m.gap -= step * contact.normal.dot(off);
@@ -201,17 +205,17 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
   if (all_massive) {
     const double *v = y + n, *a = yp + n;
     shift_back(n, step, y, v, yp, r, u_.data());
-    for (std::size_t i = 0; i < n; ++i) momentum_.put(i, a[i], v[i], u_[i]);
+    for (std::size_t i = 0; i < n; ++i) structural_forces_.put(i, a[i], v[i], u_[i]);
   } else {
     for (std::size_t i = 0; i < n; ++i) {
       const int v = layout_.velocity[i];
       if (v >= 0)
-        momentum_.put(i, yp[v], y[v], y[i] - step * (yp[i] - y[v]));
+        structural_forces_.put(i, yp[v], y[v], y[i] - step * (yp[i] - y[v]));
       else
-        momentum_.put(i, 0.0, yp[i], y[i]);
+        structural_forces_.put(i, 0.0, yp[i], y[i]);
     }
   }
-  momentum_.apply(forces);
+  structural_forces_.apply(forces);
   segment_.forcing->add_load(t, 0, forces, -1.0);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const int in_N = layout_.normal(k), in_T = layout_.tangent(k);
@@ -220,8 +224,8 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     const ContactMotion m = motion(k, t, y, yp, step);
     if (const Contact& contact = model_.contacts[k]; contact.curved_surface())
       contact.body_tangent().add_to(
-          forces, contact::bowl_force(contact, y[in_N],
-                                      contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
+          forces, contact::restoring_force(
+                      contact, y[in_N], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
     r[in_N] = linear_.rows()[k].normal.value(m);
     r[in_T] = linear_.rows()[k].tangent.value(m);
   }
@@ -233,7 +237,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     if (v >= 0) r[i] = yp[i] - y[v];
   }
   for (const std::size_t k : nonlinear_) {
-    const int s = slip_sign(segment_.decision->mode[k].state);
+    const int s = slip_sign(segment_.decision->states[k].state);
     r[layout_.tangent(k)] = contact::sliding_row_value(model_.contacts[k], s, motion(k, t, y, yp));
   }
 }
@@ -253,13 +257,13 @@ void IdaProblem::weights(const double* y, double rate, double* w) const {
     };
     limit(layout_.normal(k), contact.normal_stiffness * gap);
     limit(layout_.tangent(k), contact.tangential_stiffness.value_or(0.0) * ut);
-    if (contact.sliding_point() && contact.friction.rises()) {
+    if (contact.sliding_point() && contact.friction.is_rate_strengthening()) {
       const ShearElement& element = *contact.sliding_point();
       limit(layout_.tangent(k), above_sharp_newton * (element.stiffness + element.damping * rate) *
                                     (element.body.magnitude(y) + contact.tangent.magnitude(y)));
     }
   }
-  for (const Stop& stop : stops_) {
+  for (const StoppedMass& stop : stopped_masses_) {
     const auto i = static_cast<std::size_t>(stop.force);
     const auto velocity = by_dof([&](std::size_t, int v) { return v >= 0 ? y[v] : 0.0; });
     const double rounding = rounding_floor * stop.mass * rate * stop.form->magnitude(velocity);
@@ -283,7 +287,7 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
     greatest = std::max(greatest, force);
     length = std::max(length, force / own.stiffness);
   }
-  const double part = rounding::of_many / local_part;
+  const double part = rounding::many_operations / local_part;
   for (const Massless& own : massless_) {
     limit(own.dof, part * length);
     for (const auto& [unknown, factor] : own.forces) limit(unknown, part * factor * greatest);
@@ -300,7 +304,7 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
       const Guard kind = segment_.decision->guards[slot].kind;
       const Form& form = forms[i].form;
       // IDA does not interpolate accelerations; the polynomial check examines guards that contain one.
-      if (kind == Guard::none || form.an != 0.0 || !watch_->armed(slot)) {
+      if (kind == Guard::none || form.an != 0.0 || !guard_monitor_->armed(slot)) {
         g[slot] = 1.0;
         continue;
       }
@@ -327,17 +331,17 @@ void IdaProblem::fill(const motion::Jet& jet, std::size_t order, double* y) cons
     y[layout_.force(static_cast<std::size_t>(i))] = jet.forces(i, o);
 }
 
-void IdaProblem::along(const motion::Jet& jet, double x, int derivative, double* y) const {
+void IdaProblem::evaluate_jet(const motion::Jet& jet, double x, int derivative, double* y) const {
   const Eigen::Index p = derivative, n = layout_.dofs;
   const auto is_massless = [&](Eigen::Index i) { return layout_.velocity[static_cast<std::size_t>(i)] < 0; };
   const bool massless = layout_.massive < layout_.dofs;
-  places_along(jet, p, x, massless, is_massless, Eigen::Map<Vector>(y, n));
+  displacement_derivatives(jet, p, x, massless, is_massless, Eigen::Map<Vector>(y, n));
   Vector rates(n);
-  places_along(jet, p + 1, x, massless, is_massless, rates);
+  displacement_derivatives(jet, p + 1, x, massless, is_massless, rates);
   for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
     if (const int v = layout_.velocity[i]; v >= 0) y[v] = rates[static_cast<Eigen::Index>(i)];
   Vector forces(jet.forces.rows());
-  on_polynomials(jet.forces, motion::Jet::orders, p, x, forces);
+  taylor_derivatives(jet.forces, motion::Jet::orders, p, x, forces);
   for (Eigen::Index i = 0; i < forces.size(); ++i) y[layout_.force(static_cast<std::size_t>(i))] = forces[i];
 }
 
@@ -347,7 +351,7 @@ double IdaProblem::imbalance(double t, const double* y, const double* yp) const 
   point.a.setZero(layout_.dofs);
   for (Eigen::Index i = 0; i < point.a.size(); ++i)
     if (const int v = layout_.velocity[static_cast<std::size_t>(i)]; v >= 0) point.a[i] = yp[v];
-  return signorini::motion::imbalance(model_, structure_, *segment_.forcing, t, point);
+  return signorini::motion::equilibrium_residual(model_, structure_, *segment_.forcing, t, point);
 }
 
 void IdaProblem::read(const double* y, const double* yp, motion::Point& point) const {

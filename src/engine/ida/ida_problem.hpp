@@ -18,7 +18,7 @@ class IdaProblem {
  public:
   IdaProblem(const Model& model, const linear::SystemMatrices& structure, const engine::Tolerance& tolerance);
 
-  void start(const engine::Segment& segment, const events::Watch& watch);
+  void start(const engine::Segment& segment, const events::GuardMonitor& watch);
 
   /// r = F(t, y, y') with rows combined for cj = 1/step; step = 0: the rows themselves.
   void residual(double t, double step, const double* y, const double* yp, double* r);
@@ -31,7 +31,7 @@ class IdaProblem {
   /// Scaled guards, one for each slot; masked guards are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;
   /// y (derivative = 0) or y' (1) on the jet's polynomials, x after the jet's instant.
-  void along(const motion::Jet& jet, double x, int derivative, double* y) const;
+  void evaluate_jet(const motion::Jet& jet, double x, int derivative, double* y) const;
   /// y^(order) from a jet.
   void fill(const motion::Jet& jet, std::size_t order, double* y) const;
   void read(const double* y, const double* yp, motion::Point& point) const;
@@ -40,7 +40,7 @@ class IdaProblem {
   [[nodiscard]] std::size_t slots() const { return contact::guard_count(model_.contacts.size()); }
 
   /// True if a contact slips whose friction rises with its slip rate.
-  [[nodiscard]] bool has_knee() const { return knee_; }
+  [[nodiscard]] bool has_rate_dependent_friction() const { return rate_dependent_; }
 
   /// N, T, gap, ut, vn, vt of a contact for a change of the unknowns; velocities without those of massless parts.
   [[nodiscard]] ContactMotion change(std::size_t contact, const double* of) const;
@@ -73,7 +73,7 @@ class IdaProblem {
   void widen_massless(const double* y, double* w) const;
 
   /// Adds an entry to stops_ if the form moves mass.
-  void stop(const Combination& form, int force);
+  void add_stopped_mass(const Combination& form, int force);
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
@@ -81,7 +81,7 @@ class IdaProblem {
   IdaLinearSolver linear_;
   const engine::Tolerance tolerance_;
   engine::Segment segment_;
-  const events::Watch* watch_ = nullptr;
+  const events::GuardMonitor* guard_monitor_ = nullptr;
   // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of the contact's degrees
   // of freedom another, all others one more, and the mean of every group counts in full: a large structure does not
   // dilute the few contacts.
@@ -97,16 +97,16 @@ class IdaProblem {
   std::vector<Massless> massless_;
   // Forces without springs stop a mass: the rounding of a velocity in the last step is corrected within one step, by a
   // force m v eps / h. No tolerance below that can be met, and a smaller step would only raise it.
-  struct Stop {
+  struct StoppedMass {
     const Combination* form;
     int force;
     double mass;  ///< moved by the form, from the diagonal of M
   };
-  std::vector<Stop> stops_;
+  std::vector<StoppedMass> stopped_masses_;
   std::vector<linear::SharedForces> shared_;  // those of this segment
   std::vector<std::size_t> nonlinear_;  // contacts in this segment that slip with rate-dependent friction
-  bool knee_ = false;
-  linear::StructuralForces momentum_;
+  bool rate_dependent_ = false;
+  linear::StructuralForces structural_forces_;
   std::vector<double> forces_;  // forces on all degrees of freedom, if some have no mass
   std::vector<double> u_;       // displacements in a residual
 };

@@ -61,37 +61,37 @@ bool goes_one_way(const events::Bernstein& p) {
   return !(rises && falls);
 }
 
-constexpr std::size_t slide_place =
-    static_cast<std::size_t>(std::find(events::TurningPoints::watched.begin(),
-                                       events::TurningPoints::watched.end(), motion::ContactSeries::slide) -
-                             events::TurningPoints::watched.begin());
+constexpr std::size_t slide_place = static_cast<std::size_t>(
+    std::find(events::TurningPointDetector::watched_fields.begin(),
+              events::TurningPointDetector::watched_fields.end(), motion::ContactSeries::slide) -
+    events::TurningPointDetector::watched_fields.begin());
 
 }  // namespace
 
-void HistoryTurns::start(const decide::Decision& decision, const motion::Forcing& forcing) {
-  turns_.start(decision);
+void HistoryTurningPoints::start(const decide::Decision& decision, const motion::Forcing& forcing) {
+  detector_.start(decision);
   forcing_ = &forcing;
-  carried_.clear();
+  moving_surfaces_.clear();
   for (std::size_t c = 0; c < contacts_; ++c)
-    if (forcing.moves(c)) carried_.push_back(c);
+    if (forcing.surface_moves(c)) moving_surfaces_.push_back(c);
 }
 
-void HistoryTurns::find(const events::StepHistory& history, double x_end) {
-  turns_.open();
+void HistoryTurningPoints::find(const events::StepHistory& history, double x_end) {
+  detector_.open();
   // Nearly always all values stay within their earlier ranges.
-  const double *last = history.lasts() + first_, *bend = history.bends() + first_;
-  const events::TurningPoints::Range* seen = turns_.ranges();
+  const double *last = history.last_values() + first_, *bend = history.variation_bounds() + first_;
+  const events::TurningPointDetector::Range* seen = detector_.ranges();
   const std::size_t shown = count();
   for (std::size_t i = 0; i < shown; ++i)
     if (!(last[i] + bend[i] <= seen[i].greatest) || !(last[i] - bend[i] >= seen[i].least))
-      look_at(i, history, x_end);
-  for (const std::size_t c : carried_) look_at_slide(c, history, x_end);
-  turns_.close();
+      search(i, history, x_end);
+  for (const std::size_t c : moving_surfaces_) search_slide(c, history, x_end);
+  detector_.close();
 }
 
-void HistoryTurns::look_at_slide(std::size_t c, const events::StepHistory& history, double x_end) {
+void HistoryTurningPoints::search_slide(std::size_t c, const events::StepHistory& history, double x_end) {
   const events::Bernstein p =
-      history.polynomial(first_ + events::TurningPoints::watched.size() * c + slide_place);
+      history.polynomial(first_ + events::TurningPointDetector::watched_fields.size() * c + slide_place);
   const std::array<double, events::max_degree + 1> a = powers_of(p);
   const double h = history.end() - history.begin();
   const std::size_t count = forcing_->surface_terms(c);
@@ -100,21 +100,23 @@ void HistoryTurns::look_at_slide(std::size_t c, const events::StepHistory& histo
   series_.assign(std::max(count, events::z(p.degree) + 1), 0.0);
   std::copy_n(a.begin(), events::z(p.degree) + 1, series_.begin());
   for (std::size_t k = 0; k < count; ++k) series_[k] -= of_surface_[k];
-  turns_.find(c, motion::ContactSeries::slide, series_.data(), series_.size() - 1, x_end, history.begin(), h);
+  detector_.find(c, motion::ContactSeries::slide, series_.data(), series_.size() - 1, x_end, history.begin(),
+                 h);
 }
 
-void HistoryTurns::look_at(std::size_t shown, const events::StepHistory& history, double x_end) {
-  const std::size_t i = first_ + shown, c = shown / events::TurningPoints::watched.size();
+void HistoryTurningPoints::search(std::size_t shown, const events::StepHistory& history, double x_end) {
+  const std::size_t i = first_ + shown, c = shown / events::TurningPointDetector::watched_fields.size();
   const motion::ContactSeries::Field field =
-      events::TurningPoints::watched[shown % events::TurningPoints::watched.size()];
-  if (field == motion::ContactSeries::slide && forcing_->moves(c)) return;
+      events::TurningPointDetector::watched_fields[shown %
+                                                   events::TurningPointDetector::watched_fields.size()];
+  if (field == motion::ContactSeries::slide && forcing_->surface_moves(c)) return;
   const double last = history.last(i);
-  if (x_end == 1.0 && history.clearly_goes_one_way(i)) return turns_.see(c, field, last);
+  if (x_end == 1.0 && history.clearly_monotone(i)) return detector_.extend_range(c, field, last);
   const events::Bernstein p = history.polynomial(i);
-  if (goes_one_way(p)) return turns_.see(c, field, x_end == 1.0 ? last : p.value(x_end));
+  if (goes_one_way(p)) return detector_.extend_range(c, field, x_end == 1.0 ? last : p.value(x_end));
   const std::array<double, events::max_degree + 1> a = powers_of(p);
-  turns_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
-              history.end() - history.begin());
+  detector_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
+                 history.end() - history.begin());
 }
 
 }  // namespace signorini::ida

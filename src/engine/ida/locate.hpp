@@ -12,7 +12,7 @@
 #include "engine/events/step_history.hpp"
 #include "engine/events/turning_points.hpp"
 #include "engine/ida/bdf_integrator.hpp"
-#include "motion/consistent.hpp"
+#include "motion/consistent_motion.hpp"
 #include "motion/forcing.hpp"
 
 namespace signorini::ida {
@@ -30,29 +30,33 @@ namespace signorini::ida {
 //
 // Searched only if a polynomial may leave its earlier range and is not monotone (by its Bernstein coefficients).
 
-class HistoryTurns {
+class HistoryTurningPoints {
  public:
-  /// The scalars of the history from `first` on are those of the contacts, in the order of TurningPoints::watched.
-  HistoryTurns(std::size_t contacts, std::size_t first)
-      : contacts_(contacts), first_(first), turns_(contacts) {}
+  /// The scalars of the history from `first` on are those of the contacts, in the order of TurningPointDetector::watched.
+  HistoryTurningPoints(std::size_t contacts, std::size_t first)
+      : contacts_(contacts), first_(first), detector_(contacts) {}
 
-  [[nodiscard]] std::size_t count() const { return events::TurningPoints::watched.size() * contacts_; }
+  [[nodiscard]] std::size_t count() const {
+    return events::TurningPointDetector::watched_fields.size() * contacts_;
+  }
   /// The forcing must outlive the segment.
   void start(const decide::Decision& decision, const motion::Forcing& forcing);
   /// Examines the part [0, x_end] of the last step. On a moving surface the history contains t.u in place of ut.
   void find(const events::StepHistory& history, double x_end);
-  [[nodiscard]] const std::vector<events::TurningPoints::Turn>& turns() const { return turns_.turns(); }
+  [[nodiscard]] const std::vector<events::TurningPointDetector::TurningPoint>& turning_points() const {
+    return detector_.turning_points();
+  }
   /// Times of the turning points of the last step, ascending.
-  [[nodiscard]] const std::vector<double>& times() const { return turns_.times(); }
+  [[nodiscard]] const std::vector<double>& times() const { return detector_.times(); }
 
  private:
-  void look_at(std::size_t shown, const events::StepHistory& history, double x_end);
-  void look_at_slide(std::size_t contact, const events::StepHistory& history, double x_end);
+  void search(std::size_t shown, const events::StepHistory& history, double x_end);
+  void search_slide(std::size_t contact, const events::StepHistory& history, double x_end);
 
   std::size_t contacts_, first_;
-  events::TurningPoints turns_;
+  events::TurningPointDetector detector_;
   const motion::Forcing* forcing_ = nullptr;
-  std::vector<std::size_t> carried_;  // contacts whose surface moves
+  std::vector<std::size_t> moving_surfaces_;  // contacts whose surface moves
   std::vector<double> series_, of_surface_;
 };
 

@@ -24,10 +24,10 @@ constexpr Stability stability[] = {{5, 51.84}, {4, 73.35}, {3, 86.03}};
 
 }  // namespace
 
-Order choose_order(const Model& model, const RunSpec& run) {
+OrderChoice choose_order(const Model& model, const RunSpec& run) {
   if (run.max_order) return {*run.max_order, "as given"};
   if (run.rtol <= loose) return {5, "auto: at this tolerance the steps resolve the highest modes"};
-  const double ratio = model::least_damping_ratio(model);
+  const double ratio = model::min_damping_ratio(model);
   int greatest = 2;
   for (const Stability& s : stability) {
     if (ratio < std::cos(s.angle * std::numbers::pi / 180.0)) continue;

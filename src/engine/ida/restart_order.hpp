@@ -30,11 +30,11 @@ namespace signorini::ida {
 // contribute to the damping beta K. Source of the angles: Hairer, Wanner, Solving Ordinary Differential Equations II,
 // V.2.
 
-struct Order {
-  int greatest = 5;
+struct OrderChoice {
+  int max_order = 5;
   std::string reason;
 };
-[[nodiscard]] Order choose_order(const Model& model, const RunSpec& run);
+[[nodiscard]] OrderChoice choose_order(const Model& model, const RunSpec& run);
 
 struct RestartOrder {
   int steps = 0;        ///< q; 0: IDA begins at order one
@@ -46,7 +46,7 @@ struct RestartOrder {
 
 /// d^p/dx^p of sum_k row[k] x^k / k!, k up to `last`.
 template <class Row>
-[[nodiscard]] double on_polynomial(const Row& row, Eigen::Index last, Eigen::Index p, double x) {
+[[nodiscard]] double taylor_derivative(const Row& row, Eigen::Index last, Eigen::Index p, double x) {
   double sum = 0.0;
   for (Eigen::Index k = last; k >= p; --k) sum = row[k] + sum * x / static_cast<double>(k - p + 1);
   return sum;
@@ -57,8 +57,8 @@ template <class Row>
 }
 
 /// Same for all rows, where `last` is that of every row.
-inline void on_polynomials(const Eigen::MatrixXd& rows, Eigen::Index last, Eigen::Index p, double x,
-                           Eigen::Ref<Vector> sums) {
+inline void taylor_derivatives(const Eigen::MatrixXd& rows, Eigen::Index last, Eigen::Index p, double x,
+                               Eigen::Ref<Vector> sums) {
   sums = rows.col(last);
   for (Eigen::Index k = last - 1; k >= p; --k) sums = rows.col(k) + sums * x / static_cast<double>(k - p + 1);
 }
@@ -66,12 +66,12 @@ inline void on_polynomials(const Eigen::MatrixXd& rows, Eigen::Index last, Eigen
 /// d^p/dx^p of all places, x after the jet's instant. is_massless: called with the degree of freedom of a place that
 /// has one.
 template <class IsMassless>
-void places_along(const motion::Jet& jet, Eigen::Index p, double x, bool any_massless,
-                  const IsMassless& is_massless, Eigen::Ref<Vector> places) {
-  on_polynomials(jet.u, last_derivative(jet, false), p, x, places);
+void displacement_derivatives(const motion::Jet& jet, Eigen::Index p, double x, bool any_massless,
+                              const IsMassless& is_massless, Eigen::Ref<Vector> places) {
+  taylor_derivatives(jet.u, last_derivative(jet, false), p, x, places);
   if (!any_massless) return;
   for (Eigen::Index i = 0; i < places.size(); ++i)
-    if (is_massless(i)) places[i] = on_polynomial(jet.u.row(i), last_derivative(jet, true), p, x);
+    if (is_massless(i)) places[i] = taylor_derivative(jet.u.row(i), last_derivative(jet, true), p, x);
 }
 
 }  // namespace signorini::ida

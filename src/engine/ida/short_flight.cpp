@@ -11,11 +11,11 @@ constexpr int looks = 16;  // samples of the height of a flight
 
 /// The series of a state whose friction depends on the slip rate has no known radius; the limit of friction that
 /// depends on N is not a polynomial if the contact sticks.
-bool is_linear(const Model& model, const contact::ContactStates& mode) {
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+bool is_linear(const Model& model, const contact::ContactStates& states) {
+  for (std::size_t c = 0; c < states.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (contact::slips_nonlinearly(contact, mode[c].state)) return false;
-    if (contact.friction.by_force() && !mode[c].is_open()) return false;
+    if (contact::slips_nonlinearly(contact, states[c].state)) return false;
+    if (contact.friction.is_load_dependent() && !states[c].is_open()) return false;
   }
   return true;
 }
@@ -31,12 +31,12 @@ std::optional<engine::Step> ShortFlight::take(const engine::Segment& segment,
   const decide::Decision& decision = *segment.decision;
   const auto leaves = [&](std::size_t slot) {
     const decide::GuardStart& guard = decision.guards[slot];
-    return guard.kind == Guard::closing && guard.at_zero && guard.leading > 0 &&
+    return guard.kind == Guard::closing && guard.at_zero && guard.leading_order > 0 &&
            model_.contacts[contact::contact_of_guard(slot)].takes_impulses();
   };
   bool any = false;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) any = any || leaves(slot);
-  if (!any || !is_linear(model_, decision.mode)) return std::nullopt;
+  if (!any || !is_linear(model_, decision.states)) return std::nullopt;
   series_->start(segment);
   engine::Step step = series_->advance();
   if (step.kind != engine::Step::Kind::event) return std::nullopt;

@@ -36,7 +36,7 @@ StepNewton::StepNewton(IdaProblem& problem, void* ida, N_Vector like, SUNContext
     return SUN_NLS_SUCCESS;
   };
   ops->setmaxiters = [](SUNNonlinearSolver s, int most) {
-    newton_of(s).most_iterations_ = most;
+    newton_of(s).max_iterations_ = most;
     return SUN_NLS_SUCCESS;
   };
   ops->getnumiters = [](SUNNonlinearSolver s, long* count) {
@@ -61,7 +61,7 @@ StepNewton::~StepNewton() {
 
 int StepNewton::solve(N_Vector e, N_Vector weights, double tolerance, bool setup, void* memory) {
   iterations_ = failures_ = 0;
-  if (jet_ != nullptr) return answer(e);
+  if (jet_ != nullptr) return solve_from_jet(e);
   setup = setup || std::exchange(stale_, false);
   int result = iterate(e, weights, tolerance, setup, false, memory);
   if (result == SUN_NLS_SUCCESS) return result;
@@ -74,12 +74,12 @@ int StepNewton::solve(N_Vector e, N_Vector weights, double tolerance, bool setup
   return result;
 }
 
-int StepNewton::answer(N_Vector e) {
+int StepNewton::solve_from_jet(N_Vector e) {
   double t = 0.0, cj = 0.0;
   N_Vector y_predicted = nullptr, yp_predicted = nullptr, y = nullptr, yp = nullptr, r = nullptr;
   void* data = nullptr;
   IDAGetNonlinearSystemData(ida_, &t, &y_predicted, &yp_predicted, &y, &yp, &r, &cj, &data);
-  problem_.along(*jet_, t - jet_->t, 0, NV_DATA_S(change_));
+  problem_.evaluate_jet(*jet_, t - jet_->t, 0, NV_DATA_S(change_));
   N_VLinearSum(1.0, change_, -1.0, y_predicted, e);
   return SUN_NLS_SUCCESS;
 }
@@ -91,9 +91,9 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   void* data = nullptr;
   IDAGetNonlinearSystemData(ida_, &t, &y_predicted, &yp_predicted, &y, &yp, &r, &cj, &data);
   double* const change = NV_DATA_S(change_);
-  bool near = !problem_.has_knee();
+  bool near = !problem_.has_rate_dependent_friction();
   iteration_ = 0;
-  for (int i = 0; iteration_ < most_iterations_ && i < most_iterations_ + most_towards; ++i) {
+  for (int i = 0; iteration_ < max_iterations_ && i < max_iterations_ + most_towards; ++i) {
     const bool first = i == 0;
     if (!first) {
       N_VLinearSum(1.0, y_predicted, 1.0, e, y);
@@ -110,7 +110,7 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
       if (const int result = setup_(doubtful ? SUNTRUE : SUNFALSE, &current, memory);
           result != SUN_NLS_SUCCESS)
         return result;
-    } else if (problem_.has_knee()) {
+    } else if (problem_.has_rate_dependent_friction()) {
       problem_.linearise(t, NV_DATA_S(at), NV_DATA_S(slope));
       problem_.linear().set_cj(cj);
       if (!problem_.linear().factor()) return SUN_NLS_CONV_RECVR;
@@ -135,7 +135,7 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
 /// tangent, so that a change within the tolerance leaves less than itself; a change that no longer shrinks is the
 /// rounding of large displacements whose difference T is.
 bool StepNewton::is_rounding(N_Vector weights, double tolerance) const {
-  return problem_.has_knee() && N_VWrmsNorm(change_, weights) <= tolerance;
+  return problem_.has_rate_dependent_friction() && N_VWrmsNorm(change_, weights) <= tolerance;
 }
 
 }  // namespace signorini::ida

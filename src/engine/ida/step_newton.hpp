@@ -31,7 +31,7 @@ class StepNewton {
   [[nodiscard]] SUNNonlinearSolver solver() const { return solver_; }
   /// From now on the solutions are those of the jet's polynomials, regardless of the equations; null: solutions of the
   /// equations again, with J computed anew. The jet must outlive the rehearsal.
-  void rehearse(const motion::Jet* jet) {
+  void prescribe_jet(const motion::Jet* jet) {
     if (jet == nullptr) stale_ = true;
     jet_ = jet;
   }
@@ -41,7 +41,7 @@ class StepNewton {
  private:
   int solve(N_Vector e, N_Vector weights, double tolerance, bool setup, void* memory);
   /// Returns e of the jet's polynomials.
-  int answer(N_Vector e);
+  int solve_from_jet(N_Vector e);
   /// Iterates from e = 0. setup: computes J first.
   int iterate(N_Vector e, N_Vector weights, double tolerance, bool setup, bool doubtful, void* memory);
   [[nodiscard]] bool is_rounding(N_Vector weights, double tolerance) const;
@@ -53,7 +53,7 @@ class StepNewton {
   SUNNonlinSolLSetupFn setup_ = nullptr;
   SUNNonlinSolConvTestFn test_ = nullptr;
   void* test_data_ = nullptr;
-  int most_iterations_ = 4, iteration_ = 0;
+  int max_iterations_ = 4, iteration_ = 0;
   long iterations_ = 0, failures_ = 0;  // counts of the last solve
   long residuals_ = 0;
   const motion::Jet* jet_ = nullptr;

@@ -10,7 +10,7 @@
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
 #include "engine/newmark/newmark_step.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "motion/point.hpp"
 
 namespace signorini::newmark {
@@ -28,12 +28,12 @@ FrictionIteration::FrictionIteration(const Model& model, const linear::SystemMat
       structure_(structure),
       dt_(run.dt.value()),
       relaxation_(run.relaxation),
-      most_(run.max_iterations),
+      max_iterations_(run.max_iterations),
       step_(model, structure),
       works_(model, structure),
       systems_(systems),
       consistent_(systems),
-      sides_(model.contacts.size()),
+      iterates_(model.contacts.size()),
       key_(model.contacts.size()) {}
 
 void FrictionIteration::start(const engine::Segment& segment) {
@@ -41,56 +41,56 @@ void FrictionIteration::start(const engine::Segment& segment) {
   const decide::Decision& decision = *segment.decision;
   t0_ = t1_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
-  mode_ = decision.mode;
+  states_ = decision.states;
   key_in_force_.clear();
-  step_.set({}, signorini::linear::rows_of(model_, mode_));
-  within_ = step_within(model_, t0_, segment.end, dt_);
+  step_.set({}, signorini::linear::rows_of(model_, states_));
+  segment_dt_ = segment_step_length(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
 /// The greatest contact force at a point, and the error of a bound that has converged there.
-FrictionIteration::Known FrictionIteration::known_forces(const motion::Point& point) const {
-  Known known;
+FrictionIteration::ForceScale FrictionIteration::known_forces(const motion::Point& point) const {
+  ForceScale known;
   double noise = 0.0;
-  for (std::size_t k = 0; k < sides_.size(); ++k) {
+  for (std::size_t k = 0; k < iterates_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     known.greatest =
         std::max({known.greatest, std::abs(point.N(model_.layout, k)), std::abs(point.T(model_.layout, k))});
     const double terms = std::abs(contact.gap) + contact.normal.magnitude(point.u);
-    noise = std::max(noise, rounding::of_many * contact.normal_stiffness * terms);
+    noise = std::max(noise, rounding::many_operations * contact.normal_stiffness * terms);
   }
   known.error = unchanged * known.greatest + noise;
   return known;
 }
 
 /// Initialises the contacts at the beginning of a step: anchors for a return to stick, and the bounds.
-void FrictionIteration::begin_sides() {
+void FrictionIteration::begin_iterates() {
   bound_error_ = known_forces(begin_).error;
-  for (std::size_t k = 0; k < sides_.size(); ++k) {
+  for (std::size_t k = 0; k < iterates_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t0_, begin_);
-    Side& side = sides_[k];
-    side.state = contact::state_of_rows(mode_[k].state);
-    side.pressed = std::max(0.0, -m.N);
-    side.anchor = side.state == State::stick ? mode_[k].anchor : contact::slip_of(contact, m);
+    ContactIterate& side = iterates_[k];
+    side.state = contact::representative_state(states_[k].state);
+    side.normal_force = std::max(0.0, -m.N);
+    side.anchor = side.state == State::stick ? states_[k].anchor : contact::slip_of(contact, m);
   }
 }
 
 /// Sets the rows of this iterate's states; factorisations are kept by the part of the rows that stands in the matrix.
-void FrictionIteration::put_in_force() {
+void FrictionIteration::apply_rows() {
   std::vector<Rows>& rows = step_.own_rows();
-  for (std::size_t k = 0; k < sides_.size(); ++k) {
+  for (std::size_t k = 0; k < iterates_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const Side& side = sides_[k];
+    const ContactIterate& side = iterates_[k];
     rows[k] = signorini::contact::rows(contact, {side.state, side.anchor});
     key_[k] = static_cast<int>(side.state);
     Form& tangent = rows[k].tangent;
     if (const int s = slip_sign(side.state); s != 0) {
       tangent = contact::sliding_row(s, 0.0);  // T is a load, from the bound of the last iterate
-      tangent.constant = -s * contact::kinetic_friction(contact) * side.pressed;
+      tangent.constant = -s * contact::kinetic_friction(contact) * side.normal_force;
       key_[k] = slips;
     } else if (side.state == State::stick && !contact.tangential_stiffness &&
-               mode_[k].state != State::stick) {
+               states_[k].state != State::stick) {
       tangent = {};
       tangent.vt = 1.0;
       key_[k] = stops;
@@ -104,7 +104,7 @@ void FrictionIteration::put_in_force() {
 /// State of contact k that follows from the iterate for the given bound.
 State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
-  const Side& side = sides_[k];
+  const ContactIterate& side = iterates_[k];
   const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t1_, end_);
   // A dashpot presses while it closes, not while the contact approaches.
   if (contact.normal_force_given()
@@ -116,80 +116,81 @@ State FrictionIteration::state_of(std::size_t k) const {
   if (const int s = slip_sign(side.state); s != 0) {
     if (!kt) return s * m.vt < 0.0 ? State::stick : side.state;
     const double terms = std::abs(m.ut) + std::abs(m.T / *kt) + std::abs(side.anchor);
-    return s * (contact::slip_of(contact, m) - side.anchor) < -rounding::of_many * terms ? State::stick
-                                                                                         : side.state;
+    return s * (contact::slip_of(contact, m) - side.anchor) < -rounding::many_operations * terms
+               ? State::stick
+               : side.state;
   }
   // A slipping contact keeps slipping; static friction holds all others.
-  const double friction =
-      slip_sign(mode_[k].state) != 0 ? contact::kinetic_friction(contact) : contact::static_friction(contact);
+  const double friction = slip_sign(states_[k].state) != 0 ? contact::kinetic_friction(contact)
+                                                           : contact::static_friction(contact);
   const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
   // A contact that rests at its limit keeps resting, whatever the rounding of both forces; one that reaches the limit
   // slips.
-  const double loose = bound_error_ + rounding::of_many * terms;
+  const double loose = bound_error_ + rounding::many_operations * terms;
   const bool rests = std::abs(m.T - begin_.T(model_.layout, k)) <= loose;
-  if (std::abs(m.T) <= friction * side.pressed + (rests ? loose : 0.0)) return State::stick;
-  return contact::slip_along(m.T);
+  if (std::abs(m.T) <= friction * side.normal_force + (rests ? loose : 0.0)) return State::stick;
+  return contact::slip_state(m.T);
 }
 
 /// Adopts the states that follow from the iterate. False: they equal the states used to compute it.
 bool FrictionIteration::new_states() {
   bool changed = false;
-  for (std::size_t k = 0; k < sides_.size(); ++k) {
+  for (std::size_t k = 0; k < iterates_.size(); ++k) {
     const State state = state_of(k);
-    changed = changed || state != sides_[k].state;
+    changed = changed || state != iterates_[k].state;
     key_[k] = static_cast<int>(state);
   }
-  for (std::size_t k = 0; k < sides_.size(); ++k) sides_[k].state = static_cast<State>(key_[k]);
+  for (std::size_t k = 0; k < iterates_.size(); ++k) iterates_[k].state = static_cast<State>(key_[k]);
   return changed;
 }
 
 /// Iterates the step to t1_. Returns an empty string, or the reason why it does not converge.
 std::string FrictionIteration::iterate(double h, bool kept) {
-  begin_sides();
+  begin_iterates();
   double change = 0.0, force = 0.0;
   std::size_t worst = 0;
   bool switching = false;
-  for (int i = 0; i < most_; ++i) {
-    put_in_force();
+  for (int i = 0; i < max_iterations_; ++i) {
+    apply_rows();
     if (!step_.take(*segment_.forcing, begin_, t1_, h, kept, end_))
       return "the matrix of a step is singular; another dt may help";
     if (!end_.u.allFinite()) return "the motion overflows";
     switching = new_states();
     if (switching) continue;  // with unchanged bounds
     change = 0.0;
-    const Known known = known_forces(end_);
+    const ForceScale known = known_forces(end_);
     force = known.greatest;
     bound_error_ = known.error;
-    for (std::size_t k = 0; k < sides_.size(); ++k) {
+    for (std::size_t k = 0; k < iterates_.size(); ++k) {
       const Contact& contact = model_.contacts[k];
-      Side& side = sides_[k];
-      const double by = std::max(0.0, -end_.N(model_.layout, k)) - side.pressed;
+      ContactIterate& side = iterates_[k];
+      const double by = std::max(0.0, -end_.N(model_.layout, k)) - side.normal_force;
       if (slip_sign(side.state) != 0 && contact::kinetic_friction(contact) * std::abs(by) > change) {
         change = contact::kinetic_friction(contact) * std::abs(by);
         worst = k;
       }
       // Only the bound of a slipping contact acts in the next iterate; the bound of a sticking contact takes its final
       // value at once.
-      side.pressed += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
+      side.normal_force += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
     }
     // The states must also hold with the new bounds.
     switching = new_states();
     if (!switching && change <= bound_error_) return {};
   }
   std::vector<std::string> what;
-  for (std::size_t k = 0; k < sides_.size(); ++k)
-    if (sides_[k].state != contact::state_of_rows(mode_[k].state) || k == worst)
+  for (std::size_t k = 0; k < iterates_.size(); ++k)
+    if (iterates_[k].state != contact::representative_state(states_[k].state) || k == worst)
       what.push_back(model_.contacts[k].name);
   return fmt::format(
       "the friction iteration did not converge: after {} iterations {} (contacts {}); a smaller dt, more "
       "max_iterations or another relaxation than {} may help",
-      most_,
+      max_iterations_,
       switching
           ? "states still change"
           : fmt::format("a friction limit still changes by {:.3g} {}, {:.2g} % of the greatest contact force",
                         model::in_scene_units(model_, change, unit::force), model_.units.force,
                         force > 0.0 ? 100.0 * change / force : 0.0),
-      base::listed(what), relaxation_);
+      base::join_quoted(what), relaxation_);
 }
 
 engine::Step FrictionIteration::advance() {
@@ -205,11 +206,11 @@ engine::Step FrictionIteration::advance() {
   }
   // Steps end at multiples of dt; after a discontinuity of the forcing a shorter step returns to them. Steps within a
   // short pulse are counted from its beginning.
-  t1_ = within_ < dt_ ? t0_ + within_ : dt_ * (std::floor(t0_ / dt_ + same_length) + 1.0);
-  if (segment_.end - t1_ <= same_length * within_) t1_ = segment_.end;
+  t1_ = segment_dt_ < dt_ ? t0_ + segment_dt_ : dt_ * (std::floor(t0_ / dt_ + length_tolerance) + 1.0);
+  if (segment_.end - t1_ <= length_tolerance * segment_dt_) t1_ = segment_.end;
   double h = t1_ - t0_;
-  const bool whole = std::abs(h - within_) <= same_length * within_;
-  if (whole) h = within_;
+  const bool whole = std::abs(h - segment_dt_) <= length_tolerance * segment_dt_;
+  if (whole) h = segment_dt_;
   ++counters.steps;
   std::string failure = t1_ > t0_ ? iterate(h, whole) : "the step is below the resolution of time";
   step_.count(counters);
@@ -220,26 +221,26 @@ engine::Step FrictionIteration::advance() {
   }
   step.end = t1_;
   step.resolution = motion::resolution_at(t1_, h);
-  for (std::size_t k = 0; k < sides_.size(); ++k) {
+  for (std::size_t k = 0; k < iterates_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const Side& side = sides_[k];
-    changed_ = changed_ || side.state != contact::state_of_rows(mode_[k].state);
-    mode_[k] = {side.state, side.state == State::stick ? side.anchor : 0.0};
-    if (is_open(side.state)) mode_[k].state = contact::let_go(contact, contact.gap_at(end_.u));
+    const ContactIterate& side = iterates_[k];
+    changed_ = changed_ || side.state != contact::representative_state(states_[k].state);
+    states_[k] = {side.state, side.state == State::stick ? side.anchor : 0.0};
+    if (is_open(side.state)) states_[k].state = contact::separated_state(contact, contact.gap_at(end_.u));
   }
-  settle_massless();
+  solve_massless_velocities();
   if (changed_) {
     step.kind = engine::Step::Kind::event;
-    step.adopted = mode_;
+    step.engine_states = states_;
   }
   return step;
 }
 
 /// Velocities of massless degrees of freedom at the end of the step, from the equation of motion differentiated once:
 /// the step's own velocities oscillate about them from end to end.
-void FrictionIteration::settle_massless() {
+void FrictionIteration::solve_massless_velocities() {
   if (!consistent_.massless()) return;
-  const motion::StateSystemPtr system = systems_.of(mode_);
+  const motion::StateSystemPtr system = systems_.system_of(states_);
   if (!system) return;
   motion::Point settled = end_;
   consistent_.make(system, *segment_.forcing, t1_, settled);
@@ -251,7 +252,8 @@ void FrictionIteration::settle_massless() {
 /// those of its beginning.
 void FrictionIteration::accelerate(double t, motion::Point& point) {
   if (!consistent_.massless()) return;
-  const motion::StateSystemPtr system = t == t1_ && changed_ ? systems_.of(mode_) : segment_.decision->system;
+  const motion::StateSystemPtr system =
+      t == t1_ && changed_ ? systems_.system_of(states_) : segment_.decision->system;
   if (!system) return;
   const Vector of_step = point.a;
   consistent_.accelerate(system, *segment_.forcing, t, point);
@@ -266,14 +268,14 @@ void FrictionIteration::evaluate(double t, motion::Point& point) {
     point = end_;
     return;
   }
-  point = motion::between(begin_, end_, (t - t0_) / (t1_ - t0_));
+  point = motion::interpolate(begin_, end_, (t - t0_) / (t1_ - t0_));
   if (changed_) point.forces = begin_.forces;
 }
 
 /// Integrates over the whole step, in the states at its end.
 void FrictionIteration::integrate(double from, double to, motion::WorkIntegrals& works) {
   if (!(t1_ > t0_)) return;
-  works_.add(*segment_.forcing, mode_, begin_, t0_, end_, t1_, (to - from) / (t1_ - t0_), works);
+  works_.add(*segment_.forcing, states_, begin_, t0_, end_, t1_, (to - from) / (t1_ - t0_), works);
 }
 
 }  // namespace signorini::newmark

@@ -16,7 +16,7 @@
 
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/stepper.hpp"
-#include "motion/consistent.hpp"
+#include "motion/consistent_motion.hpp"
 #include "motion/point.hpp"
 
 namespace signorini::newmark {
@@ -36,11 +36,11 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   /// The motion is a parabola on the step.
   [[nodiscard]] engine::StepFacts facts() const override {
     engine::StepFacts facts;
-    facts.radians = 2.0 * std::numbers::pi;
+    facts.phase_angle = 2.0 * std::numbers::pi;
     return facts;
   }
   [[nodiscard]] double residual() override {
-    return motion::imbalance(model_, structure_, *segment_.forcing, t1_, end_);
+    return motion::equilibrium_residual(model_, structure_, *segment_.forcing, t1_, end_);
   }
   [[nodiscard]] double guard_error(const GuardForm&, const ContactMotion&, std::size_t) const override {
     return 0.0;
@@ -48,39 +48,39 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
 
  private:
   /// A contact during a step.
-  struct Side {
+  struct ContactIterate {
     State state = State::open;  // state in the last iterate
     double anchor = 0.0;        // p at the beginning of the step
-    double pressed = 0.0;       // |N| of the last iterate, the bound of |T|
+    double normal_force = 0.0;  // |N| of the last iterate, the bound of |T|
   };
-  struct Known {
+  struct ForceScale {
     double greatest = 0.0, error = 0.0;  // forces
   };
-  [[nodiscard]] Known known_forces(const motion::Point& point) const;
-  void begin_sides();
-  void put_in_force();
+  [[nodiscard]] ForceScale known_forces(const motion::Point& point) const;
+  void begin_iterates();
+  void apply_rows();
   [[nodiscard]] State state_of(std::size_t k) const;
   [[nodiscard]] bool new_states();
   [[nodiscard]] std::string iterate(double h, bool kept);
-  void settle_massless();
+  void solve_massless_velocities();
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
   const double dt_, relaxation_;
-  const int most_;
+  const int max_iterations_;
   NewmarkStep step_;
   NewmarkWorkIntegrals works_;
   motion::StateSystems& systems_;
   motion::ConsistentMotion consistent_;
   engine::Segment segment_;
-  std::vector<Side> sides_;
+  std::vector<ContactIterate> iterates_;
   NewmarkStep::Key key_, key_in_force_;
-  contact::ContactStates mode_;  // states at the end of the last step
+  contact::ContactStates states_;  // states at the end of the last step
   bool changed_ = false;
   double bound_error_ = 0.0;  // error of |T| <= f |N|, force
   motion::Point begin_, end_;
   double t0_ = 0.0, t1_ = 0.0;
-  double within_ = 0.0;  // length of whole steps: dt, or the length that a short pulse requires
+  double segment_dt_ = 0.0;  // length of whole steps: dt, or the length that a short pulse requires
 };
 
 }  // namespace signorini::newmark

@@ -18,7 +18,7 @@ LocalStep::LocalStep(const Model& model, const linear::CondensedRows& rows)
     : model_(model),
       rows_(rows),
       radius_(first_radius * std::max<std::size_t>(1, rows.width())),
-      by_N_(rows.contacts() > 0 ? rows.end_of_touches(rows.contacts() - 1) : 0),
+      by_N_(rows.contacts() > 0 ? rows.end_of_contact_dofs(rows.contacts() - 1) : 0),
       by_T_(by_N_.size()) {
   load_.setZero(static_cast<Eigen::Index>(rows.size()));
   std::vector<std::size_t> place_of(rows.size());
@@ -36,9 +36,9 @@ LocalStep::LocalStep(const Model& model, const linear::CondensedRows& rows)
 std::optional<LocalStep::Window> LocalStep::window(std::size_t contact) const {
   const std::size_t n = rows_.size();
   Window w{n, 0, 0, 0};
-  for (std::size_t i = rows_.first_touch(contact); i < rows_.end_of_touches(contact); ++i) {
-    w.begin = std::min<std::size_t>(w.begin, rows_.touch(i).place);
-    w.end = std::max<std::size_t>(w.end, rows_.touch(i).place + 1);
+  for (std::size_t i = rows_.first_contact_dof(contact); i < rows_.end_of_contact_dofs(contact); ++i) {
+    w.begin = std::min<std::size_t>(w.begin, rows_.contact_dof(i).place);
+    w.end = std::max<std::size_t>(w.end, rows_.contact_dof(i).place + 1);
   }
   if (w.begin >= w.end) return std::nullopt;  // the contact acts on no degree of freedom
   w.begin -= std::min(w.begin, radius_);
@@ -49,7 +49,7 @@ std::optional<LocalStep::Window> LocalStep::window(std::size_t contact) const {
   return w;
 }
 
-void LocalStep::know_motion(const Window& w, const motion::Point& from, double h) {
+void LocalStep::predict(const Window& w, const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t place = w.first; place < w.last; ++place) {
     const std::size_t i = rows_.dof_at(place);
@@ -59,11 +59,11 @@ void LocalStep::know_motion(const Window& w, const motion::Point& from, double h
 }
 
 /// Computes b_W and adds the contact terms to the matrix there.
-void LocalStep::act(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows,
-                    double t1) {
+void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows,
+                               double t1) {
   for (std::size_t place = w.begin; place < w.end; ++place) {
     const std::size_t i = rows_.dof_at(place);
-    load_.data()[i] = forcing.standing_load(i);
+    load_.data()[i] = forcing.constant_load(i);
   }
   forcing.add_varying(
       t1, [&](std::size_t load) { return loads_[load].begin < w.end && loads_[load].end > w.begin; },
@@ -75,24 +75,26 @@ void LocalStep::act(const Window& w, const motion::Forcing& forcing, const std::
     for (const linear::CondensedRows::Entry& e : rows_.entries(place))
       sum -= e.c * end_.v.data()[e.dof] + e.k * end_.u.data()[e.dof];
     b_.data()[place - w.begin] = sum;
-    for (const std::uint32_t i : rows_.touches_at(place)) contacts_.push_back(rows_.touch(i).contact);
+    for (const std::uint32_t i : rows_.contact_dofs_at(place))
+      contacts_.push_back(rows_.contact_dof(i).contact);
   }
   std::sort(contacts_.begin(), contacts_.end());
   contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
   for (const std::size_t k : contacts_) {
     const Contact& contact = model_.contacts[k];
-    const linear::CondensedRows::Held& held = rows_.held(k);
+    const linear::CondensedRows::ContactCoefficients& held = rows_.coefficients(k);
     ContactMotion m;  // known part only
-    contact::set_place(contact, end_.u, forcing.surface(k, t1, 0), m);
+    contact::set_displacement(contact, end_.u, forcing.surface(k, t1, 0), m);
     contact::set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
     m.applied_normal_force = forcing.applied_normal_force(k, t1, 0);
     double &N = end_.forces.data()[model_.layout.normal(k)],
            &T = end_.forces.data()[model_.layout.tangent(k)];
     N = -rows[k].normal.value(m) / held.normal_N;
     T = (-rows[k].tangent.value(m) - held.tangent_N * N) / held.tangent_T;
-    if (held.on_motion) rows_.share(k, weights_, by_N_.data(), by_T_.data());
-    for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i)
-      if (const linear::CondensedRows::Touch& at = rows_.touch(i); at.place >= w.begin && at.place < w.end)
+    if (held.on_motion) rows_.force_coefficients(k, weights_, by_N_.data(), by_T_.data());
+    for (std::size_t i = rows_.first_contact_dof(k); i < rows_.end_of_contact_dofs(k); ++i)
+      if (const linear::CondensedRows::ContactDof& at = rows_.contact_dof(i);
+          at.place >= w.begin && at.place < w.end)
         b_.data()[at.place - w.begin] -= at.n * N + at.t * T;
   }
 }
@@ -126,12 +128,12 @@ bool LocalStep::solve(const Window& w, const motion::Point& from, double h, cons
 /// Writes the motion of the contact's degrees of freedom and its forces into the point.
 void LocalStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
   double &N = end_.forces.data()[model_.layout.normal(k)], &T = end_.forces.data()[model_.layout.tangent(k)];
-  for (std::size_t i = rows_.first_touch(k); i < rows_.end_of_touches(k); ++i) {
-    const std::size_t dof = rows_.touch(i).dof;
+  for (std::size_t i = rows_.first_contact_dof(k); i < rows_.end_of_contact_dofs(k); ++i) {
+    const std::size_t dof = rows_.contact_dof(i).dof;
     const double x = end_.a.data()[dof];
     end_.u.data()[dof] += 0.25 * h * h * x;
     end_.v.data()[dof] += 0.5 * h * x;
-    if (!rows_.held(k).on_motion) continue;
+    if (!rows_.coefficients(k).on_motion) continue;
     N -= by_N_[i] * x;
     T -= by_T_[i] * x;
   }
@@ -144,11 +146,11 @@ const motion::Point* LocalStep::end(std::size_t contact, const motion::Forcing& 
   const auto w = window(contact);
   if (!w) return nullptr;
   weights_ = {1.0, 0.5 * h, 0.25 * h * h};
-  know_motion(*w, from, h);
-  act(*w, forcing, rows, t1);
+  predict(*w, from, h);
+  assemble_loads(*w, forcing, rows, t1);
   if (!solve(*w, from, h, whole, longer)) return nullptr;
-  for (std::size_t i = rows_.first_touch(contact); i < rows_.end_of_touches(contact); ++i)
-    end_.a.data()[rows_.touch(i).dof] = b_.data()[rows_.touch(i).place - w->begin];
+  for (std::size_t i = rows_.first_contact_dof(contact); i < rows_.end_of_contact_dofs(contact); ++i)
+    end_.a.data()[rows_.contact_dof(i).dof] = b_.data()[rows_.contact_dof(i).place - w->begin];
   read(contact, rows, h);
   return &end_;
 }

@@ -26,7 +26,7 @@ class LocalStep {
                                          const std::vector<Rows>& rows, const motion::Point& from, double t1,
                                          double h, const motion::Point& whole, double longer);
   /// Doubles the radius.
-  void look_farther() { radius_ *= 2; }
+  void double_radius() { radius_ *= 2; }
 
  private:
   struct Window {
@@ -37,8 +37,9 @@ class LocalStep {
     std::size_t begin = 0, end = 0;
   };
   [[nodiscard]] std::optional<Window> window(std::size_t contact) const;
-  void know_motion(const Window& w, const motion::Point& from, double h);
-  void act(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows, double t1);
+  void predict(const Window& w, const motion::Point& from, double h);
+  void assemble_loads(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows,
+                      double t1);
   [[nodiscard]] bool solve(const Window& w, const motion::Point& from, double h, const motion::Point& whole,
                            double longer);
   void read(std::size_t contact, const std::vector<Rows>& rows, double h);

@@ -16,9 +16,9 @@ namespace signorini::newmark {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int most_halvings = 60;
+constexpr int max_halvings = 60;
 constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
-constexpr int most_tangents = 4;                  // a crossing that these do not find is bracketed
+constexpr int max_tangents = 4;                   // a crossing that these do not find is bracketed
 constexpr double spare = 1.0 / 16.0;              // doubling: of the tolerance; below it steps grow again
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
 constexpr double least_part = 1e-12;  // doubling: relative to dt
@@ -39,7 +39,7 @@ NewmarkEngine::NewmarkEngine(const Model& model, const linear::SystemMatrices& s
       step_(model, structure),
       works_(model, structure),
       guards_(model),
-      settles_(linear::has_massless(model)),
+      solves_massless_velocities_(linear::has_massless(model)),
       regular_(dt_) {}
 
 void NewmarkEngine::start(const engine::Segment& segment) {
@@ -48,22 +48,22 @@ void NewmarkEngine::start(const engine::Segment& segment) {
   t0_ = t1_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   NewmarkStep::Key key;
-  key.reserve(decision.mode.size());
-  for (const ContactState& s : decision.mode)
-    key.push_back(static_cast<int>(contact::state_of_rows(s.state)));
+  key.reserve(decision.states.size());
+  for (const ContactState& s : decision.states)
+    key.push_back(static_cast<int>(contact::representative_state(s.state)));
   step_.set(std::move(key),
             std::shared_ptr<const std::vector<Rows>>(decision.system, &decision.system->rows()));
   inner_time_ = nan;
   a_before_.resize(0);
   h_ = h_before_ = 0.0;
-  counted_length_ = 0.0;
+  grid_length_ = 0.0;
   second_ = false;
   guards_.start(segment);
-  guards_.weigh(end_, t1_);
+  guards_.evaluate(end_, t1_);
   // A sticking contact does not move, so doubling does not see the load on it.
-  if (const double omega = doubling_ ? segment.forcing->greatest_omega() : 0.0; omega > 0.0)
+  if (const double omega = doubling_ ? segment.forcing->max_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
-  within_ = doubling_ ? dt_ : step_within(model_, t0_, segment.end, dt_);
+  segment_dt_ = doubling_ ? dt_ : segment_step_length(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
@@ -76,7 +76,7 @@ std::optional<double> NewmarkEngine::dip_of(std::size_t slot, double h) const {
 /// Takes a step of length h from the beginning of this one, to t.
 bool NewmarkEngine::take(double h, double t, bool kept, motion::Point& to) {
   if (!step_.take(*segment_.forcing, begin_, t, h, kept, to)) return false;
-  if (settles_) consistent_.make(segment_.decision->system, *segment_.forcing, t, to);
+  if (solves_massless_velocities_) consistent_.make(segment_.decision->system, *segment_.forcing, t, to);
   return true;
 }
 
@@ -93,7 +93,7 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
 /// Same, from the contact's neighbourhood; end_: end of the step of length `longer`. NaN: no neighbourhood result.
 double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   const motion::Point* near =
-      step_.near(contact::contact_of_guard(slot), *segment_.forcing, begin_, t0_ + h, h, end_, longer);
+      step_.local_end(contact::contact_of_guard(slot), *segment_.forcing, begin_, t0_ + h, h, end_, longer);
   if (near == nullptr) return nan;
   ++counters.guard_evaluations;
   return guards_.value(slot, t0_ + h, *near);
@@ -130,7 +130,7 @@ double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo,
 std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t slot, double h, Tangent first) {
   Tangent next = first;
   double lo = 0.0, hi = h, before = nan, g_before = nan;
-  for (int i = 0; i < most_tangents && next.slope < 0.0; ++i) {
+  for (int i = 0; i < max_tangents && next.slope < 0.0; ++i) {
     if (!(next.at > lo && next.at < hi)) return std::nullopt;
     const double g = value_near(slot, next.at, h);
     if (!std::isfinite(g)) return std::nullopt;
@@ -147,7 +147,7 @@ std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t sl
 /// Zero crossing of a guard that is positive at the beginning of the step and not at its end: first searched at the
 /// root of the Hermite cubic, from there along tangents and secants.
 double NewmarkEngine::crossing_near(std::size_t slot, double h) {
-  const events::GuardPath path = guards_.path(slot, h);
+  const events::GuardCubic path = guards_.path(slot, h);
   double lo = 0.0, g_lo = path.g0, hi = h, g_hi = path.g1;
   const auto narrow = [&](double at) {
     if (!(at > lo && at < hi)) return std::numeric_limits<double>::quiet_NaN();
@@ -161,18 +161,18 @@ double NewmarkEngine::crossing_near(std::size_t slot, double h) {
     }
     return g;
   };
-  const auto fall = guards_.has_rate(slot) ? path.crossing() : std::nullopt;
+  const auto fall = guards_.has_rate(slot) ? path.cubic_root() : std::nullopt;
   Tangent next = fall ? Tangent{fall->x * h, fall->slope / h} : Tangent{nan, nan};
   const auto near = is_soft(slot) && fall ? tangent_near(slot, h, next) : std::nullopt;
   if (near) next = *near;
   double before = nan, g_before = nan;
-  const int most = is_soft(slot) ? most_tangents : 1;
+  const int most = is_soft(slot) ? max_tangents : 1;
   for (int i = 0; i < most && next.slope < 0.0; ++i) {
     const double g = narrow(next.at);
     if (std::abs(g) <= zero_of(slot)) return next.at;
     if (i > 0 && !near) next.slope = (g - g_before) / (next.at - before);
     if (is_soft(slot) && std::abs(g / next.slope) <= 0.25 * motion::resolution_at(t0_ + h, h)) return next.at;
-    if (i == 0 && near) step_.look_farther();
+    if (i == 0 && near) step_.double_radius();
     before = next.at;
     g_before = g;
     next.at -= g / next.slope;
@@ -186,12 +186,12 @@ bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_
 
 /// The paper's single interpolation. If the guard has not reached zero there, the event would not be triggered: the
 /// step grows by twice the next interpolation until it has.
-double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
-  const events::GuardPath path = guards_.path(slot, hi);
+double NewmarkEngine::linear_root(std::size_t slot, double hi) {
+  const events::GuardCubic path = guards_.path(slot, hi);
   const double g_hi = path.g1;
-  double h = hi * path.linear();
+  double h = hi * path.linear_root();
   double g = value_after(slot, h);
-  for (int i = 0; i < most_halvings && g > 0.0 && h < hi; ++i) {
+  for (int i = 0; i < max_halvings && g > 0.0 && h < hi; ++i) {
     h = std::min(hi, h + 2.0 * (hi - h) * g / (g - g_hi) + motion::resolution_at(t0_ + h, 0.0));
     g = h < hi ? value_after(slot, h) : g_hi;
   }
@@ -200,18 +200,18 @@ double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
 
 /// The guard that reaches zero first in the step. `located`: the root of `slot` was found at its end, so only guards
 /// that are clearly negative count.
-NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::size_t slot) {
+NewmarkEngine::Candidate NewmarkEngine::earliest_candidate(double h, bool located, std::size_t slot) {
   Candidate first;
   const auto consider = [&](Candidate::Kind kind, std::size_t s, double x) {
     if (x < first.x) first = {kind, s, x};
   };
-  for (const std::size_t s : guards_.noticed(h, h_before_)) {
+  for (const std::size_t s : guards_.candidate_slots(h, h_before_)) {
     if (located && s == slot) continue;
-    const events::GuardPath path = guards_.path(s, h);
+    const events::GuardCubic path = guards_.path(s, h);
     if (!guards_.active_guards().armed(s)) {
       if (path.g1 < -level(s)) consider(Candidate::Kind::sink, s, 0.0);
     } else if (path.g1 <= (located ? -level(s) : 0.0)) {
-      consider(Candidate::Kind::crossing, s, path.linear());
+      consider(Candidate::Kind::crossing, s, path.linear_root());
     } else if (path.g1 > 0.0) {
       if (const auto x = dip_of(s, h)) consider(Candidate::Kind::dip, s, *x);
     }
@@ -227,12 +227,12 @@ bool NewmarkEngine::has_sunk(std::size_t slot) const {
 
 bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
   const std::size_t slot = candidate.slot;
-  const events::GuardPath path = guards_.path(slot, h);
+  const events::GuardCubic path = guards_.path(slot, h);
   switch (candidate.kind) {
     case Candidate::Kind::none:
       return false;
     case Candidate::Kind::crossing:
-      h = interpolates(slot) ? linear_fall(slot, h) : crossing_near(slot, h);
+      h = interpolates(slot) ? linear_root(slot, h) : crossing_near(slot, h);
       return true;
     case Candidate::Kind::dip: {
       // Down and up again within the step: the step redone to the least value decides.
@@ -251,7 +251,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       // it rises by less than its rounding: its root is then where it leaves the rounding.
       const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
       double hi = h, g_hi = path.g1;
-      for (int i = 0; i < most_halvings; ++i) {
+      for (int i = 0; i < max_halvings; ++i) {
         const double lo = 0.5 * hi;
         if (!(lo > motion::resolution_at(t0_, 0.0))) break;
         const double g = value_after(slot, lo);
@@ -280,7 +280,7 @@ engine::Step NewmarkEngine::failed(std::string reason) const {
 }
 
 /// Step length at which a step of twice the length changes the result by less than the tolerance.
-double NewmarkEngine::doubled(double remaining) {
+double NewmarkEngine::length_by_doubling(double remaining) {
   if (std::exchange(second_, !second_)) return regular_;
   // A stretch that one step would span is compared with two halves, like any other.
   for (double h = std::min(regular_, 0.5 * remaining);; h *= 0.5) {
@@ -318,7 +318,7 @@ bool NewmarkEngine::end_after(double h) {
   else if (!take(h, t1_, false, end_))
     return false;
   tried_ = 0.0;
-  guards_.weigh(end_, t1_);
+  guards_.evaluate(end_, t1_);
   return true;
 }
 
@@ -329,34 +329,35 @@ engine::Step NewmarkEngine::advance() {
   std::swap(begin_, end_);
   t0_ = t1_;
   h_before_ = h_;
-  guards_.turn();
+  guards_.begin_next_step();
   const double remaining = segment_.end - t0_;
-  double h = doubling_ ? doubled(remaining) : within_;
+  double h = doubling_ ? length_by_doubling(remaining) : segment_dt_;
   inner_time_ = nan;
   tried_ = 0.0;
-  const bool last = remaining <= h * (1.0 + same_length);
+  const bool last = remaining <= h * (1.0 + length_tolerance);
   if (last) h = remaining;
-  if (h != counted_length_) {
-    counted_from_ = t0_;
-    counted_length_ = h;
-    counted_ = 0;
+  if (h != grid_length_) {
+    grid_begin_ = t0_;
+    grid_length_ = h;
+    grid_steps_ = 0;
   }
-  t1_ = last ? segment_.end : counted_from_ + static_cast<double>(++counted_) * h;
+  t1_ = last ? segment_.end : grid_begin_ + static_cast<double>(++grid_steps_) * h;
   if (!(t1_ > t0_)) return failed("the step is below the resolution of time");
   if (!take(h, t1_, !last, end_)) return failed(singular);
   if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows");
-  guards_.weigh(end_, t1_);
+  guards_.evaluate(end_, t1_);
 
   engine::Step step;
   step.begin = t0_;
   std::size_t slot = 0;
   bool event = false;
-  for (Candidate c = earliest(h, false, 0); c.kind != Candidate::Kind::none; c = earliest(h, event, slot)) {
+  for (Candidate c = earliest_candidate(h, false, 0); c.kind != Candidate::Kind::none;
+       c = earliest_candidate(h, event, slot)) {
     const double longer = h;
     if (!locate(c, h)) continue;
     const bool known = std::exchange(event, true);
     slot = c.slot;
-    counted_length_ = 0.0;
+    grid_length_ = 0.0;
     if (h < longer && !end_after(h)) return failed(singular);
     if (known && longer - h <= motion::resolution_at(t1_, h)) break;  // the same instant
   }
@@ -369,13 +370,13 @@ engine::Step NewmarkEngine::advance() {
     step.kind = engine::Step::Kind::event;
     step.triggered = {{contact::contact_of_guard(slot), segment_.decision->guards[slot].kind}};
   }
-  guards_.see(t1_, end_);
+  guards_.update_active_guards(t1_, end_);
   return step;
 }
 
 /// True if a guard that is positive at both ends is negative at t. If a step is far longer than the periods of the
 /// highest modes, the redone step need not follow the step itself.
-bool NewmarkEngine::strays(double t, const motion::Point& point) const {
+bool NewmarkEngine::violates_guard(double t, const motion::Point& point) const {
   for (std::size_t s = 0; s < guards_.active_guards().size(); ++s)
     if (!guards_.active_guards().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
   return false;
@@ -383,22 +384,22 @@ bool NewmarkEngine::strays(double t, const motion::Point& point) const {
 
 /// The solution inside the last step: the step redone to t. If it strays, the straight line between the ends, on which
 /// every law holds, since all are linear or cones.
-const motion::Point& NewmarkEngine::inside(double t) {
+const motion::Point& NewmarkEngine::point_inside(double t) {
   if (t == t1_) return end_;
   if (t == t0_) return begin_;
   if (t != inner_time_) {
     inner_time_ = t;
-    if (!take(t - t0_, t, false, inner_) || strays(t, inner_))
-      inner_ = motion::between(begin_, end_, (t - t0_) / (t1_ - t0_));
+    if (!take(t - t0_, t, false, inner_) || violates_guard(t, inner_))
+      inner_ = motion::interpolate(begin_, end_, (t - t0_) / (t1_ - t0_));
   }
   return inner_;
 }
 
-void NewmarkEngine::evaluate(double t, motion::Point& point) { point = inside(t); }
+void NewmarkEngine::evaluate(double t, motion::Point& point) { point = point_inside(t); }
 
 /// Accelerations of massless degrees of freedom; the step itself knows those of masses.
 void NewmarkEngine::accelerate(double t, motion::Point& point) {
-  if (!settles_) return;
+  if (!solves_massless_velocities_) return;
   const Vector of_step = point.a;
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
   for (Eigen::Index i = 0; i < of_step.size(); ++i)
@@ -413,7 +414,7 @@ void NewmarkEngine::interpolate(double t, motion::Point& point) {
     return;
   }
   const double h = t1_ - t0_, x = (t - t0_) / h;
-  point = motion::between(begin_, end_, x);
+  point = motion::interpolate(begin_, end_, x);
   for (Eigen::Index i = 0; i < point.u.size(); ++i)
     if (!model_.dofs[static_cast<std::size_t>(i)].massless)
       point.u[i] = begin_.u[i] + x * (h * begin_.v[i] + x * (end_.u[i] - begin_.u[i] - h * begin_.v[i]));
@@ -421,7 +422,7 @@ void NewmarkEngine::interpolate(double t, motion::Point& point) {
 
 void NewmarkEngine::integrate(double from, double to, motion::WorkIntegrals& works) {
   const auto until = [&](double t, double factor) {
-    works_.add(*segment_.forcing, segment_.decision->mode, begin_, t0_, inside(t), t, factor, works);
+    works_.add(*segment_.forcing, segment_.decision->states, begin_, t0_, point_inside(t), t, factor, works);
   };
   if (from > t0_) until(from, -1.0);
   until(to, 1.0);

@@ -19,7 +19,7 @@
 #include "engine/newmark/step_guards.hpp"
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
-#include "motion/consistent.hpp"
+#include "motion/consistent_motion.hpp"
 #include "motion/point.hpp"
 
 namespace signorini::newmark {
@@ -40,11 +40,11 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   /// The motion is a parabola on the step.
   [[nodiscard]] engine::StepFacts facts() const override {
     engine::StepFacts facts;
-    facts.radians = 2.0 * std::numbers::pi;
+    facts.phase_angle = 2.0 * std::numbers::pi;
     return facts;
   }
   [[nodiscard]] double residual() override {
-    return motion::imbalance(model_, structure_, *segment_.forcing, t1_, end_);
+    return motion::equilibrium_residual(model_, structure_, *segment_.forcing, t1_, end_);
   }
   [[nodiscard]] double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                    std::size_t contact) const override;
@@ -58,14 +58,14 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   };
 
   [[nodiscard]] bool take(double h, double t, bool kept, motion::Point& to);
-  [[nodiscard]] bool strays(double t, const motion::Point& point) const;
-  [[nodiscard]] const motion::Point& inside(double t);
+  [[nodiscard]] bool violates_guard(double t, const motion::Point& point) const;
+  [[nodiscard]] const motion::Point& point_inside(double t);
   [[nodiscard]] std::optional<double> dip_of(std::size_t slot, double h) const;
   /// Below this value at the end of the step the sign of a guard is rounding.
   [[nodiscard]] double level(std::size_t slot) const { return guards_.level(slot, t1_, end_); }
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] double value_near(std::size_t slot, double h, double longer);
-  [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot);
+  [[nodiscard]] Candidate earliest_candidate(double h, bool located, std::size_t slot);
   [[nodiscard]] bool is_soft(std::size_t slot) const;
   [[nodiscard]] double zero_of(std::size_t slot) const;
   [[nodiscard]] double crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
@@ -77,12 +77,12 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] std::optional<Tangent> tangent_near(std::size_t slot, double h, Tangent first);
   [[nodiscard]] double crossing_near(std::size_t slot, double h);
   [[nodiscard]] bool interpolates(std::size_t slot) const;
-  [[nodiscard]] double linear_fall(std::size_t slot, double hi);
+  [[nodiscard]] double linear_root(std::size_t slot, double hi);
   [[nodiscard]] bool has_sunk(std::size_t slot) const;
   /// Shortens the step to the candidate's event. False: the candidate is no event.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool end_after(double h);
-  [[nodiscard]] double doubled(double remaining);
+  [[nodiscard]] double length_by_doubling(double remaining);
   engine::Step failed(std::string reason) const;
 
   const Model& model_;
@@ -95,7 +95,7 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   NewmarkWorkIntegrals works_;
   engine::Segment segment_;
   StepGuards guards_;
-  bool settles_ = false;  // massless parts: their velocities follow from the equations
+  bool solves_massless_velocities_ = false;  // massless parts: their velocities follow from the equations
   motion::Point begin_, end_, inner_, fine_, coarse_;
   Vector a_before_;                  // at the beginning of the previous step; empty: none
   double inner_time_ = 0.0;          // time of inner_; NaN: not set
@@ -103,10 +103,10 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   double t0_ = 0.0, t1_ = 0.0;       // the last step
   double h_ = 0.0, h_before_ = 0.0;  // its length, and that of the previous step (0: none)
   double regular_ = 0.0;             // length of steps without events
-  double within_ = 0.0;              // same with fixed steps: dt, or the length that a short pulse requires
-  double counted_from_ = 0.0;        // fixed steps end at counted_from_ + k counted_length_, without drift
-  double counted_length_ = 0.0;
-  long counted_ = 0;
+  double segment_dt_ = 0.0;          // same with fixed steps: dt, or the length that a short pulse requires
+  double grid_begin_ = 0.0;          // fixed steps end at counted_from_ + k counted_length_, without drift
+  double grid_length_ = 0.0;
+  long grid_steps_ = 0;
   /// A guard that began at zero and never rose within a step.
   struct Sunk {
     double t = 0.0;

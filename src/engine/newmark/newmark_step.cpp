@@ -14,7 +14,7 @@ namespace {
 
 // Two lengths (dt, and what doubling compares it with) for each of 16 modes that a cycle comes back to; in
 // bytes as much as mode systems may take (motion/state_systems.hpp).
-constexpr base::CacheBounds most_kept{32, std::size_t{8} << 20};
+constexpr base::CacheLimits max_kept{32, std::size_t{8} << 20};
 
 // Cost ratio of a factorisation of a banded matrix, with the preparation of its factors, to a solve: 0.64 + 0.3 ms to
 // 0.045 ms at 3000 unknowns.
@@ -34,19 +34,19 @@ NewmarkStep::NewmarkStep(const Model& model, const linear::SystemMatrices& struc
       massless_(linear::has_massless(model)),
       in_rows_{own_kinds_, {}},
       workspace_(model, structure),
-      kept_(most_kept),
-      odd_(model, structure),
-      economical_(linear::is_economical(model, structure, odd_.shared_rows())),
+      kept_(max_kept),
+      irregular_(model, structure),
+      economical_(linear::saves_factorisations(model, structure, irregular_.redundant_rows())),
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = u_;
   x_.setZero(structure.size + model.force_count());
   work_ = x_;
-  if (economical_) condensed_ = linear::CondensedRows::of(model, structure, widest_band);
+  if (economical_) condensed_ = linear::CondensedRows::create(model, structure, widest_band);
   if (!condensed_) return;
   kept_band_.emplace(*condensed_);
-  odd_band_.emplace(*condensed_);
-  near_.emplace(model, *condensed_);
+  irregular_band_.emplace(*condensed_);
+  local_step_.emplace(model, *condensed_);
 }
 
 void NewmarkStep::set(Key key, std::vector<Rows> rows) {
@@ -59,16 +59,16 @@ void NewmarkStep::set(Key key, std::shared_ptr<const std::vector<Rows>> rows) {
   if (condensed_) {
     const bool beside = key.size() == key_.size() && key.size() == rows_->size();
     for (std::size_t k = 0; k < rows_->size(); ++k)
-      if (!beside || key[k] != key_[k]) condensed_->put(k, (*rows_)[k]);
+      if (!beside || key[k] != key_[k]) condensed_->set_rows(k, (*rows_)[k]);
   }
   key_ = std::move(key);
-  if (massless_) in_rows_ = linear::kinds_in_mode(own_kinds_, model_, *rows_);
+  if (massless_) in_rows_ = linear::kinds_in_states(own_kinds_, model_, *rows_);
   last_ = nullptr;
   updates_ = false;
   spent_ = 0.0;
 }
 
-void NewmarkStep::weigh(double h) {
+void NewmarkStep::set_weights(double h) {
   for (std::size_t i = 0; i < weights_.size(); ++i)
     weights_[i] = in_rows_.kinds[i] == linear::DofKind::massive  ? linear::Weights{1.0, 0.5 * h, 0.25 * h * h}
                   : in_rows_.kinds[i] == linear::DofKind::damped ? linear::Weights{0.0, 1.0, 0.5 * h}
@@ -77,8 +77,9 @@ void NewmarkStep::weigh(double h) {
 
 /// Pivots of other states can be reused if each contact's forces are their own pivots.
 bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
-  weigh(h);
-  return matrix.set(*rows_, weights_, fresh && !(economical_ && !linear::own_forces(*rows_).empty()),
+  set_weights(h);
+  return matrix.set(*rows_, weights_,
+                    fresh && !(economical_ && !linear::contact_force_blocks(*rows_).empty()),
                     in_rows_.undamped);
 }
 
@@ -91,7 +92,7 @@ std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
                 a.vn - b.vn, a.vt - b.vt, a.an - b.an,   a.at - b.at};
   };
   const std::vector<Rows>& rows = *rows_;
-  for (std::size_t k = 0; k < rows.size() && changed.size() <= linear::UpdatedFactors::most_rows; ++k)
+  for (std::size_t k = 0; k < rows.size() && changed.size() <= linear::WoodburyFactors::max_rows; ++k)
     for (const bool normal : {true, false}) {
       const Form d = normal ? difference(rows[k].normal, base_rows_[k].normal)
                             : difference(rows[k].tangent, base_rows_[k].tangent);
@@ -114,7 +115,7 @@ std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
 bool NewmarkStep::update(double h) {
   if (!economical_ || updated_.base() == nullptr || base_h_ != h) return false;
   if (!updates_) {
-    weigh(h);
+    set_weights(h);
     updates_ = updated_.set(changed_rows());
   }
   spent_ += static_cast<double>(updated_.numbers());
@@ -128,22 +129,24 @@ bool NewmarkStep::solve_condensed(double h, bool kept) {
   if (!condensed_) return false;
   const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
   linear::CondensedMatrix& band =
-      kept_band_->is_at(weights) || (kept && !odd_band_->is_at(weights)) ? *kept_band_ : *odd_band_;
+      kept_band_->is_factored_at(weights) || (kept && !irregular_band_->is_factored_at(weights))
+          ? *kept_band_
+          : *irregular_band_;
   if (!band.set(weights)) return false;
   band.solve(x_.data());
   ++solves_;
   return true;
 }
 
-const motion::Point* NewmarkStep::near(std::size_t contact, const motion::Forcing& forcing,
-                                       const motion::Point& from, double t1, double h,
-                                       const motion::Point& whole, double longer) {
-  if (!near_ || !condensed_->note_known()) return nullptr;
-  return near_->end(contact, forcing, *rows_, from, t1, h, whole, longer);
+const motion::Point* NewmarkStep::local_end(std::size_t contact, const motion::Forcing& forcing,
+                                            const motion::Point& from, double t1, double h,
+                                            const motion::Point& whole, double longer) {
+  if (!local_step_ || !condensed_->is_determined()) return nullptr;
+  return local_step_->end(contact, forcing, *rows_, from, t1, h, whole, longer);
 }
 
-void NewmarkStep::look_farther() {
-  if (near_) near_->look_farther();
+void NewmarkStep::double_radius() {
+  if (local_step_) local_step_->double_radius();
 }
 
 /// x_ := A^-1 x_ for a length that will recur.
@@ -163,7 +166,7 @@ bool NewmarkStep::solve_kept(double h) {
       last_ = std::make_shared<const linear::TriangularFactors>(workspace_.klu().factors());
       kept_.insert(place, last_, last_->bytes());
       if (economical_) {
-        updated_.start(last_);
+        updated_.set_base(last_);
         base_rows_ = *rows_;
         base_h_ = h;
         updates_ = false;
@@ -176,7 +179,7 @@ bool NewmarkStep::solve_kept(double h) {
 }
 
 /// rest_ := b - A x at length h; all degrees of freedom have mass.
-void NewmarkStep::take_rest(const Vector& b, const Vector& x, double h) {
+void NewmarkStep::set_residual(const Vector& b, const Vector& x, double h) {
   const Eigen::Index n = structure_.size;
   u_.noalias() = 0.25 * h * h * x.head(n);
   v_.noalias() = 0.5 * h * x.head(n);
@@ -212,11 +215,11 @@ bool NewmarkStep::refine(double h) {
     return std::max(ratio(greatest(of.head(n)), greatest(whole.head(n))),
                     ratio(greatest(of.tail(m)), greatest(whole.tail(m))));
   };
-  Vector x = odd_x_;
+  Vector x = irregular_x_;
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; ++round) {
-    take_rest(x_, x, h);
-    odd_.klu().factors().solve(rest_.data(), work_.data());
+    set_residual(x_, x, h);
+    irregular_.klu().factors().solve(rest_.data(), work_.data());
     ++solves_;
     x += rest_;
     const double change = part(rest_, x),
@@ -226,7 +229,7 @@ bool NewmarkStep::refine(double h) {
       return true;
     }
     if (!(change <= least_gain * before)) {
-      if (!(change <= rounding::of_few)) return false;
+      if (!(change <= rounding::few_operations)) return false;
       x_ = x;
       return true;
     }
@@ -236,21 +239,21 @@ bool NewmarkStep::refine(double h) {
 }
 
 /// x_ := A^-1 x_ for a length that will hardly recur.
-bool NewmarkStep::solve_odd(double h) {
-  const bool same_rows = odd_key_ == key_ && odd_h_ != 0.0;
-  if (!(same_rows && odd_h_ == h)) {
-    if (economical_ && same_rows && odd_x_.size() > 0 && refine(h)) return true;
-    odd_key_ = key_;
-    odd_h_ = factor(odd_, h, !same_rows) ? h : 0.0;
-    if (odd_h_ == 0.0) return false;
+bool NewmarkStep::solve_irregular(double h) {
+  const bool same_rows = irregular_key_ == key_ && irregular_h_ != 0.0;
+  if (!(same_rows && irregular_h_ == h)) {
+    if (economical_ && same_rows && irregular_x_.size() > 0 && refine(h)) return true;
+    irregular_key_ = key_;
+    irregular_h_ = factor(irregular_, h, !same_rows) ? h : 0.0;
+    if (irregular_h_ == 0.0) return false;
   }
-  odd_.klu().factors().solve(x_.data(), work_.data());
+  irregular_.klu().factors().solve(x_.data(), work_.data());
   ++solves_;
   return true;
 }
 
 /// Known parts of the motion at the end of the step: u_ and v_.
-void NewmarkStep::know_motion(const motion::Point& from, double h) {
+void NewmarkStep::predict(const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
     const bool massive = in_rows_.kinds[i] == linear::DofKind::massive,
@@ -291,7 +294,7 @@ void NewmarkStep::read_motion(const motion::Point& from, double h, motion::Point
 bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from, double t1, double h,
                        bool kept, motion::Point& to) {
   const auto n = static_cast<std::size_t>(structure_.size);
-  know_motion(from, h);
+  predict(from, h);
   // r = P - C v - K u
   x_.setZero();
   structure_.subtract_forces(v_.data(), u_.data(), x_.data());
@@ -300,7 +303,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     ContactMotion m;  // known part only
-    contact::set_place(contact, u_, forcing.surface(k, t1, 0), m);
+    contact::set_displacement(contact, u_, forcing.surface(k, t1, 0), m);
     contact::set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
     m.applied_normal_force = forcing.applied_normal_force(k, t1, 0);
@@ -308,10 +311,10 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
     x_.data()[n + model_.layout.tangent(k)] = -decide::QuickForm(rows[k].tangent).value(m);
   }
   if (!solve_condensed(h, kept)) {
-    if (!(kept ? solve_kept(h) : solve_odd(h))) return false;
+    if (!(kept ? solve_kept(h) : solve_irregular(h))) return false;
     if (economical_) {
-      if (!kept) odd_x_ = x_;
-      know_motion(from, h);  // refinement has overwritten them
+      if (!kept) irregular_x_ = x_;
+      predict(from, h);  // refinement has overwritten them
     }
   }
 
@@ -328,29 +331,29 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
 
 void NewmarkStep::count(Counters& counters) const {
   counters.solves = solves_ + updated_.solves();
-  counters.factorisations = odd_.klu().factorisations + workspace_.klu().factorisations +
-                            (condensed_ ? kept_band_->factorisations + odd_band_->factorisations : 0);
-  counters.refactorisations = odd_.klu().refactorisations + workspace_.klu().refactorisations;
+  counters.factorisations = irregular_.klu().factorisations + workspace_.klu().factorisations +
+                            (condensed_ ? kept_band_->factorisations + irregular_band_->factorisations : 0);
+  counters.refactorisations = irregular_.klu().refactorisations + workspace_.klu().refactorisations;
 }
 
-void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::ContactStates& mode,
+void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::ContactStates& states,
                                const motion::Point& a, double t0, const motion::Point& b, double t1,
                                double factor, motion::WorkIntegrals& works) {
   const double h = t1 - t0;
   if (!(h > 0.0)) return;
   du_ = b.u - a.u;
   v_ = 0.5 * (a.v + b.v);
-  if (forcing.loaded())
+  if (forcing.has_loads())
     works.loads += 0.5 * factor * (forcing.power(t0, du_.data()) + forcing.power(t1, du_.data()));
   works.damping += factor * h * structure_.damping_power(v_.data());
   const ForceLayout& layout = model_.layout;
-  for (std::size_t k = 0; k < mode.size(); ++k) {
+  for (std::size_t k = 0; k < states.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const State state = mode[k].state;
+    const State state = states[k].state;
     const double surface = forcing.surface(k, t1, 0) - forcing.surface(k, t0, 0);
     const double slip =
         contact::slip_of(contact, contact.tangent.dot(du_) - surface, b.T(layout, k) - a.T(layout, k));
-    const ContactPath path{slip, surface, contact.normal.dot(du_), contact.normal.dot(v_), h};
+    const ContactIncrement path{slip, surface, contact.normal.dot(du_), contact.normal.dot(v_), h};
     works.add(k,
               contact::work_on(contact, state, 0.5 * (a.N(layout, k) + b.N(layout, k)),
                                0.5 * (a.T(layout, k) + b.T(layout, k)), path),
@@ -392,7 +395,7 @@ double trapezoid(const Values& f, std::size_t stride) {
 double of_own_steps(const Piece& piece, double begin, double end, double dt) {
   double sum = 0.0, from = begin, before = piece.value(begin);
   for (int i = 1; from < end; ++i) {
-    const double next = begin + i * dt, to = end - next <= same_length * dt ? end : next;
+    const double next = begin + i * dt, to = end - next <= length_tolerance * dt ? end : next;
     const double after = piece.value(to);
     sum += 0.5 * (to - from) * (before + after);
     from = to;
@@ -443,8 +446,8 @@ std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
 
 }  // namespace
 
-double step_within(const Model& model, double begin, double end, double dt) {
-  if (!(end - begin < short_of_steps * dt)) return dt;
+double segment_step_length(const Model& model, double begin, double end, double dt) {
+  if (!(end - begin < short_segment_steps * dt)) return dt;
   const double middle = 0.5 * (begin + end);
   std::size_t parts = 1;
   const auto consider = [&](const History& history) {
@@ -453,7 +456,7 @@ double step_within(const Model& model, double begin, double end, double dt) {
   };
   for (const Load& load : model.loads) consider(load.history);
   for (const Contact& contact : model.contacts) consider(contact.normal_force);
-  while (parts > 1 && (end - begin) / static_cast<double>(parts) < rounding::of_few * std::abs(end))
+  while (parts > 1 && (end - begin) / static_cast<double>(parts) < rounding::few_operations * std::abs(end))
     parts /= 2;
   return parts > 1 ? std::min(dt, (end - begin) / static_cast<double>(parts)) : dt;
 }

@@ -8,7 +8,7 @@
 // The unknown of a degree of freedom is a1, v1 if it has a damper but no mass, u1 if it has neither: no division by h,
 // so a step may be as short as the resolution of time.
 //
-// Large structures (`economical_from`) with compliant contacts and a narrow band are factorised anew for each length
+// Large structures (`min_condensed_size`) with compliant contacts and a narrow band are factorised anew for each length
 // that will not recur; for lengths that recur, factors follow changes of state (linear/condensed_matrix.hpp).
 // Factorisations of other structures:
 //   after a change of state at the full length   an update of low rank of the last one (linear/mass_factors.hpp)
@@ -32,7 +32,7 @@ namespace signorini::newmark {
 
 /// Lengths that differ by less than this part of a step are equal: a slightly longer remainder of a segment is taken in
 /// one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
-inline constexpr double same_length = 1e-9;
+inline constexpr double length_tolerance = 1e-9;
 
 class NewmarkStep {
  public:
@@ -41,7 +41,7 @@ class NewmarkStep {
 
   /// widest_band: greatest width for which a matrix is factorised as a band.
   NewmarkStep(const Model& model, const linear::SystemMatrices& structure,
-              std::size_t widest_band = linear::CondensedMatrix::widest);
+              std::size_t widest_band = linear::CondensedMatrix::max_width);
 
   /// Puts rows in force.
   void set(Key key, std::vector<Rows> rows);
@@ -57,25 +57,25 @@ class NewmarkStep {
   /// End of such a step at one contact, computed from its neighbourhood: the rest of the point is invalid. whole: the
   /// end of the step of length `longer` from the same point. Null: no neighbourhood is available, or it would not save
   /// time.
-  [[nodiscard]] const motion::Point* near(std::size_t contact, const motion::Forcing& forcing,
-                                          const motion::Point& from, double t1, double h,
-                                          const motion::Point& whole, double longer);
+  [[nodiscard]] const motion::Point* local_end(std::size_t contact, const motion::Forcing& forcing,
+                                               const motion::Point& from, double t1, double h,
+                                               const motion::Point& whole, double longer);
   /// The neighbourhood used by near() was too small: doubles its radius.
-  void look_farther();
+  void double_radius();
   void count(Counters& counters) const;
 
  private:
   using Factors = std::shared_ptr<const linear::TriangularFactors>;
   [[nodiscard]] bool solve_condensed(double h, bool kept);
   [[nodiscard]] bool solve_kept(double h);
-  [[nodiscard]] bool solve_odd(double h);
+  [[nodiscard]] bool solve_irregular(double h);
   [[nodiscard]] bool factor(linear::SystemMatrix& matrix, double h, bool fresh);
-  void weigh(double h);
+  void set_weights(double h);
   [[nodiscard]] bool update(double h);
   [[nodiscard]] bool refine(double h);
   [[nodiscard]] std::vector<linear::ChangedRow> changed_rows() const;
-  void take_rest(const Vector& b, const Vector& x, double h);
-  void know_motion(const motion::Point& from, double h);
+  void set_residual(const Vector& b, const Vector& x, double h);
+  void predict(const motion::Point& from, double h);
   void read_motion(const motion::Point& from, double h, motion::Point& to) const;
 
   const Model& model_;
@@ -87,23 +87,23 @@ class NewmarkStep {
   const bool massless_;
   linear::MotionKinds in_rows_;  // unknown of each degree of freedom
   linear::SystemMatrix workspace_;
-  base::BoundedCache<std::pair<Key, double>, Factors> kept_;  // by rows and length
-  linear::SystemMatrix odd_;                                  // matrix for a length that will not recur
-  Key odd_key_;
-  double odd_h_ = 0.0;  // 0: no factors
-  Factors last_;        // last used factors of a kept length; null after a change of rows
+  base::LruCache<std::pair<Key, double>, Factors> kept_;  // by rows and length
+  linear::SystemMatrix irregular_;                        // matrix for a length that will not recur
+  Key irregular_key_;
+  double irregular_h_ = 0.0;  // 0: no factors
+  Factors last_;              // last used factors of a kept length; null after a change of rows
   double last_h_ = 0.0;
   const bool economical_;
-  std::optional<linear::CondensedRows> condensed_;    // used if the band is narrow
-  std::optional<linear::CondensedMatrix> kept_band_;  // band matrix for a length that recurs
-  std::optional<linear::CondensedMatrix> odd_band_;   // for other lengths
-  std::optional<LocalStep> near_;
-  linear::UpdatedFactors updated_;  // rows in force as changes of base_rows_, both at base_h_
-  std::vector<Rows> base_rows_;     // rows of the base matrix
+  std::optional<linear::CondensedRows> condensed_;         // used if the band is narrow
+  std::optional<linear::CondensedMatrix> kept_band_;       // band matrix for a length that recurs
+  std::optional<linear::CondensedMatrix> irregular_band_;  // for other lengths
+  std::optional<LocalStep> local_step_;
+  linear::WoodburyFactors updated_;  // rows in force as changes of base_rows_, both at base_h_
+  std::vector<Rows> base_rows_;      // rows of the base matrix
   double base_h_ = 0.0;
-  bool updates_ = false;           // updated_ is in force, for last_h_
-  double spent_ = 0.0;             // operations that its solves took since the rows changed
-  Vector odd_x_, rest_, product_;  // the last solution at an odd length; scratch
+  bool updates_ = false;                 // updated_ is in force, for last_h_
+  double spent_ = 0.0;                   // operations that its solves took since the rows changed
+  Vector irregular_x_, rest_, product_;  // the last solution at an odd length; scratch
   std::vector<linear::Weights> weights_;
   Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
   long solves_ = 0;
@@ -125,7 +125,7 @@ class NewmarkWorkIntegrals {
       : model_(model), structure_(structure), du_(model.size()), v_(model.size()) {}
 
   /// works += factor * the works of the step from `a` at t0 to `b` at t1, in one mode.
-  void add(const motion::Forcing& forcing, const contact::ContactStates& mode, const motion::Point& a,
+  void add(const motion::Forcing& forcing, const contact::ContactStates& states, const motion::Point& a,
            double t0, const motion::Point& b, double t1, double factor, motion::WorkIntegrals& works);
 
  private:
@@ -145,10 +145,10 @@ class NewmarkWorkIntegrals {
 // goes.
 
 /// Longer segments use dt, which integrates half waves of such a length to within a 200th.
-inline constexpr double short_of_steps = 16.0;
+inline constexpr double short_segment_steps = 16.0;
 
 /// Length of the steps from `begin` to `end`, at most dt; no history breaks between them. Loads and compressions are
 /// considered.
-[[nodiscard]] double step_within(const Model& model, double begin, double end, double dt);
+[[nodiscard]] double segment_step_length(const Model& model, double begin, double end, double dt);
 
 }  // namespace signorini::newmark

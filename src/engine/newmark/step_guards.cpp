@@ -11,7 +11,9 @@
 namespace signorini::newmark {
 
 StepGuards::StepGuards(const Model& model)
-    : model_(model), seen_(model.contacts.size()), before_(contact::guard_count(model.contacts.size()), 1.0) {
+    : model_(model),
+      contact_guards_(model.contacts.size()),
+      before_(contact::guard_count(model.contacts.size()), 1.0) {
   g0_ = g1_ = before_;
   rate0_.assign(before_.size(), 0.0);
   rate1_ = rate0_;
@@ -35,21 +37,21 @@ void StepGuards::start(const engine::Segment& segment) {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot)
     if (!active_guards_.idle(slot) && !active_guards_.armed(slot)) waiting_.push_back(slot);
   dismissed_.clear();
-  const bool all = others || mode_.size() != decision.mode.size();
-  mode_.resize(decision.mode.size());
-  for (std::size_t k = 0; k < seen_.size(); ++k)
-    if (all || decision.mode[k] != mode_[k] || !seen_[k].plain) gather(k);
+  const bool all = others || states_.size() != decision.states.size();
+  states_.resize(decision.states.size());
+  for (std::size_t k = 0; k < contact_guards_.size(); ++k)
+    if (all || decision.states[k] != states_[k] || !contact_guards_[k].is_linear) gather(k);
 }
 
 void StepGuards::gather(std::size_t k) {
   const decide::Decision& decision = *segment_.decision;
   const Rows& rows = decision.system->rows()[k];
-  mode_[k] = decision.mode[k];
-  Seen& seen = seen_[k];
+  states_[k] = decision.states[k];
+  ContactGuards& seen = contact_guards_[k];
   seen = {};
   // A neighbouring contact may hold a guard of a contact that sticks rigidly.
-  seen.plain = decide::is_plain(rows.normal) && decide::is_plain(rows.tangent) && rows.normal.vn == 0.0 &&
-               !segment_.forcing->drives(k) && !model_.contacts[k].sticks_rigidly();
+  seen.is_linear = decide::is_plain(rows.normal) && decide::is_plain(rows.tangent) && rows.normal.vn == 0.0 &&
+                   !segment_.forcing->is_driven(k) && !model_.contacts[k].sticks_rigidly();
   seen.gap = model_.contacts[k].gap;
   seen.surface = segment_.forcing->surface(k, decision.jet.t, 0);
   seen.normal_gap = rows.normal.gap;
@@ -65,8 +67,8 @@ void StepGuards::gather(std::size_t k) {
     if (idle) continue;
     seen.watched = true;
     const Form& f = decision.form(slot);
-    seen.plain = seen.plain && decide::is_plain(f);
-    seen.accelerates = seen.accelerates || (has_rate_[slot] && (f.vn != 0.0 || f.vt != 0.0));
+    seen.is_linear = seen.is_linear && decide::is_plain(f);
+    seen.needs_accelerations = seen.needs_accelerations || (has_rate_[slot] && (f.vn != 0.0 || f.vt != 0.0));
     seen.guards[i] = {f.N, f.T, f.gap, f.ut, f.vn, f.vt, f.constant};
   }
 }
@@ -89,18 +91,18 @@ bool StepGuards::rates_known(std::size_t slot) const {
   return !accelerates || (!massless(model_.contacts[k].normal) && !massless(model_.contacts[k].tangent));
 }
 
-void StepGuards::weigh(const motion::Point& point, double t) {
-  for (std::size_t k = 0; k < seen_.size(); ++k) {
-    if (!seen_[k].watched) continue;
-    if (seen_[k].plain)
-      weigh_plain(k, point);
+void StepGuards::evaluate(const motion::Point& point, double t) {
+  for (std::size_t k = 0; k < contact_guards_.size(); ++k) {
+    if (!contact_guards_[k].watched) continue;
+    if (contact_guards_[k].is_linear)
+      evaluate_linear(k, point);
     else
-      weigh_any(k, point, t);
+      evaluate_general(k, point, t);
   }
 }
 
-void StepGuards::weigh_plain(std::size_t k, const motion::Point& point) {
-  const Seen& seen = seen_[k];
+void StepGuards::evaluate_linear(std::size_t k, const motion::Point& point) {
+  const ContactGuards& seen = contact_guards_[k];
   const double *u = point.u.data(), *v = point.v.data(), *a = point.a.data();
   double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, an = 0.0, at = 0.0;
   for (std::size_t i = ends_[k]; i < ends_[k + 1]; ++i) {
@@ -109,7 +111,7 @@ void StepGuards::weigh_plain(std::size_t k, const motion::Point& point) {
     ut += term.t * u[term.dof];
     vn += term.n * v[term.dof];
     vt += term.t * v[term.dof];
-    if (!seen.accelerates) continue;
+    if (!seen.needs_accelerations) continue;
     an += term.n * a[term.dof];
     at += term.t * a[term.dof];
   }
@@ -118,14 +120,14 @@ void StepGuards::weigh_plain(std::size_t k, const motion::Point& point) {
   const double N = point.N(model_.layout, k), T = point.T(model_.layout, k);
   const double dN = -(seen.normal_gap * vn), dT = -(seen.tangent_N * dN + seen.tangent_ut * vt);
   for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
-    const Plain& g = seen.guards[i];
+    const LinearGuard& g = seen.guards[i];
     const std::size_t slot = contact::guard_slot(k, i);
     g1_[slot] = g.constant + (g.N * N + g.T * T + g.gap * gap + g.ut * ut + g.vn * vn + g.vt * vt);
     if (has_rate_[slot]) rate1_[slot] = g.N * dN + g.T * dT + g.gap * vn + g.ut * vt + g.vn * an + g.vt * at;
   }
 }
 
-void StepGuards::weigh_any(std::size_t k, const motion::Point& point, double t) {
+void StepGuards::evaluate_general(std::size_t k, const motion::Point& point, double t) {
   const motion::Forcing& forcing = *segment_.forcing;
   const ContactMotion m = motion::motion_of(model_.contacts[k], k, forcing, t, point);
   ContactMotion d;  // known part of the derivative
@@ -147,7 +149,7 @@ void StepGuards::weigh_any(std::size_t k, const motion::Point& point, double t) 
   }
 }
 
-void StepGuards::turn() {
+void StepGuards::begin_next_step() {
   before_.swap(g0_);
   g0_.swap(g1_);
   rate0_.swap(rate1_);
@@ -163,43 +165,44 @@ double StepGuards::value(std::size_t slot, double t, const motion::Point& point)
 double StepGuards::level(std::size_t slot, double t, const motion::Point& point) const {
   const std::size_t k = contact::contact_of_guard(slot);
   const decide::GuardStart& guard = segment_.decision->guards[slot];
-  return guard.noise + rounding::of_many * segment_.decision->form(slot).magnitude(motion::motion_of(
-                                               model_.contacts[k], k, *segment_.forcing, t, point));
+  return guard.noise + rounding::many_operations * segment_.decision->form(slot).magnitude(motion::motion_of(
+                                                       model_.contacts[k], k, *segment_.forcing, t, point));
 }
 
 std::optional<double> StepGuards::dip(std::size_t slot, double h, double h_before) const {
   if (std::find(dismissed_.begin(), dismissed_.end(), slot) != dismissed_.end()) return std::nullopt;
-  events::GuardPath along = path(slot, h);
-  std::optional<double> x = has_rate(slot) ? along.dip() : std::nullopt;
+  events::GuardCubic along = path(slot, h);
+  std::optional<double> x = has_rate(slot) ? along.interior_minimum() : std::nullopt;
   if (!x) {
     events::rates_from_values(along, h, before_[slot], h_before);
-    x = along.dip();
+    x = along.interior_minimum();
   }
   return x;
 }
 
-const std::vector<std::size_t>& StepGuards::noticed(double h, double h_before) {
-  noticed_.clear();
+const std::vector<std::size_t>& StepGuards::candidate_slots(double h, double h_before) {
+  candidate_slots_.clear();
   for (std::size_t slot = 0; slot < g1_.size(); ++slot) {
     const double g0 = g0_[slot], g1 = g1_[slot];
     bool holds = g1 > 0.0 && g0 + h * rate0_[slot] / 3.0 > 0.0 && g1 - h * rate1_[slot] / 3.0 > 0.0;
     if (h_before > 0.0) {
-      events::GuardPath along{g0, g1};
+      events::GuardCubic along{g0, g1};
       events::rates_from_values(along, h, before_[slot], h_before);
       holds = holds && g0 + along.r0 / 3.0 > 0.0 && g1 - along.r1 / 3.0 > 0.0;
     }
-    if (!holds) noticed_.push_back(slot);
+    if (!holds) candidate_slots_.push_back(slot);
   }
-  const auto own = static_cast<std::ptrdiff_t>(noticed_.size());
-  noticed_.insert(noticed_.end(), waiting_.begin(), waiting_.end());
-  std::inplace_merge(noticed_.begin(), noticed_.begin() + own, noticed_.end());
-  noticed_.erase(std::unique(noticed_.begin(), noticed_.end()), noticed_.end());
-  return noticed_;
+  const auto own = static_cast<std::ptrdiff_t>(candidate_slots_.size());
+  candidate_slots_.insert(candidate_slots_.end(), waiting_.begin(), waiting_.end());
+  std::inplace_merge(candidate_slots_.begin(), candidate_slots_.begin() + own, candidate_slots_.end());
+  candidate_slots_.erase(std::unique(candidate_slots_.begin(), candidate_slots_.end()),
+                         candidate_slots_.end());
+  return candidate_slots_;
 }
 
-void StepGuards::see(double t, const motion::Point& point) {
+void StepGuards::update_active_guards(double t, const motion::Point& point) {
   std::erase_if(waiting_, [&](std::size_t slot) {
-    active_guards_.see(slot, g1_[slot], level(slot, t, point));
+    active_guards_.update(slot, g1_[slot], level(slot, t, point));
     return active_guards_.armed(slot);
   });
 }

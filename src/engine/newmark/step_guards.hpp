@@ -23,17 +23,17 @@ class StepGuards {
   /// known.
   void start(const engine::Segment& segment);
   /// Evaluates values and rates at the end of the step. The point, here and in level(), contains accelerations.
-  void weigh(const motion::Point& point, double t);
+  void evaluate(const motion::Point& point, double t);
   /// Moves on to the next step: values at the end of this step become those at its beginning, and dismissed dips count
   /// again.
-  void turn();
+  void begin_next_step();
 
   [[nodiscard]] const events::ActiveGuards& active_guards() const { return active_guards_; }
   [[nodiscard]] double value(std::size_t slot, double t, const motion::Point& point) const;
   /// Below this value the guard's sign at `point` is rounding.
   [[nodiscard]] double level(std::size_t slot, double t, const motion::Point& point) const;
   /// Values and rates at both ends of a step of length h.
-  [[nodiscard]] events::GuardPath path(std::size_t slot, double h) const {
+  [[nodiscard]] events::GuardCubic path(std::size_t slot, double h) const {
     return {g0_[slot], g1_[slot], h * rate0_[slot], h * rate1_[slot]};
   }
   [[nodiscard]] bool has_rate(std::size_t slot) const { return has_rate_[slot] != 0; }
@@ -43,44 +43,44 @@ class StepGuards {
   /// The redone step did not confirm the guard's dip.
   void dismiss(std::size_t slot) { dismissed_.push_back(slot); }
   /// Slots that a step of length h has to examine, ascending; all other guards stay positive in it.
-  [[nodiscard]] const std::vector<std::size_t>& noticed(double h, double h_before);
+  [[nodiscard]] const std::vector<std::size_t>& candidate_slots(double h, double h_before);
   /// Called at the end of a step without further events: waiting guards may become armed.
-  void see(double t, const motion::Point& point);
+  void update_active_guards(double t, const motion::Point& point);
 
  private:
   /// The nonzero coefficients of a guard, and whether it is one.
-  struct Plain {
+  struct LinearGuard {
     double N = 0.0, T = 0.0, gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, constant = 0.0;
   };
   /// Data of a contact that weigh() reads.
-  struct Seen {
-    bool watched = false;             // at least one guard is in force
-    bool plain = false;               // guards and rows are forms as above
-    bool accelerates = false;         // a rate needs accelerations
-    double gap = 0.0, surface = 0.0;  // constant values
+  struct ContactGuards {
+    bool watched = false;              // at least one guard is in force
+    bool is_linear = false;            // guards and rows are forms as above
+    bool needs_accelerations = false;  // a rate needs accelerations
+    double gap = 0.0, surface = 0.0;   // constant values
     double normal_gap = 0.0, tangent_N = 0.0, tangent_ut = 0.0;
-    std::array<Plain, contact::guards_per_contact> guards{};
+    std::array<LinearGuard, contact::guards_per_contact> guards{};
   };
   struct Term {
     std::size_t dof;
     double n, t;
   };
   void gather(std::size_t contact);
-  void weigh_plain(std::size_t contact, const motion::Point& point);
-  void weigh_any(std::size_t contact, const motion::Point& point, double t);
+  void evaluate_linear(std::size_t contact, const motion::Point& point);
+  void evaluate_general(std::size_t contact, const motion::Point& point, double t);
   [[nodiscard]] bool rates_known(std::size_t slot) const;
 
   const Model& model_;
   std::vector<Term> terms_;           // contact by contact
   std::vector<std::size_t> ends_{0};  // end of each contact's terms
   engine::Segment segment_;
-  contact::ContactStates mode_;  // states at the last gather()
+  contact::ContactStates states_;  // states at the last gather()
   events::ActiveGuards active_guards_;
-  std::vector<Seen> seen_;  // one entry for each contact
+  std::vector<ContactGuards> contact_guards_;  // one entry for each contact
   std::vector<double> before_, g0_, g1_, rate0_,
       rate1_;  // one entry for each slot; before_: at the beginning of the previous step
   std::vector<char> has_rate_;
-  std::vector<std::size_t> waiting_, dismissed_, noticed_;
+  std::vector<std::size_t> waiting_, dismissed_, candidate_slots_;
 };
 
 }  // namespace signorini::newmark

@@ -82,7 +82,7 @@ struct Builder {
   void add(Triplets& target, Column column, const Matrix& a, const Numbers& numbers) {
     if (!any_tied(map, numbers.data(), numbers.size())) return add_own(target, column, a, numbers);
     const TiedElement tied(map, numbers.data(), numbers.size());
-    add_own(target, column, tied.of(a), tied.numbers);
+    add_own(target, column, tied.transform(a), tied.numbers);
   }
 
   template <class Matrix, class Numbers>
@@ -92,7 +92,7 @@ struct Builder {
         const double value = a(static_cast<int>(i), static_cast<int>(j));
         if (numbers[i] < 0 || value == 0.0) continue;
         if (numbers[j] >= 0) target.emplace_back(numbers[i], numbers[j], value);
-        if (const int s = DofMap::moving_of_code(numbers[j]); numbers[j] < 0 && s >= 0)
+        if (const int s = DofMap::support_of_code(numbers[j]); numbers[j] < 0 && s >= 0)
           (moving[static_cast<std::size_t>(s)].*column)[numbers[i]] += value;
       }
   }
@@ -134,9 +134,9 @@ struct Builder {
   /// Adds the geometric stiffness to every structure that holds stiffnesses.
   void add_geometric(std::size_t number) {
     const element::FiniteElement& e = map.mesh.element(number);
-    const element::AxialForces forces = map.frozen_in(number);
-    if (forces.none() || map.within_body(e)) return;
-    add(stiffness, &SupportColumns::stiffness, e.geometric(forces), map.element_numbers(number));
+    const element::AxialForces forces = map.axial_forces_in(number);
+    if (forces.is_zero() || map.within_body(e)) return;
+    add(stiffness, &SupportColumns::stiffness, e.geometric_stiffness(forces), map.element_numbers(number));
   }
 
   void add_weight(int number, double force) {
@@ -149,7 +149,7 @@ struct Builder {
   /// The weight of a body directly above its support has no moment; this removes the rounding of its arm.
   void drop_rounding() {
     for (Eigen::Index i = 0; i < weight.size(); ++i)
-      if (std::abs(weight[i]) <= rounding::of_few * weight_size[i]) weight[i] = 0.0;
+      if (std::abs(weight[i]) <= rounding::few_operations * weight_size[i]) weight[i] = 0.0;
   }
 
   /// M r a, with r a the acceleration of all translations, number by number.
@@ -224,7 +224,7 @@ Builder begun(const Scene& scene, const DofMap& map) {
 
 }  // namespace
 
-GeometricStiffness assemble_geometric(const Scene& scene, const DofMap& map) {
+GeometricStiffness assemble_geometric_stiffness(const Scene& scene, const DofMap& map) {
   Builder builder = begun(scene, map);
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) builder.add_geometric(i);
   for (std::size_t i = 0; i < map.body_stiffness.size(); ++i) {

@@ -17,13 +17,13 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   Direction direction;
   if (spec.tangent)
     direction = *spec.tangent;
-  else if (spec.normal && !map.matrices())
+  else if (spec.normal && !map.is_matrix_scene())
     direction = {spec.normal->node, sliding_direction(spec), {}, spec.normal->place, spec.normal->against};
   else
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
   const bool measures_only = !spec.capabilities().normal_force_given && !spec.friction.any() &&
-                             !(spec.own && acts_along_tangent(*spec.own));
+                             !(spec.user_law && acts_along_tangent(*spec.user_law));
   return combination(map, direction, spec.key("tangent"), true, measures_only);
 }
 
@@ -51,7 +51,7 @@ void check_compliant(const ContactSpec& spec, const Contact& contact) {
 /// With friction that depends on N, p' follows from the rate of N; a normal dashpot would make it depend on
 /// accelerations.
 void check_friction_by_force(const ContactSpec& spec) {
-  if (!spec.friction.by_force()) return;
+  if (!spec.friction.is_load_dependent()) return;
   const auto refuse = [&](const std::string& what) {
     throw SceneError(spec.place, spec.key("friction"), "friction that depends on the normal force " + what);
   };
@@ -64,7 +64,7 @@ void check_friction_by_force(const ContactSpec& spec) {
 /// Checks the rows and guards of a user law.
 void check_own(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
-  const UserContactLaw& law = *spec.own;
+  const UserContactLaw& law = *spec.user_law;
   if (!spec.capabilities().normal_spring)
     refuse("a law of one's own stands in place of that of a compliant contact");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
@@ -76,7 +76,7 @@ void check_own(const ContactSpec& spec, const Scene& scene) {
                                  "displacements and velocities, or use law = \"compliant\"",
                                  law.name));
   }
-  if (const std::string refusal = refusal_of(law); !refusal.empty()) refuse(refusal);
+  if (const std::string refusal = validation_error(law); !refusal.empty()) refuse(refusal);
 }
 
 void check_slider(const ContactSpec& spec, const Contact& contact, double t_end) {
@@ -84,7 +84,7 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
     throw SceneError(spec.place, spec.key("tangent"), "a slider needs a tangent");
   if (contact.tangent.terms.empty())
     throw SceneError(spec.place, spec.key("tangent"), "a support fixes all motion along the tangent");
-  if (const double t = history::negative_at(contact.normal_force, t_end); t >= 0.0)
+  if (const double t = history::find_negative_time(contact.normal_force, t_end); t >= 0.0)
     throw SceneError(spec.normal_force.place, spec.key("normal_force"),
                      fmt::format("found {:.6g} at time {:.6g}, expected a compression >= 0",
                                  contact.normal_force.value(t), t));
@@ -114,7 +114,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.tangential_stiffness = spec.tangential_stiffness;
     c.normal_damping = spec.normal_damping;
     c.friction = spec.friction;
-    c.bowl = spec.bowl;
+    c.pendulum_surface = spec.pendulum_surface;
     c.initial_shear = spec.initial_shear;
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;
@@ -124,7 +124,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     if (!c.normal_force_given()) {
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);
-      if (spec.own) check_own(spec, scene);
+      if (spec.user_law) check_own(spec, scene);
       if (c.normal_spring()) check_compliant(spec, c);
     } else {
       c.normal_force = scene::make_history(spec.normal_force, spec.key("normal_force"));

@@ -21,8 +21,8 @@ void need(Numbers& numbers, int node, const std::array<double, 2>& direction) {
 void mark_needed(const Scene& scene, const element::Mesh& mesh, Numbers& numbers) {
   for (const auto& e : mesh.elements)
     for (const element::ElementUnknown& unknown : e->unknowns())
-      if (!unknown.own)
-        numbers[static_cast<std::size_t>(e->nodes()[unknown.place])][unknown.component] = DofMap::needed;
+      if (!unknown.internal)
+        numbers[static_cast<std::size_t>(e->nodes()[unknown.local_node])][unknown.component] = DofMap::needed;
   for (std::size_t i = 0; i < scene.masses.size(); ++i) {
     const PointMass& m = scene.masses[i];
     const int node = element::find_node(mesh, m.node, m.place,
@@ -116,14 +116,14 @@ void add_own(DofMap& map) {
     const std::string& to = map.mesh.node(piece.to).name;
     for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) {
       const element::FiniteElement& element = map.mesh.element(i);
-      if (!element.has_own()) continue;
+      if (!element.has_internal_unknowns()) continue;
       const std::vector<element::ElementUnknown> unknowns = element.unknowns();
       for (std::size_t j = 0; j < unknowns.size(); ++j) {
-        if (!unknowns[j].own) continue;
-        const int node = element.nodes()[unknowns[j].place];
+        if (!unknowns[j].internal) continue;
+        const int node = element.nodes()[unknowns[j].local_node];
         const std::size_t c = unknowns[j].component;
-        map.own[{i, j}] = map.size();
-        map.where.emplace_back(node, static_cast<int>(c));
+        map.internal[{i, j}] = map.size();
+        map.locations.emplace_back(node, static_cast<int>(c));
         const std::string name = fmt::format("{}-{}.{}.", from, to, map.mesh.node(node).name);
         map.dofs.push_back({name + scene::plane_components[c].displacement,
                             name + scene::plane_components[c].velocity, scene::plane_components[c].rotation,
@@ -136,7 +136,7 @@ void add_own(DofMap& map) {
 }  // namespace
 
 std::array<double, 2> clean_direction(const std::array<double, 2>& v) {
-  const double bound = rounding::of_few * std::hypot(v[0], v[1]);
+  const double bound = rounding::few_operations * std::hypot(v[0], v[1]);
   return {std::abs(v[0]) > bound ? v[0] : 0.0, std::abs(v[1]) > bound ? v[1] : 0.0};
 }
 
@@ -148,7 +148,7 @@ std::array<double, 2> sliding_direction(const ContactSpec& contact) {
   return {0.0, 0.0};
 }
 
-void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node) {
+void refuse_missing_rotation(const SourcePlace& place, const std::string& key, const std::string& node) {
   throw SceneError(
       place, key,
       fmt::format("nothing turns with node '{}': no beam that is not hinged there, no inertia and no "
@@ -170,20 +170,21 @@ DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
         map.number[static_cast<std::size_t>(element::find_node(map.mesh, s.node, s.place, s.key + ".node"))];
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     if (s.motion && s.rz && numbers[2] == DofMap::absent)
-      refuse_turn(s.place, s.key + (s.motion_is_acceleration ? ".acceleration" : ".motion"), s.node);
+      refuse_missing_rotation(s.place, s.key + (s.motion_is_acceleration ? ".acceleration" : ".motion"),
+                              s.node);
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c]) numbers[c] = DofMap::fixed;
     if (s.motion) follow(map, i, s, fix);
   }
   check_moving(scene, map);
   const std::vector<BodyMotion> bodies = find_bodies(scene, map);
-  leave_to_master(scene, map);
+  mark_slave_dofs(scene, map);
   for (std::size_t node = 0; node < map.number.size(); ++node)
     for (std::size_t c = 0; c < 3; ++c) {
       if (map.number[node][c] != DofMap::needed) continue;
       const std::string& name = map.mesh.nodes[node].name;
       map.number[node][c] = map.size();
-      map.where.emplace_back(static_cast<int>(node), static_cast<int>(c));
+      map.locations.emplace_back(static_cast<int>(node), static_cast<int>(c));
       map.dofs.push_back({name + "." + scene::plane_components[c].displacement,
                           name + "." + scene::plane_components[c].velocity,
                           scene::plane_components[c].rotation, false});
@@ -196,7 +197,7 @@ DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
 }
 
 bool DofMap::within_body(const element::FiniteElement& e) const {
-  return !e.has_own() && in_one_body(e.nodes());
+  return !e.has_internal_unknowns() && in_one_body(e.nodes());
 }
 
 bool DofMap::in_one_body(const std::vector<int>& nodes) const {
@@ -235,7 +236,7 @@ double DofMap::value(const Vector& x, int n) const {
 std::array<int, 3> DofMap::numbers_at(int node) const {
   std::array<int, 3> numbers = number[static_cast<std::size_t>(node)];
   for (std::size_t c = 0; c < 3; ++c)
-    if (const int i = moving[static_cast<std::size_t>(node)][c]; i >= 0) numbers[c] = code_of_moving(i);
+    if (const int i = moving[static_cast<std::size_t>(node)][c]; i >= 0) numbers[c] = support_code(i);
   return numbers;
 }
 
@@ -245,8 +246,9 @@ std::vector<int> DofMap::element_numbers(std::size_t i) const {
   std::vector<int> numbers;
   numbers.reserve(unknowns.size());
   for (std::size_t j = 0; j < unknowns.size(); ++j)
-    numbers.push_back(unknowns[j].own ? own.at({i, j})
-                                      : numbers_at(e.nodes()[unknowns[j].place])[unknowns[j].component]);
+    numbers.push_back(unknowns[j].internal
+                          ? internal.at({i, j})
+                          : numbers_at(e.nodes()[unknowns[j].local_node])[unknowns[j].component]);
   return numbers;
 }
 
@@ -264,7 +266,7 @@ DofMap number_matrices(const MatricesSpec& matrices) {
 Combination combination(const DofMap& map, const Direction& direction, const std::string& key, bool unit,
                         bool skip_absent) {
   Combination result;
-  if (map.matrices()) {
+  if (map.is_matrix_scene()) {
     for (const auto& [name, factor] : direction.dofs) {
       const std::string wanted = name + ".u";
       const auto it = std::find_if(map.dofs.begin(), map.dofs.end(),
@@ -309,13 +311,13 @@ SourcePlace place_of_structure(const Scene& scene) {
 }
 
 SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof) {
-  if (map.matrices()) return scene.matrices->stiffness.place;
-  const int node = map.where[static_cast<std::size_t>(dof)].first;
+  if (map.is_matrix_scene()) return scene.matrices->stiffness.place;
+  const int node = map.locations[static_cast<std::size_t>(dof)].first;
   const auto member_place = [&](std::size_t element) {
     const auto i = static_cast<std::size_t>(map.mesh.element(element).member());
     return i < scene.members.size() ? scene.members[i].place : scene.bodies[i - scene.members.size()].place;
   };
-  for (const auto& [unknown, number] : map.own)
+  for (const auto& [unknown, number] : map.internal)
     if (number == dof) return member_place(unknown.first);
   if (node < map.mesh.named) {
     const std::string& name = map.mesh.nodes[static_cast<std::size_t>(node)].name;
@@ -414,25 +416,25 @@ bool translates(const std::vector<NodeMotion>& nodes, double size) {
 }  // namespace
 
 bool is_rigid(const Vector& motion, const DofMap& map) {
-  const double size = greatest_translation(motion, map);
-  if (map.matrices() || !(size > 0.0)) return false;
+  const double size = max_translation(motion, map);
+  if (map.is_matrix_scene() || !(size > 0.0)) return false;
   const auto nodes = node_motions(motion, map);
   std::string name;
   return translates(nodes, size) || rigid_rotation(nodes, size, map.shown_length, name);
 }
 
-double greatest_translation(const Vector& motion, const DofMap& map) {
+double max_translation(const Vector& motion, const DofMap& map) {
   double size = 0.0;
   for (const NodeMotion& m : node_motions(motion, map)) size = std::max(size, std::hypot(m.x, m.y));
-  if (map.matrices() && motion.size() > 0) size = motion.cwiseAbs().maxCoeff();
+  if (map.is_matrix_scene() && motion.size() > 0) size = motion.cwiseAbs().maxCoeff();
   return size;
 }
 
 std::string describe_motion(const Vector& motion, const DofMap& map) {
-  const double size = greatest_translation(motion, map);
+  const double size = max_translation(motion, map);
   const double whole = motion.size() == 0 ? 0.0 : motion.cwiseAbs().maxCoeff();
   if (!(size > 0.0)) return largest_name(motion, map, whole, true);
-  if (map.matrices()) return largest_name(motion, map, size, false);
+  if (map.is_matrix_scene()) return largest_name(motion, map, size, false);
   const auto nodes = node_motions(motion, map);
   int moving = 0;
   const NodeMotion* mover = nullptr;

@@ -37,15 +37,16 @@ struct DofMap {
   element::Mesh mesh;                      ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
   std::map<std::pair<std::size_t, std::size_t>, int>
-      own;                                 ///< elements' own unknowns: element, index into unknowns()
+      internal;                            ///< elements' own unknowns: element, index into unknowns()
   std::vector<std::array<int, 3>> moving;  ///< per mesh node: index into `supports` that it follows, or
                                            ///< `absent`
   std::vector<std::size_t> supports;       ///< moving supports: indices into Scene::supports
   std::vector<Dof> dofs;
-  std::vector<std::pair<int, int>> where;    ///< per degree of freedom: mesh node, component
-  std::vector<int> body;                     ///< per mesh node: index into Scene::rigid, or `absent`
-  std::vector<element::AxialForces> frozen;  ///< per element: its frozen axial forces (prestress.hpp); empty:
-                                             ///< none
+  std::vector<std::pair<int, int>> locations;  ///< per degree of freedom: mesh node, component
+  std::vector<int> body;                       ///< per mesh node: index into Scene::rigid, or `absent`
+  std::vector<element::AxialForces>
+      axial_forces;                    ///< per element: its frozen axial forces (prestress.hpp); empty:
+                                       ///< none
   std::vector<double> body_stiffness;  ///< per rigid body: stiffness of its frozen forces (prestress.hpp);
                                        ///< empty: none
   std::vector<TiedDof> tied;           ///< for the numbers size(), size() + 1, ...
@@ -53,10 +54,10 @@ struct DofMap {
   double shown_length = 1.0;  ///< length shown in names of motions, per length here
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
-  [[nodiscard]] bool matrices() const { return number.empty(); }
+  [[nodiscard]] bool is_matrix_scene() const { return number.empty(); }
   /// Code of moving support i in numbers_at() and element_numbers().
-  [[nodiscard]] static int code_of_moving(int i) { return -3 - i; }
-  [[nodiscard]] static int moving_of_code(int code) { return -3 - code; }
+  [[nodiscard]] static int support_code(int i) { return -3 - i; }
+  [[nodiscard]] static int support_of_code(int code) { return -3 - code; }
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
   /// True if all nodes move with one rigid body and no unknown is the element's own: the element is not strained.
   [[nodiscard]] bool within_body(const element::FiniteElement& e) const;
@@ -72,8 +73,8 @@ struct DofMap {
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// Numbers, `fixed`, `absent`, or codes of moving supports.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
-  [[nodiscard]] element::AxialForces frozen_in(std::size_t element) const {
-    return frozen.empty() ? element::AxialForces{} : frozen[element];
+  [[nodiscard]] element::AxialForces axial_forces_in(std::size_t element) const {
+    return axial_forces.empty() ? element::AxialForces{} : axial_forces[element];
   }
   /// Numbers of the element's unknowns, coded in the same way.
   [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
@@ -92,7 +93,8 @@ struct DofMap {
 /// mesh: mesh of the scene, or one with additional element types.
 [[nodiscard]] DofMap number_nodes(const Scene& scene, element::Mesh mesh);
 /// Throws the error for a moment or a rotation at a node without rotation.
-[[noreturn]] void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node);
+[[noreturn]] void refuse_missing_rotation(const SourcePlace& place, const std::string& key,
+                                          const std::string& node);
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
 
 /// A direction as a form on the numbered degrees of freedom, minus the counterpart's. Fixed components are dropped; an
@@ -124,6 +126,6 @@ struct DofMap {
 [[nodiscard]] bool is_rigid(const Vector& motion, const DofMap& map);
 
 /// Largest displacement of a node (matrix scenes: the largest component).
-[[nodiscard]] double greatest_translation(const Vector& motion, const DofMap& map);
+[[nodiscard]] double max_translation(const Vector& motion, const DofMap& map);
 
 }  // namespace signorini::assembly

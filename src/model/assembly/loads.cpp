@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/rounding.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 #include "model/assembly/member_pieces.hpp"
 #include "scene/components.hpp"
 #include "scene/history_from_spec.hpp"
@@ -33,7 +33,8 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
   Vector form = Vector::Zero(map.size());
   const int node = element::find_node(map.mesh, spec.direction.node, spec.place, key + ".node");
   const int dof = map.number[static_cast<std::size_t>(node)][2];
-  if (dof == DofMap::absent) refuse_turn(spec.direction.place, key + ".node", spec.direction.node);
+  if (dof == DofMap::absent)
+    refuse_missing_rotation(spec.direction.place, key + ".node", spec.direction.node);
   map.add(form, dof, 1.0);
   return form;
 }
@@ -48,7 +49,7 @@ void add_to(Vector& form, const element::ElementVector& forces, const DofMap& ma
 /// Adds the nodal forces of a unit force per length on one element.
 void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, bool backwards, Vector& form) {
   const element::LineElement& e = map.mesh.line(element);
-  add_to(form, e.spread(along_line(spec, e.axis(), backwards)), map, element);
+  add_to(form, e.load_vector(along_line(spec, e.axis(), backwards)), map, element);
 }
 
 Vector distributed_form(const LoadSpec& spec, const DofMap& map, const std::string& key) {
@@ -89,7 +90,7 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
   load.history = finite(scene::make_history(spec.history, key + ".history").scaled(spec.amplitude),
                         spec.place, key + ".amplitude");
   load.is_static = holds_since_ever(spec.history, load.history);
-  load.of_history = unit_of_history(spec.type);
+  load.history_unit = unit_of_history(spec.type);
   switch (spec.type) {
     case LoadType::force:
       load.direction = combination(map, spec.direction, key, false);
@@ -97,17 +98,17 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
     case LoadType::moment:
       load.kind = LoadKind::moment;
       load.direction = form_of(moment_form(spec, map, key), 1.0);
-      load.of_direction = {0, -1, 0};
+      load.direction_unit = {0, -1, 0};
       break;
     case LoadType::distributed:
       load.kind = LoadKind::distributed;
       load.direction = form_of(distributed_form(spec, map, key), 1.0);
-      load.of_direction = unit::length;
+      load.direction_unit = unit::length;
       break;
     case LoadType::traction:
       load.kind = LoadKind::distributed;
       load.direction = form_of(traction_form(scene, spec, map), 1.0);
-      load.of_direction = {0, 2, 0};
+      load.direction_unit = {0, 2, 0};
       break;
   }
   return load;
@@ -143,7 +144,7 @@ Combination strain_form(const DofMap& map, int member) {
         if (term.number >= 0)
           size[term.number] += known * std::abs(term.factor * forces[static_cast<Eigen::Index>(j)]);
   }
-  return form_of((form.array().abs() > rounding::of_many * size.array()).select(form, 0.0), 1.0);
+  return form_of((form.array().abs() > rounding::many_operations * size.array()).select(form, 0.0), 1.0);
 }
 
 void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
@@ -157,8 +158,8 @@ void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>
     Load load{fmt::format("temperature of body {}", body.name), strain_form(map, owner), history,
               holds_since_ever(body.temperature, history)};
     load.kind = LoadKind::temperature;
-    load.of_direction = unit::force;
-    load.of_history = unit::plain;
+    load.direction_unit = unit::force;
+    load.history_unit = unit::plain;
     loads.push_back(std::move(load));
   }
 }
@@ -173,8 +174,8 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
       Load load{name_of_strain(kind, static_cast<int>(i)), strain_form(map, static_cast<int>(i)), history,
                 holds_since_ever(spec, history)};
       load.kind = kind;
-      load.of_direction = unit::force;
-      load.of_history = unit::plain;
+      load.direction_unit = unit::force;
+      load.history_unit = unit::plain;
       loads.push_back(std::move(load));
     };
     add(LoadKind::temperature, "temperature", member.temperature, member.thermal_expansion);
@@ -207,8 +208,8 @@ void add_base(const Scene& scene, const Assembly& assembly, std::vector<Load>& l
     Load load{count == 1 ? "base motion" : fmt::format("base motion {}", i + 1),
               form_of(assembly.base[i], 1.0), acceleration.scaled(-1.0), false};
     load.kind = LoadKind::base;
-    load.of_direction = unit::mass;
-    load.of_history = unit::acceleration;
+    load.direction_unit = unit::mass;
+    load.history_unit = unit::acceleration;
     if (!load.direction.terms.empty() || scene.run.geometric) loads.push_back(std::move(load));
   }
 }
@@ -255,8 +256,8 @@ void add_support_load(const SupportMotion& moving, const char* what, const Vecto
   const int length = moving.turns ? 0 : 1;
   Load load{moving.name + what, form_of(column, -1.0), std::move(f), order == 0};
   load.kind = order == 0 ? LoadKind::support : LoadKind::support_rate;
-  load.of_direction = {1, -length, order};
-  load.of_history = {0, length, -order};
+  load.direction_unit = {1, -length, order};
+  load.history_unit = {0, length, -order};
   if (!load.direction.terms.empty()) loads.push_back(std::move(load));
 }
 
@@ -286,11 +287,11 @@ std::vector<NodeForce> traction_forces(const Scene& scene, const element::Mesh& 
         std::vector<NodeForce> own;
         for (const int n : edge.nodes) own.push_back({n, {0.0, 0.0}});
         for (const mesh::EdgePoint& point : mesh::edge_points()) {
-          const mesh::EdgeValues v = mesh::edge_shapes_at(edge.nodes.size(), point.s);
+          const mesh::EdgeValues v = mesh::edge_shape_functions(edge.nodes.size(), point.s);
           double dx = 0.0, dy = 0.0;
           for (std::size_t i = 0; i < own.size(); ++i) {
-            dx += v.slopes[i] * mesh.node(own[i].node).x;
-            dy += v.slopes[i] * mesh.node(own[i].node).y;
+            dx += v.derivatives[i] * mesh.node(own[i].node).x;
+            dy += v.derivatives[i] * mesh.node(own[i].node).y;
           }
           const double ds = std::hypot(dx, dy);
           const std::array<double, 2> q =  // into the body: (-dy, dx) / ds
@@ -334,8 +335,8 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   std::vector<Load> loads;
   Load gravity{"gravity", form_of(assembly.weight, 1.0), History::constant(1.0), true};
   gravity.kind = LoadKind::weight;
-  gravity.of_direction = unit::force;
-  gravity.of_history = unit::plain;
+  gravity.direction_unit = unit::force;
+  gravity.history_unit = unit::plain;
   // Gravity on fixed degrees of freedom alone still contributes to the geometric stiffness.
   const bool stiffens = scene.run.geometric && (scene.gravity[0] != 0.0 || scene.gravity[1] != 0.0);
   if (!gravity.direction.terms.empty() || stiffens) loads.push_back(std::move(gravity));
@@ -400,7 +401,7 @@ Vector static_load(const std::vector<Load>& loads, int n) {
     for (const auto& [dof, factor] : load.direction.terms) size[dof] += std::abs(factor * value);
   }
   // Loads that cancel to rounding drive nothing.
-  return (p.array().abs() > rounding::of_many * size.array()).select(p, 0.0);
+  return (p.array().abs() > rounding::many_operations * size.array()).select(p, 0.0);
 }
 
 }  // namespace signorini::assembly

@@ -66,9 +66,9 @@ void draw_element(const Scene& scene, const DofMap& map, std::size_t i, Model& m
     DrawnElement& drawn =
         model.drawing.emplace_back(between(model.drawn_nodes, e.nodes()[from], e.nodes()[to], kind));
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
-      if (!unknowns[j].own) continue;
-      if (unknowns[j].place == from) drawn.dofs[unknowns[j].component] = map.own.at({i, j});
-      if (unknowns[j].place == to) drawn.dofs[3 + unknowns[j].component] = map.own.at({i, j});
+      if (!unknowns[j].internal) continue;
+      if (unknowns[j].local_node == from) drawn.dofs[unknowns[j].component] = map.internal.at({i, j});
+      if (unknowns[j].local_node == to) drawn.dofs[3 + unknowns[j].component] = map.internal.at({i, j});
     }
   }
 }

@@ -28,7 +28,7 @@ std::array<double, 2> unit_of(const Plane& v) {
 /// Forces on the nodes, without those of supports and without internal forces of bodies.
 class PrestressAssembly {
  public:
-  PrestressAssembly(const Scene& scene, const DofMap& map, const Model& model, const StandingForces& standing)
+  PrestressAssembly(const Scene& scene, const DofMap& map, const Model& model, const StaticForces& standing)
       : scene_(scene), map_(map), standing_(standing), on_node_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
     for (std::size_t i = 0; i < map.supports.size(); ++i)
       supports_.push_back(motion_of_support(scene, map, static_cast<int>(i)).value(0.0));
@@ -51,7 +51,8 @@ class PrestressAssembly {
     }
     for (std::size_t k = 0; k < model.contacts.size(); ++k) {
       const Contact& contact = model.contacts[k];
-      bowls_.push_back(contact::beyond_spring(scene.contacts[k], contact) * contact.tangent.dot(standing.u));
+      bowls_.push_back(contact::extra_stiffness(scene.contacts[k], contact) *
+                       contact.tangent.dot(standing.u));
     }
   }
 
@@ -80,7 +81,7 @@ class PrestressAssembly {
     for (const TiedTerm& term : map_.terms(number))
       sum += term.factor * (term.number >= 0
                                 ? standing_.u[term.number]
-                                : supports_[static_cast<std::size_t>(DofMap::moving_of_code(term.number))]);
+                                : supports_[static_cast<std::size_t>(DofMap::support_of_code(term.number))]);
     return sum;
   }
   void add(const std::string& node, const Plane& force, double factor) {
@@ -114,14 +115,14 @@ class PrestressAssembly {
 
   Prestress::Element element(std::size_t i) {
     const element::FiniteElement& e = map_.mesh.element(i);
-    if (!e.has_geometric())
+    if (!e.has_geometric_stiffness())
       throw SceneError(
           scene_.run.geometric_place, "run.geometric",
           fmt::format(
               "the elements of {} have no stiffness of static forces: expected a structure of beams and bars",
               element_owner(e.member())));
     const element::PlaneVector& load = uniform_[i];
-    add_to_nodes(e, e.spread({load[0] + e.density() * pull_[0], load[1] + e.density() * pull_[1]}));
+    add_to_nodes(e, e.load_vector({load[0] + e.density() * pull_[0], load[1] + e.density() * pull_[1]}));
     Prestress::Element result{map_.mesh.node(e.nodes().front()).name, map_.mesh.node(e.nodes().back()).name};
     if (map_.within_body(e)) return result;
     const std::vector<int> numbers = map_.element_numbers(i);
@@ -140,7 +141,7 @@ class PrestressAssembly {
     const std::vector<element::ElementUnknown> unknowns = e.unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j)
       if (const std::size_t c = unknowns[j].component; c < 2)
-        on_node_[static_cast<std::size_t>(e.nodes()[unknowns[j].place])][c] +=
+        on_node_[static_cast<std::size_t>(e.nodes()[unknowns[j].local_node])][c] +=
             forces[static_cast<Eigen::Index>(j)];
   }
 
@@ -191,7 +192,7 @@ class PrestressAssembly {
       return c == 0 ? n.x : n.y;
     };
     std::optional<double> held;
-    for (const auto& [node, component] : held_in_body(scene_, map_, static_cast<int>(number))) {
+    for (const auto& [node, component] : constrained_components(scene_, map_, static_cast<int>(number))) {
       if (component != c) continue;
       if (held && *held != at(node) && std::abs(total[c]) > no_force * size[c])
         throw SceneError(
@@ -225,12 +226,12 @@ class PrestressAssembly {
         terms += std::abs(term);
       }
     }
-    return std::abs(sum) > rounding::of_many * terms ? sum : 0.0;
+    return std::abs(sum) > rounding::many_operations * terms ? sum : 0.0;
   }
 
   const Scene& scene_;
   const DofMap& map_;
-  const StandingForces& standing_;
+  const StaticForces& standing_;
   std::vector<Plane> on_node_, uniform_;                   // per node; per element: force per length
   std::vector<double> supports_;                           // positions of moving supports
   std::vector<double> bowls_;                              // per contact: restoring force of a pendulum
@@ -240,12 +241,11 @@ class PrestressAssembly {
 
 }  // namespace
 
-Prestress prestress(const Scene& scene, const DofMap& map, const Model& model,
-                    const StandingForces& standing) {
+Prestress prestress(const Scene& scene, const DofMap& map, const Model& model, const StaticForces& standing) {
   return PrestressAssembly(scene, map, model, standing).all();
 }
 
-void freeze(const Prestress& forces, const Scene& scene, DofMap& map) {
+void set_prestress(const Prestress& forces, const Scene& scene, DofMap& map) {
   const auto name = [&](int node) { return map.mesh.nodes[static_cast<std::size_t>(node)].name; };
   bool same =
       forces.elements.size() == map.mesh.elements.size() && forces.bodies.size() == scene.rigid.size();
@@ -260,8 +260,8 @@ void freeze(const Prestress& forces, const Scene& scene, DofMap& map) {
                      "bodies: expected a run of the same structure");
   map.body_stiffness.clear();
   for (const Prestress::Body& body : forces.bodies) map.body_stiffness.push_back(body.stiffness);
-  map.frozen.clear();
-  for (const Prestress::Element& e : forces.elements) map.frozen.push_back({e.at_from, e.at_to});
+  map.axial_forces.clear();
+  for (const Prestress::Element& e : forces.elements) map.axial_forces.push_back({e.at_from, e.at_to});
 }
 
 }  // namespace signorini::assembly

@@ -19,10 +19,10 @@ struct GeometricStiffness {
 };
 
 /// Stiffness of the forces in the map; zero without forces.
-[[nodiscard]] GeometricStiffness assemble_geometric(const Scene& scene, const DofMap& map);
+[[nodiscard]] GeometricStiffness assemble_geometric_stiffness(const Scene& scene, const DofMap& map);
 
 /// Static state: displacements, contact forces, and for each of Model::loads whether it acts.
-struct StandingForces {
+struct StaticForces {
   const Vector& u;
   std::vector<double> N, T;
   std::vector<bool> acts;
@@ -30,9 +30,9 @@ struct StandingForces {
 
 /// Errors: SceneError for a rigid body whose supports share a force on which its stiffness depends.
 [[nodiscard]] Prestress prestress(const Scene& scene, const DofMap& map, const Model& model,
-                                  const StandingForces& standing);
+                                  const StaticForces& standing);
 
 /// Puts the forces into the map. Errors: SceneError if they belong to another structure.
-void freeze(const Prestress& forces, const Scene& scene, DofMap& map);
+void set_prestress(const Prestress& forces, const Scene& scene, DofMap& map);
 
 }  // namespace signorini::assembly

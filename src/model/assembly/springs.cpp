@@ -27,13 +27,13 @@ std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts) {
   return springs;
 }
 
-Vector full(const Combination& form, int n) {
+Vector dense_vector(const Combination& form, int n) {
   Vector v = Vector::Zero(n);
   form.add_to(v, 1.0);
   return v;
 }
 
-double term_size(const SparseMatrix& k, const Vector& x) {
+double term_magnitude(const SparseMatrix& k, const Vector& x) {
   double sum = 0.0;
   for (int column = 0; column < k.outerSize(); ++column)
     for (SparseMatrix::InnerIterator it(k, column); it; ++it)
@@ -59,7 +59,7 @@ double SymmetricSolver::smallest_pivot() const {
   return impl_->ldlt.vectorD().size() == 0 ? 0.0 : impl_->ldlt.vectorD().minCoeff();
 }
 
-double SymmetricSolver::smallest_share() const {
+double SymmetricSolver::smallest_pivot_ratio() const {
   const Vector pivots = impl_->ldlt.permutationPinv() * impl_->ldlt.vectorD();
   double least = pivots.size() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < pivots.size(); ++i)

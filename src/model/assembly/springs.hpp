@@ -24,10 +24,10 @@ struct LineSpring {
 [[nodiscard]] std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts);
 
 /// The form as a full vector of length n.
-[[nodiscard]] Vector full(const Combination& form, int n);
+[[nodiscard]] Vector dense_vector(const Combination& form, int n);
 
 /// |x|^T |K| |x|: magnitude of the terms of x^T K x; its rounding error is this times machine epsilon.
-[[nodiscard]] double term_size(const SparseMatrix& k, const Vector& x);
+[[nodiscard]] double term_magnitude(const SparseMatrix& k, const Vector& x);
 
 /// L D L^T of a symmetric sparse matrix, with a fill-reducing order.
 class SymmetricSolver {
@@ -43,7 +43,7 @@ class SymmetricSolver {
   /// The smallest pivot.
   [[nodiscard]] double smallest_pivot() const;
   /// Smallest ratio of a pivot to its diagonal entry; independent of the units of the rows.
-  [[nodiscard]] double smallest_share() const;
+  [[nodiscard]] double smallest_pivot_ratio() const;
   /// Number of negative eigenvalues (Sylvester's law of inertia).
   [[nodiscard]] int negative_pivots() const;
 

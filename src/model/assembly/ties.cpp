@@ -23,7 +23,7 @@ double across(const DofMap& map, int node, std::size_t c) {
 /// a - b; zero within the rounding of coordinates that are meant to be equal.
 double arm_between(double a, double b) {
   const double d = a - b;
-  return std::abs(d) <= rounding::of_few * (std::abs(a) + std::abs(b)) ? 0.0 : d;
+  return std::abs(d) <= rounding::few_operations * (std::abs(a) + std::abs(b)) ? 0.0 : d;
 }
 
 BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
@@ -55,9 +55,9 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
 }
 
 /// Adds one support to the constraints of the body; `turn` is set if it fixes rz together with another one.
-void add_hold(const Scene& scene, const RigidBody& body, const BodyConstraint& hold, std::size_t c,
-              BodyMotion& motion, std::optional<BodyConstraint>& turn) {
-  std::optional<BodyConstraint>& before = motion.holds[c];
+void add_body_constraint(const Scene& scene, const RigidBody& body, const BodyConstraint& hold, std::size_t c,
+                         BodyMotion& motion, std::optional<BodyConstraint>& turn) {
+  std::optional<BodyConstraint>& before = motion.constraints[c];
   if (!before) {
     before = hold;
     return;
@@ -67,11 +67,11 @@ void add_hold(const Scene& scene, const RigidBody& body, const BodyConstraint& h
     refuse_hold(scene, hold, body,
                 fmt::format("another support holds its {}, and one of the two moves; expected one",
                             scene::plane_components[c].displacement));
-  if (c < 2 && arm_between(before->at, hold.at) != 0.0) turn = hold;
+  if (c < 2 && arm_between(before->coordinate, hold.coordinate) != 0.0) turn = hold;
 }
 
-void find_holds(const Scene& scene, const RigidBody& body, int number, const DofMap& map,
-                BodyMotion& motion) {
+void find_body_constraints(const Scene& scene, const RigidBody& body, int number, const DofMap& map,
+                           BodyMotion& motion) {
   std::optional<BodyConstraint> turn;
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -81,7 +81,7 @@ void find_holds(const Scene& scene, const RigidBody& body, int number, const Dof
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c])
-        add_hold(
+        add_body_constraint(
             scene, body,
             {c < 2 ? across(map, node, c) : 0.0,
              moving == map.supports.end() ? DofMap::absent : static_cast<int>(moving - map.supports.begin()),
@@ -89,23 +89,23 @@ void find_holds(const Scene& scene, const RigidBody& body, int number, const Dof
             c, motion, turn);
   }
   if (!turn) return;
-  if (motion.holds[2] && motion.holds[2]->moving >= 0)
+  if (motion.constraints[2] && motion.constraints[2]->moving >= 0)
     refuse_hold(scene, *turn, body, "two supports beside each other hold its rz, which another one moves");
-  motion.holds[2] = turn;
+  motion.constraints[2] = turn;
 }
 
 /// Terms of component c of a body's node.
 std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, const DofMap& map) {
   std::vector<TiedTerm> terms;
   const auto add = [&](std::size_t of, double factor) {
-    const std::optional<BodyConstraint>& hold = body.holds[of];
+    const std::optional<BodyConstraint>& hold = body.constraints[of];
     if (factor == 0.0 || (hold && hold->moving < 0)) return;
     terms.push_back(
-        {hold ? DofMap::code_of_moving(hold->moving) : map.number[place_of_node(body.centre)][of], factor});
+        {hold ? DofMap::support_code(hold->moving) : map.number[place_of_node(body.centre)][of], factor});
   };
   add(c, 1.0);
   if (c == 2) return terms;
-  const double from = body.holds[c] ? body.holds[c]->at : across(map, body.centre, c);
+  const double from = body.constraints[c] ? body.constraints[c]->coordinate : across(map, body.centre, c);
   const double arm = arm_between(across(map, node, c), from);
   add(2, c == 0 ? -arm : arm);
   return terms;
@@ -115,8 +115,8 @@ void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map)
   int& moving = map.moving[place_of_node(node)][c];
   std::vector<TiedTerm> terms = terms_of(body, node, c, map);
   // A node fixed by the support itself follows it; with an arm it is a different motion.
-  const bool follows = body.holds[c] && body.holds[c]->moving >= 0 && terms.size() == 1;
-  moving = follows ? DofMap::moving_of_code(terms[0].number) : DofMap::absent;
+  const bool follows = body.constraints[c] && body.constraints[c]->moving >= 0 && terms.size() == 1;
+  moving = follows ? DofMap::support_of_code(terms[0].number) : DofMap::absent;
   if (terms.empty() || follows) {
     map.number[place_of_node(node)][c] = DofMap::fixed;
     return;
@@ -133,11 +133,11 @@ std::vector<BodyMotion> find_bodies(const Scene& scene, DofMap& map) {
     bodies.push_back(nodes_of(scene.rigid[i], static_cast<int>(i), map));
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     BodyMotion& body = bodies[i];
-    find_holds(scene, scene.rigid[i], static_cast<int>(i), map, body);
+    find_body_constraints(scene, scene.rigid[i], static_cast<int>(i), map, body);
     for (const int node : body.nodes)
       map.number[place_of_node(node)] = {DofMap::absent, DofMap::absent, DofMap::absent};
     for (std::size_t c = 0; c < 3; ++c)
-      map.number[place_of_node(body.centre)][c] = body.holds[c] ? DofMap::fixed : DofMap::needed;
+      map.number[place_of_node(body.centre)][c] = body.constraints[c] ? DofMap::fixed : DofMap::needed;
   }
   return bodies;
 }
@@ -146,10 +146,11 @@ void tie(const std::vector<BodyMotion>& bodies, DofMap& map) {
   for (const BodyMotion& body : bodies)
     for (const int node : body.nodes)
       for (std::size_t c = 0; c < 3; ++c)
-        if (node != body.centre || body.holds[c]) tie_component(body, node, c, map);
+        if (node != body.centre || body.constraints[c]) tie_component(body, node, c, map);
 }
 
-std::vector<std::pair<int, std::size_t>> held_in_body(const Scene& scene, const DofMap& map, int body) {
+std::vector<std::pair<int, std::size_t>> constrained_components(const Scene& scene, const DofMap& map,
+                                                                int body) {
   std::vector<std::pair<int, std::size_t>> held;
   for (const Support& s : scene.supports) {
     const int node = map.mesh.by_name.at(s.node);
@@ -181,7 +182,7 @@ void TiedForm::add(int number, double factor) {
 Combination TiedForm::combination() const {
   Combination form;
   for (const Sum& s : sums_)
-    if (s.number >= 0 && std::abs(s.sum) > rounding::of_few * s.size)
+    if (s.number >= 0 && std::abs(s.sum) > rounding::few_operations * s.size)
       form.terms.emplace_back(s.number, s.sum);
   return form;
 }
@@ -190,7 +191,7 @@ Elongation TiedForm::with_supports() const {
   Elongation form;
   std::vector<double> factors;
   for (const Sum& s : sums_) {
-    if (std::abs(s.sum) <= rounding::of_few * s.size) continue;
+    if (std::abs(s.sum) <= rounding::few_operations * s.size) continue;
     form.numbers.push_back(s.number);
     factors.push_back(s.sum);
   }
@@ -215,13 +216,13 @@ TiedElement::TiedElement(const DofMap& map, const int* of, std::size_t count) {
     }
 }
 
-Eigen::MatrixXd TiedElement::of(const Eigen::MatrixXd& a) const {
+Eigen::MatrixXd TiedElement::transform(const Eigen::MatrixXd& a) const {
   const Eigen::MatrixXd whole = t.transpose() * a * t;
   const Eigen::MatrixXd size = t.cwiseAbs().transpose() * a.cwiseAbs() * t.cwiseAbs();
   Eigen::MatrixXd result = 0.5 * (whole + whole.transpose());
   for (Eigen::Index j = 0; j < result.cols(); ++j)
     for (Eigen::Index i = 0; i < result.rows(); ++i)
-      if (std::abs(result(i, j)) <= rounding::of_few * size(i, j)) result(i, j) = 0.0;
+      if (std::abs(result(i, j)) <= rounding::few_operations * size(i, j)) result(i, j) = 0.0;
   return result;
 }
 
@@ -236,15 +237,15 @@ void add_ties(const Scene& scene, const DofMap& map, Model& model) {
         entries.emplace_back(row, term.number, term.factor);
       else
         ties.given.push_back(
-            {row, motion_of_support(scene, map, DofMap::moving_of_code(term.number)).scaled(term.factor)});
+            {row, motion_of_support(scene, map, DofMap::support_of_code(term.number)).scaled(term.factor)});
     }
   ties.rows.resize(static_cast<Eigen::Index>(map.tied.size()), map.size());
   ties.rows.setFromTriplets(entries.begin(), entries.end());
   model.ties = std::move(ties);
-  name_tied(map, model);
+  name_tied_dofs(map, model);
 }
 
-void name_tied(const DofMap& map, Model& model) {
+void name_tied_dofs(const DofMap& map, Model& model) {
   if (!model.ties) return;
   const std::vector<Dof>& structure = model.reduction ? model.reduction->dofs : model.dofs;
   model.ties->dofs.assign(structure.begin(), structure.begin() + map.size());
@@ -282,13 +283,13 @@ std::vector<TiedTerm> followed(const TieSpec& tie, std::size_t c, const DofMap& 
     }
   std::vector<TiedTerm> terms;
   for (const Sum& s : sums)
-    if (std::abs(s.term.factor) > rounding::of_few * s.size) terms.push_back(s.term);
+    if (std::abs(s.term.factor) > rounding::few_operations * s.size) terms.push_back(s.term);
   return terms;
 }
 
 }  // namespace
 
-void leave_to_master(const Scene& scene, DofMap& map) {
+void mark_slave_dofs(const Scene& scene, DofMap& map) {
   std::unordered_set<int> slaves;
   for (const TieSpec& tie : scene.ties) slaves.insert(tie.node);
   for (const TieSpec& tie : scene.ties) {

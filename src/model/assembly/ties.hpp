@@ -20,16 +20,16 @@ namespace signorini::assembly {
 
 /// A component of a body's motion that a support fixes, with the coordinate across it.
 struct BodyConstraint {
-  double at = 0.0;                    ///< coordinate of the held node: y for ux, x for uy
+  double coordinate = 0.0;            ///< coordinate of the held node: y for ux, x for uy
   int moving = DofMap::absent;        ///< index into DofMap::supports
   std::size_t support = 0, node = 0;  ///< index into Scene::supports, mesh node
 };
 
 /// Free and fixed components of a body's motion.
 struct BodyMotion {
-  int centre = 0;                                      ///< mesh node
-  std::vector<int> nodes;                              ///< all nodes, the centre first
-  std::array<std::optional<BodyConstraint>, 3> holds;  ///< ux, uy, rz
+  int centre = 0;                                            ///< mesh node
+  std::vector<int> nodes;                                    ///< all nodes, the centre first
+  std::array<std::optional<BodyConstraint>, 3> constraints;  ///< ux, uy, rz
 };
 
 /// Sets DofMap::body, and marks the free components of the centres as needed, all other components of bodies as absent.
@@ -40,8 +40,8 @@ struct BodyMotion {
 void tie(const std::vector<BodyMotion>& bodies, DofMap& map);
 
 /// Supported components of a body's nodes: (node, component) pairs.
-[[nodiscard]] std::vector<std::pair<int, std::size_t>> held_in_body(const Scene& scene, const DofMap& map,
-                                                                    int body);
+[[nodiscard]] std::vector<std::pair<int, std::size_t>> constrained_components(const Scene& scene,
+                                                                              const DofMap& map, int body);
 
 /// A form on degrees of freedom and codes of moving supports.
 struct Elongation {
@@ -77,7 +77,7 @@ struct TiedElement {
   Eigen::MatrixXd t;         ///< count x numbers
 
   /// T^T A T for symmetric A, bitwise symmetric; terms that cancel become zero.
-  [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& a) const;
+  [[nodiscard]] Eigen::MatrixXd transform(const Eigen::MatrixXd& a) const;
 };
 
 /// True if one of these numbers is tied.
@@ -86,7 +86,7 @@ struct TiedElement {
 /// Sets Model::ties. The model's degrees of freedom must be those of the map.
 void add_ties(const Scene& scene, const DofMap& map, Model& model);
 /// Recomputes Ties::dofs, after a reduction or after sliding points were added.
-void name_tied(const DofMap& map, Model& model);
+void name_tied_dofs(const DofMap& map, Model& model);
 
 // Nodes of tied seams, which follow nodes of their master.
 //
@@ -97,7 +97,7 @@ void name_tied(const DofMap& map, Model& model);
 
 /// Marks the motions of tied nodes as absent, before other motions are numbered. Errors: SceneError for nodes that are
 /// moved by supports, rigid bodies or other seams.
-void leave_to_master(const Scene& scene, DofMap& map);
+void mark_slave_dofs(const Scene& scene, DofMap& map);
 
 /// Numbers the tied motions, after all degrees of freedom and rigid bodies.
 void tie_seams(const Scene& scene, DofMap& map);

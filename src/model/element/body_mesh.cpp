@@ -99,7 +99,7 @@ MovedMass moved_mass(const std::vector<int>& nodes, MassMover& mover) {
 }  // namespace
 
 PlaneMaterial material_of(const BodySpec& body) {
-  return {body.E, body.nu, body.density, body.thickness, body.strain};
+  return {body.E, body.nu, body.density, body.thickness, body.plane_strain};
 }
 
 void mesh_body(Mesh& mesh, const Scene& scene, std::size_t number) {

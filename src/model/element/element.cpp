@@ -2,7 +2,7 @@
 
 namespace signorini::element {
 
-ElementMatrix FiniteElement::geometric(const AxialForces& /*forces*/) const {
+ElementMatrix FiniteElement::geometric_stiffness(const AxialForces& /*forces*/) const {
   const auto n = static_cast<Eigen::Index>(unknowns().size());
   return ElementMatrix::Zero(n, n);
 }
@@ -12,9 +12,9 @@ AxialForces FiniteElement::axial_forces(const ElementVector& /*u*/, double /*str
   return {};
 }
 
-Cut FiniteElement::cut(OutputQuantity /*quantity*/, const PlaneVector& /*at*/,
-                       const AxialForces& /*forces*/) const {
-  return Cut(unknowns().size());
+SectionForce FiniteElement::section_force(OutputQuantity /*quantity*/, const PlaneVector& /*at*/,
+                                          const AxialForces& /*forces*/) const {
+  return SectionForce(unknowns().size());
 }
 
 ElementVector FiniteElement::translation(const PlaneVector& by) const {

@@ -23,9 +23,9 @@ using ElementVector = Eigen::VectorXd;
 using PlaneVector = std::array<double, 2>;  // along x and y
 
 struct ElementUnknown {
-  std::size_t place = 0;      ///< index into nodes()
-  std::size_t component = 0;  ///< 0 ux, 1 uy, 2 rz
-  bool own =
+  std::size_t local_node = 0;  ///< index into nodes()
+  std::size_t component = 0;   ///< 0 ux, 1 uy, 2 rz
+  bool internal =
       false;  ///< unknown of the element, not of the node: the rotation of a hinged end; only in pieces of
               ///< members
 };
@@ -33,13 +33,13 @@ struct ElementUnknown {
 /// Frozen axial forces at both ends of an element, tension positive (assembly/prestress.hpp).
 struct AxialForces {
   double a = 0.0, b = 0.0;
-  [[nodiscard]] bool none() const { return a == 0.0 && b == 0.0; }
+  [[nodiscard]] bool is_zero() const { return a == 0.0 && b == 0.0; }
 };
 
 /// A section force or a stress as a linear functional: factors, by unknown, of the forces on the element's unknowns and
 /// of the acceleration; of a load q = (x, y) per extent; of the displacements (contribution of frozen forces).
-struct Cut {
-  explicit Cut(std::size_t unknowns)
+struct SectionForce {
+  explicit SectionForce(std::size_t unknowns)
       : forces(ElementVector::Zero(static_cast<Eigen::Index>(unknowns))),
         acceleration(forces),
         deflection(forces) {}
@@ -66,7 +66,7 @@ class FiniteElement {
   [[nodiscard]] int member() const { return member_; }
   [[nodiscard]] virtual std::vector<ElementUnknown> unknowns() const = 0;
   /// True if the element has unknowns of its own.
-  [[nodiscard]] virtual bool has_own() const { return false; }
+  [[nodiscard]] virtual bool has_internal_unknowns() const { return false; }
 
   /// Length or area; mass per extent.
   [[nodiscard]] virtual double extent() const = 0;
@@ -76,22 +76,22 @@ class FiniteElement {
   [[nodiscard]] virtual ElementMatrix mass() const = 0;
   [[nodiscard]] virtual ElementMatrix stiffness() const = 0;
   /// True if frozen forces have a stiffness; otherwise run.geometric is refused.
-  [[nodiscard]] virtual bool has_geometric() const { return false; }
-  [[nodiscard]] virtual ElementMatrix geometric(const AxialForces& forces) const;
+  [[nodiscard]] virtual bool has_geometric_stiffness() const { return false; }
+  [[nodiscard]] virtual ElementMatrix geometric_stiffness(const AxialForces& forces) const;
   /// Axial forces under given displacements of the unknowns, a strain of its member, a load per extent, and a body
   /// acceleration (gravity minus that of the base).
   [[nodiscard]] virtual AxialForces axial_forces(const ElementVector& u, double strain,
                                                  const PlaneVector& load, const PlaneVector& pull) const;
 
   /// Forces on its unknowns by a uniform load, given per extent.
-  [[nodiscard]] virtual ElementVector spread(const PlaneVector& load) const = 0;
+  [[nodiscard]] virtual ElementVector load_vector(const PlaneVector& load) const = 0;
   /// Work, on the given motion, of the forces of a unit strain (heat).
   [[nodiscard]] virtual double strain_work(const ElementVector& motion) const = 0;
 
   /// A section force at a position along its length. Elements without sections have none, and members never consist of
   /// them.
-  [[nodiscard]] virtual Cut cut(OutputQuantity quantity, const PlaneVector& at,
-                                const AxialForces& forces) const;
+  [[nodiscard]] virtual SectionForce section_force(OutputQuantity quantity, const PlaneVector& at,
+                                                   const AxialForces& forces) const;
 
   /// Lines for drawing.
   [[nodiscard]] virtual std::vector<ElementLine> lines() const = 0;

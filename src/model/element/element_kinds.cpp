@@ -53,7 +53,7 @@ std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const
   const double length = std::hypot(dx, dy), radius = std::abs(member.bend->radius);
   // Near a half circle, asin would amplify rounding of the nodes to its square root.
   const double sine = 0.5 * length / radius;
-  const double half = sine < 1.0 - rounding::of_many ? std::asin(sine) : 0.5 * std::numbers::pi;
+  const double half = sine < 1.0 - rounding::many_operations ? std::asin(sine) : 0.5 * std::numbers::pi;
   const double turn = (2.0 * s - 1.0) * half;
   const double along = 0.5 + radius * std::sin(turn) / length;
   // cos turn - cos half

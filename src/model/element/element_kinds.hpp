@@ -8,7 +8,7 @@ namespace signorini::element {
 struct ElementKind {
   MemberType type;
   /// Appends the nodes and elements of a member, an index into Scene::members. Errors: SceneError.
-  void (*mesh)(Mesh& mesh, const Scene& scene, std::size_t member);
+  void (*generate)(Mesh& mesh, const Scene& scene, std::size_t member);
   bool bends = false;   ///< its lines are drawn as cubics
   bool closed = false;  ///< a line joins its last node to its first
 };

@@ -9,31 +9,34 @@ Axis axis_between(double dx, double dy) {
   return {length, dx / length, dy / length, dx, dy};
 }
 
-LineShapes cubic_at(double s, bool hinged_a, bool hinged_b) {
+LineShapes hermite_shapes(double s, bool hinged_a, bool hinged_b) {
   const double s2 = s * s, s3 = s2 * s;
   LineShapes h{1.0 - 3.0 * s2 + 2.0 * s3, s - 2.0 * s2 + s3, 3.0 * s2 - 2.0 * s3, s3 - s2};
-  // Hinge at a (no moment): turn_a = 3/2 (b - a) - turn_b / 2; hinges at both ends: turn_a = turn_b = b - a.
+  // Hinge at a (no moment): rotation_a = 3/2 (b - a) - rotation_b / 2; hinges at both ends: rotation_a = rotation_b = b - a.
   if (hinged_a && hinged_b) return {1.0 - s, 0.0, s, 0.0};
-  if (hinged_a) return {h.a - 1.5 * h.turn_a, 0.0, h.b + 1.5 * h.turn_a, h.turn_b - 0.5 * h.turn_a};
-  if (hinged_b) return {h.a - 1.5 * h.turn_b, h.turn_a - 0.5 * h.turn_b, h.b + 1.5 * h.turn_b, 0.0};
+  if (hinged_a)
+    return {h.a - 1.5 * h.rotation_a, 0.0, h.b + 1.5 * h.rotation_a, h.rotation_b - 0.5 * h.rotation_a};
+  if (hinged_b)
+    return {h.a - 1.5 * h.rotation_b, h.rotation_a - 0.5 * h.rotation_b, h.b + 1.5 * h.rotation_b, 0.0};
   return h;
 }
 
-LineShapes linear_once(double l, double s) { return {l * (s - s * s / 2.0), 0.0, l * s * s / 2.0, 0.0}; }
+LineShapes linear_integral(double l, double s) { return {l * (s - s * s / 2.0), 0.0, l * s * s / 2.0, 0.0}; }
 
-LineShapes linear_twice(double l, double s) {
+LineShapes linear_double_integral(double l, double s) {
   return {l * l * (s * s / 2.0 - s * s * s / 6.0), 0.0, l * l * s * s * s / 6.0, 0.0};
 }
 
-ElementVector LineElement::of_unknowns(const Ends& ends) const {
+ElementVector LineElement::restrict_to_unknowns(const Ends& ends) const {
   const std::vector<ElementUnknown> all = unknowns();
   ElementVector x(static_cast<Eigen::Index>(all.size()));
   for (std::size_t j = 0; j < all.size(); ++j)
-    x[static_cast<Eigen::Index>(j)] = ends[static_cast<Eigen::Index>(3 * all[j].place + all[j].component)];
+    x[static_cast<Eigen::Index>(j)] =
+        ends[static_cast<Eigen::Index>(3 * all[j].local_node + all[j].component)];
   return x;
 }
 
-double LineElement::stretch(const ElementVector& motion) const {
+double LineElement::elongation(const ElementVector& motion) const {
   const Eigen::Index b = motion.size() / 2;
   return axis().c * (motion[b] - motion[0]) + axis().s * (motion[b + 1] - motion[1]);
 }
@@ -44,20 +47,20 @@ AxialForces LineElement::axial_forces(const ElementVector& u, double strain, con
   PlaneVector along = load;  // between the ends; a lumped weight acts at the ends
   for (std::size_t c = 0; c < 2; ++c)
     if (data_.mass == MassKind::consistent) along[c] += density() * pull[c];
-  const double mean = data_.EA * (stretch(u) / l - strain);
+  const double mean = data_.EA * (elongation(u) / l - strain);
   const double falls = 0.5 * l * (along[0] * axis().c + along[1] * axis().s);
   return {mean + falls, mean - falls};
 }
 
-ElementVector LineElement::spread(const PlaneVector& q) const {
+ElementVector LineElement::load_vector(const PlaneVector& q) const {
   const double l = axis().length, across = -q[0] * axis().s + q[1] * axis().c;
   const double moment = across * l * l / 12.0;
   Ends ends;
   ends << 0.5 * q[0] * l, 0.5 * q[1] * l, moment, 0.5 * q[0] * l, 0.5 * q[1] * l, -moment;
-  return of_unknowns(ends);
+  return restrict_to_unknowns(ends);
 }
 
-double LineElement::strain_work(const ElementVector& motion) const { return data_.EA * stretch(motion); }
+double LineElement::strain_work(const ElementVector& motion) const { return data_.EA * elongation(motion); }
 
 LineElement::Ends LineElement::deflection(OutputQuantity quantity, double part,
                                           const AxialForces& forces) const {
@@ -71,7 +74,8 @@ LineElement::Ends LineElement::deflection(OutputQuantity quantity, double part,
   return half * axis().length * (pull(half - gauss) + pull(half + gauss));
 }
 
-Cut LineElement::cut(OutputQuantity quantity, const PlaneVector& at, const AxialForces& frozen) const {
+SectionForce LineElement::section_force(OutputQuantity quantity, const PlaneVector& at,
+                                        const AxialForces& frozen) const {
   const double l = axis().length, c = axis().c, s = axis().s, x = at[0] * l, part = x / l;
   Ends forces, acceleration;
   PlaneVector load;
@@ -81,33 +85,33 @@ Cut LineElement::cut(OutputQuantity quantity, const PlaneVector& at, const Axial
   if (quantity == OutputQuantity::N) {
     forces << -c, -s, 0.0, 0.0, 0.0, 0.0;
     load = {-x * c, -x * s};
-    shapes = linear_once(l, part);
+    shapes = linear_integral(l, part);
     dx = c;
     dy = s;
     sign = 1.0;
   } else if (quantity == OutputQuantity::V) {
     forces << -s, c, 0.0, 0.0, 0.0, 0.0;
     load = {-x * s, x * c};
-    shapes = across_once(part);
+    shapes = deflection_integral(part);
   } else {
     forces << -x * s, x * c, -1.0, 0.0, 0.0, 0.0;
     load = {-0.5 * x * x * s, 0.5 * x * x * c};
-    shapes = across_twice(part);
+    shapes = deflection_double_integral(part);
   }
   if (data_.mass == MassKind::lumped) {  // the half at a lies before the cut
     acceleration = -0.5 * density() * l * forces;
     acceleration[2] = 0.0;
   } else {
     const double rho = sign * density();
-    acceleration << rho * shapes.a * dx, rho * shapes.a * dy, rho * shapes.turn_a, rho * shapes.b * dx,
-        rho * shapes.b * dy, rho * shapes.turn_b;
+    acceleration << rho * shapes.a * dx, rho * shapes.a * dy, rho * shapes.rotation_a, rho * shapes.b * dx,
+        rho * shapes.b * dy, rho * shapes.rotation_b;
   }
-  Cut cut(unknowns().size());
-  cut.forces = of_unknowns(forces);
-  cut.acceleration = of_unknowns(acceleration);
+  SectionForce cut(unknowns().size());
+  cut.forces = restrict_to_unknowns(forces);
+  cut.acceleration = restrict_to_unknowns(acceleration);
   cut.load = load;
-  if (quantity != OutputQuantity::N && !frozen.none())
-    cut.deflection = of_unknowns(deflection(quantity, part, frozen));
+  if (quantity != OutputQuantity::N && !frozen.is_zero())
+    cut.deflection = restrict_to_unknowns(deflection(quantity, part, frozen));
   return cut;
 }
 
@@ -128,7 +132,7 @@ BeamMatrix bar_stiffness(double dx, double dy, double ea) {
   return (ea / l) * a * a.transpose();
 }
 
-BeamMatrix bar_geometric(double dx, double dy, double force_a, double force_b) {
+BeamMatrix bar_geometric_stiffness(double dx, double dy, double force_a, double force_b) {
   const double l = std::hypot(dx, dy);
   Eigen::Matrix<double, 6, 1> a;
   a << dy / l, -dx / l, 0.0, -dy / l, dx / l, 0.0;
@@ -156,13 +160,15 @@ ElementMatrix BarElement::stiffness() const {
   return of_translations(bar_stiffness(axis().dx, axis().dy, data().EA));
 }
 
-ElementMatrix BarElement::geometric(const AxialForces& forces) const {
-  return of_translations(bar_geometric(axis().dx, axis().dy, forces.a, forces.b));
+ElementMatrix BarElement::geometric_stiffness(const AxialForces& forces) const {
+  return of_translations(bar_geometric_stiffness(axis().dx, axis().dy, forces.a, forces.b));
 }
 
-LineShapes BarElement::across_once(double part) const { return linear_once(axis().length, part); }
+LineShapes BarElement::deflection_integral(double part) const { return linear_integral(axis().length, part); }
 
-LineShapes BarElement::across_twice(double part) const { return linear_twice(axis().length, part); }
+LineShapes BarElement::deflection_double_integral(double part) const {
+  return linear_double_integral(axis().length, part);
+}
 
 BarElement::Ends BarElement::slope(double /*part*/) const {
   const double rise = 1.0 / axis().length;
@@ -204,7 +210,7 @@ BeamMatrix beam_stiffness(double dx, double dy, double ea, double ei) {
   return turned(k, dx / l, dy / l);
 }
 
-BeamMatrix beam_geometric(double dx, double dy, double force_a, double force_b) {
+BeamMatrix beam_geometric_stiffness(double dx, double dy, double force_a, double force_b) {
   const double l = std::hypot(dx, dy);
   const double n = 0.5 * (force_a + force_b) / (30.0 * l), d = 0.5 * (force_b - force_a);
   const double diagonal = 36.0 * n, slant = 3.0 * l * n, odd = d / 10.0, turn = d * l / 15.0;
@@ -248,17 +254,17 @@ ElementMatrix BeamElement::stiffness() const {
   return beam_stiffness(axis().dx, axis().dy, data().EA, data().EI);
 }
 
-ElementMatrix BeamElement::geometric(const AxialForces& forces) const {
-  return beam_geometric(axis().dx, axis().dy, forces.a, forces.b);
+ElementMatrix BeamElement::geometric_stiffness(const AxialForces& forces) const {
+  return beam_geometric_stiffness(axis().dx, axis().dy, forces.a, forces.b);
 }
 
-LineShapes BeamElement::across_once(double s) const {
+LineShapes BeamElement::deflection_integral(double s) const {
   const double l = axis().length, s2 = s * s, s3 = s2 * s, s4 = s3 * s;
   return {l * (s - s3 + s4 / 2.0), l * l * (s2 / 2.0 - 2.0 * s3 / 3.0 + s4 / 4.0), l * (s3 - s4 / 2.0),
           l * l * (s4 / 4.0 - s3 / 3.0)};
 }
 
-LineShapes BeamElement::across_twice(double s) const {
+LineShapes BeamElement::deflection_double_integral(double s) const {
   const double l = axis().length, s2 = s * s, s3 = s2 * s, s4 = s3 * s, s5 = s4 * s;
   return {l * l * (s2 / 2.0 - s4 / 4.0 + s5 / 10.0), l * l * l * (s3 / 6.0 - s4 / 6.0 + s5 / 20.0),
           l * l * (s4 / 4.0 - s5 / 10.0), l * l * l * (s5 / 20.0 - s4 / 12.0)};

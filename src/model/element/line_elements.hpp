@@ -39,11 +39,11 @@ struct LineData {
 /// Displacement in one direction at a position between the ends, by displacements and rotations of the ends; or its
 /// integrals.
 struct LineShapes {
-  double a = 0.0, turn_a = 0.0, b = 0.0, turn_b = 0.0;
+  double a = 0.0, rotation_a = 0.0, b = 0.0, rotation_b = 0.0;
 };
 /// Transverse displacement at a position of a beam of length 1, by its end rotations; hinged ends rotate so that they
 /// carry no moment.
-[[nodiscard]] LineShapes cubic_at(double part, bool hinged_a = false, bool hinged_b = false);
+[[nodiscard]] LineShapes hermite_shapes(double part, bool hinged_a = false, bool hinged_b = false);
 
 class LineElement : public FiniteElement {
  public:
@@ -54,26 +54,26 @@ class LineElement : public FiniteElement {
   [[nodiscard]] const Axis& axis() const { return data_.axis; }
   [[nodiscard]] double extent() const override { return data_.axis.length; }
   [[nodiscard]] double density() const override { return data_.mass_per_length; }
-  [[nodiscard]] bool has_geometric() const override { return true; }
+  [[nodiscard]] bool has_geometric_stiffness() const override { return true; }
   [[nodiscard]] AxialForces axial_forces(const ElementVector& u, double strain, const PlaneVector& load,
                                          const PlaneVector& pull) const override;
-  [[nodiscard]] ElementVector spread(const PlaneVector& load) const override;
+  [[nodiscard]] ElementVector load_vector(const PlaneVector& load) const override;
   [[nodiscard]] double strain_work(const ElementVector& motion) const override;
   /// N, V, M at the position at[0] between a and b, 0 to 1.
-  [[nodiscard]] Cut cut(OutputQuantity quantity, const PlaneVector& at,
-                        const AxialForces& forces) const override;
+  [[nodiscard]] SectionForce section_force(OutputQuantity quantity, const PlaneVector& at,
+                                           const AxialForces& forces) const override;
 
  protected:
   using Ends = Eigen::Matrix<double, 6, 1>;  // ux, uy, rz at a and b
 
   /// Drops the rotations that the element does not have.
-  [[nodiscard]] ElementVector of_unknowns(const Ends& ends) const;
+  [[nodiscard]] ElementVector restrict_to_unknowns(const Ends& ends) const;
   /// Elongation of the line.
-  [[nodiscard]] double stretch(const ElementVector& motion) const;
+  [[nodiscard]] double elongation(const ElementVector& motion) const;
 
   /// Transverse displacement, integrated once and twice up to a position.
-  [[nodiscard]] virtual LineShapes across_once(double part) const = 0;
-  [[nodiscard]] virtual LineShapes across_twice(double part) const = 0;
+  [[nodiscard]] virtual LineShapes deflection_integral(double part) const = 0;
+  [[nodiscard]] virtual LineShapes deflection_double_integral(double part) const = 0;
   /// v' at a position along the length.
   [[nodiscard]] virtual Ends slope(double part) const = 0;
 
@@ -84,8 +84,8 @@ class LineElement : public FiniteElement {
 };
 
 /// Linear shape functions, integrated once and twice.
-[[nodiscard]] LineShapes linear_once(double length, double part);
-[[nodiscard]] LineShapes linear_twice(double length, double part);
+[[nodiscard]] LineShapes linear_integral(double length, double part);
+[[nodiscard]] LineShapes linear_double_integral(double length, double part);
 
 // The plane Euler-Bernoulli beam element.
 //
@@ -106,7 +106,7 @@ using BeamMatrix = Eigen::Matrix<double, 6, 6>;
 
 /// Geometric stiffness in the scene's axes of a beam that spans (dx, dy) under an axial force, tension positive, that
 /// varies linearly from a to b.
-[[nodiscard]] BeamMatrix beam_geometric(double dx, double dy, double force_a, double force_b);
+[[nodiscard]] BeamMatrix beam_geometric_stiffness(double dx, double dy, double force_a, double force_b);
 
 /// Mass matrix in the scene's axes of a beam that spans (dx, dy).
 [[nodiscard]] BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind);
@@ -117,15 +117,15 @@ class BeamElement final : public LineElement {
   using LineElement::LineElement;
 
   [[nodiscard]] std::vector<ElementUnknown> unknowns() const override;
-  [[nodiscard]] bool has_own() const override { return data().hinged_a || data().hinged_b; }
+  [[nodiscard]] bool has_internal_unknowns() const override { return data().hinged_a || data().hinged_b; }
   [[nodiscard]] ElementMatrix mass() const override;
   [[nodiscard]] ElementMatrix stiffness() const override;
-  [[nodiscard]] ElementMatrix geometric(const AxialForces& forces) const override;
+  [[nodiscard]] ElementMatrix geometric_stiffness(const AxialForces& forces) const override;
   [[nodiscard]] std::vector<ElementLine> lines() const override { return {{0, 1, true}}; }
 
  private:
-  [[nodiscard]] LineShapes across_once(double part) const override;
-  [[nodiscard]] LineShapes across_twice(double part) const override;
+  [[nodiscard]] LineShapes deflection_integral(double part) const override;
+  [[nodiscard]] LineShapes deflection_double_integral(double part) const override;
   [[nodiscard]] Ends slope(double part) const override;
 };
 
@@ -143,7 +143,7 @@ class BeamElement final : public LineElement {
 
 /// Geometric stiffness of a bar that spans (dx, dy) under an axial force, tension positive: that of a string, N/L
 /// across it. For a force that varies linearly from a to b the mean is used.
-[[nodiscard]] BeamMatrix bar_geometric(double dx, double dy, double force_a, double force_b);
+[[nodiscard]] BeamMatrix bar_geometric_stiffness(double dx, double dy, double force_a, double force_b);
 
 /// Mass matrix of a bar that spans (dx, dy).
 [[nodiscard]] BeamMatrix bar_mass(double dx, double dy, double mass_per_length, MassKind kind);
@@ -155,12 +155,12 @@ class BarElement final : public LineElement {
   [[nodiscard]] std::vector<ElementUnknown> unknowns() const override;
   [[nodiscard]] ElementMatrix mass() const override;
   [[nodiscard]] ElementMatrix stiffness() const override;
-  [[nodiscard]] ElementMatrix geometric(const AxialForces& forces) const override;
+  [[nodiscard]] ElementMatrix geometric_stiffness(const AxialForces& forces) const override;
   [[nodiscard]] std::vector<ElementLine> lines() const override { return {{0, 1, false}}; }
 
  private:
-  [[nodiscard]] LineShapes across_once(double part) const override;
-  [[nodiscard]] LineShapes across_twice(double part) const override;
+  [[nodiscard]] LineShapes deflection_integral(double part) const override;
+  [[nodiscard]] LineShapes deflection_double_integral(double part) const override;
   [[nodiscard]] Ends slope(double part) const override;
 };
 

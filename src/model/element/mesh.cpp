@@ -19,7 +19,8 @@ Mesh make_mesh(const Scene& scene) {
     mesh.nodes.push_back({node.name, node.x, node.y, !node.of_mesh});
   }
   mesh.named = static_cast<int>(mesh.nodes.size());
-  for (std::size_t i = 0; i < scene.members.size(); ++i) kind_of(scene.members[i].type).mesh(mesh, scene, i);
+  for (std::size_t i = 0; i < scene.members.size(); ++i)
+    kind_of(scene.members[i].type).generate(mesh, scene, i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) mesh_body(mesh, scene, i);
   return mesh;
 }

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/eigen_dense.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 #include "model/element/body_mesh.hpp"
 #include "model/element/plane_element.hpp"
 
@@ -117,7 +117,7 @@ class BodyStresses {
         size = std::max(size, std::hypot(sample.at[0] - at.x, sample.at[1] - at.y));
       }
     if (points.empty()) return {};
-    const bool quadratic = mesh::has_middles(of.front()->shape());
+    const bool quadratic = mesh::has_midside_nodes(of.front()->shape());
     const Eigen::VectorXd wanted = powers(0.0, 0.0, quadratic);
     Eigen::MatrixXd conditions(wanted.size(), static_cast<Eigen::Index>(points.size()));
     for (std::size_t j = 0; j < points.size(); ++j)
@@ -166,14 +166,14 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> nodal_stresses(const Mesh& mesh, co
   return all;
 }
 
-Eigen::Vector3d stress_of_heat(const BodySpec& body) {
+Eigen::Vector3d thermal_stress(const BodySpec& body) {
   const PlaneMaterial material = material_of(body);
-  return -(material.stresses() * material.thermal_strain());
+  return -(material.elasticity_matrix() * material.thermal_strain());
 }
 
-double mises(const BodySpec& body, const Eigen::Vector3d& stress, double heat) {
+double von_mises_stress(const BodySpec& body, const Eigen::Vector3d& stress, double heat) {
   const double x = stress[0], y = stress[1], xy = stress[2];
-  const double z = body.strain ? body.nu * (x + y) - body.E * heat : 0.0;
+  const double z = body.plane_strain ? body.nu * (x + y) - body.E * heat : 0.0;
   return std::sqrt(0.5 * ((x - y) * (x - y) + (y - z) * (y - z) + (z - x) * (z - x)) + 3.0 * xy * xy);
 }
 

@@ -38,10 +38,10 @@ struct StressTerm {
                                                                           std::size_t body);
 
 /// - D e: stresses by a unit thermal strain without displacements.
-[[nodiscard]] Eigen::Vector3d stress_of_heat(const BodySpec& body);
+[[nodiscard]] Eigen::Vector3d thermal_stress(const BodySpec& body);
 
 /// Equivalent stress of von Mises, sqrt(3/2 s:s), s being the deviator; heat = alpha T is needed only for plane strain,
 /// where sigma_z = nu (sigma_x + sigma_y) - E alpha T.
-[[nodiscard]] double mises(const BodySpec& body, const Eigen::Vector3d& stress, double heat);
+[[nodiscard]] double von_mises_stress(const BodySpec& body, const Eigen::Vector3d& stress, double heat);
 
 }  // namespace signorini::element

@@ -16,7 +16,7 @@
 // Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4 (1976) 245.
 #pragma once
 
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 #include "model/element/element.hpp"
 
 namespace signorini::element {
@@ -24,10 +24,10 @@ namespace signorini::element {
 /// Young's modulus etc.: force/length^2 and mass/length^3.
 struct PlaneMaterial {
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
-  bool strain = false;  ///< plane strain; false: plane stress
+  bool plane_strain = false;  ///< plane strain; false: plane stress
 
-  [[nodiscard]] Eigen::Matrix3d stresses() const;        ///< D
-  [[nodiscard]] Eigen::Vector3d thermal_strain() const;  ///< e
+  [[nodiscard]] Eigen::Matrix3d elasticity_matrix() const;  ///< D
+  [[nodiscard]] Eigen::Vector3d thermal_strain() const;     ///< e
 };
 
 class PlaneElement final : public FiniteElement {
@@ -41,7 +41,7 @@ class PlaneElement final : public FiniteElement {
   [[nodiscard]] double density() const override { return material_.density * material_.thickness; }
   [[nodiscard]] ElementMatrix mass() const override;
   [[nodiscard]] ElementMatrix stiffness() const override;
-  [[nodiscard]] ElementVector spread(const PlaneVector& load) const override;
+  [[nodiscard]] ElementVector load_vector(const PlaneVector& load) const override;
   [[nodiscard]] double strain_work(const ElementVector& motion) const override;
   [[nodiscard]] std::vector<ElementLine> lines() const override;
 
@@ -60,16 +60,16 @@ class PlaneElement final : public FiniteElement {
   [[nodiscard]] Eigen::MatrixXd nodal_stress_rows() const;
 
  private:
-  struct Place {
+  struct PointShapes {
     Eigen::VectorXd values;
     Eigen::MatrixX2d slopes;  // derivatives by x and y
     double det;
   };
-  [[nodiscard]] Place at_point(double a, double b) const;
+  [[nodiscard]] PointShapes at_point(double a, double b) const;
   [[nodiscard]] Eigen::Matrix2d jacobian(const Eigen::MatrixX2d& slopes) const;
-  [[nodiscard]] Eigen::MatrixXd strain_rows(const Place& place) const;
-  [[nodiscard]] Eigen::Matrix<double, 3, 4> inner_rows(double a, double b, double det) const;
-  [[nodiscard]] Eigen::MatrixXd inner_motion() const;
+  [[nodiscard]] Eigen::MatrixXd strain_rows(const PointShapes& place) const;
+  [[nodiscard]] Eigen::Matrix<double, 3, 4> incompatible_rows(double a, double b, double det) const;
+  [[nodiscard]] Eigen::MatrixXd incompatible_motion() const;
   [[nodiscard]] Eigen::MatrixXd mass_of_nodes() const;
 
   PlaneShape shape_;

@@ -8,7 +8,7 @@
 #include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
-#include "model/modes/held.hpp"
+#include "model/modes/constrained_structure.hpp"
 #include "model/modes/stability.hpp"
 #include "model/statics/mechanisms.hpp"
 
@@ -120,7 +120,7 @@ SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motion
         form.terms.emplace_back(static_cast<int>(i), motions(i, j));
     forms.push_back(std::move(form));
   }
-  return with_grips(k, forms);
+  return with_constraint_springs(k, forms);
 }
 
 /// Shifted inverse iteration with a subspace. Long structures have their lowest frequencies so close together (a chain
@@ -161,7 +161,7 @@ class Subspace {
   /// Rounding error of the lowest omega^2.
   [[nodiscard]] double noise() const {
     const Vector lowest = x_.col(x_.cols() - 1);
-    return rounding::eps * assembly::term_size(k_, lowest) / lowest.dot(mass_ * lowest);
+    return rounding::eps * assembly::term_magnitude(k_, lowest) / lowest.dot(mass_ * lowest);
   }
   /// Moves the shift to just below the lowest omega^2, by about the spacing of the wanted ones.
   void approach(Eigen::Index wanted) {
@@ -169,7 +169,7 @@ class Subspace {
     const double lowest = found[wanted - 1];
     double gap = std::max(found[0] - lowest, 1e4 * noise());
     for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
-      HeldStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
+      ConstrainedStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
       if (!closer.definite()) continue;  // Ritz values exceed the true ones by more than the gap
       shift_ = gap - lowest;
       solver_ = std::move(closer);
@@ -181,7 +181,7 @@ class Subspace {
   const SparseMatrix &k_, &mass_;
   const std::vector<Combination>& fixed_;
   double shift_;
-  HeldStructure solver_;
+  ConstrainedStructure solver_;
   Eigen::MatrixXd x_;
   Eigen::VectorXd values_;
 };
@@ -189,7 +189,7 @@ class Subspace {
 Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k0,
                    const std::vector<Combination>& fixed, int count) {
   const auto n = static_cast<int>(k0.rows());
-  const FreeMotions free = free_motions(with_grips(k0, fixed), mass);
+  const FreeMotions free = free_motions(with_constraint_springs(k0, fixed), mass);
   const SparseMatrix k = free.massless.cols() > 0 ? hold_undecided(k0, free.massless) : k0;
   Frequencies result;
   result.free_motions = static_cast<int>(free.heavy.cols());
@@ -231,7 +231,7 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
 }  // namespace
 
 Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& damping,
-                               const SparseMatrix& stiffness, const Holding& holding, int count) {
+                               const SparseMatrix& stiffness, const ContactConstraints& holding, int count) {
   if (mass.rows() == 0) return {};
   const SparseMatrix k = assembly::with_springs(stiffness, holding.springs);
   if (mass.rows() <= dense_up_to) return dense(mass, damping, k, holding.fixed, count);
@@ -251,9 +251,9 @@ Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& dam
   return all;
 }
 
-Holding close_contacts(const std::vector<Contact>& contacts) {
-  Holding holding;
-  for (const Contact& c : contacts) holding.hold_normal(c);
+ContactConstraints constrain_normals(const std::vector<Contact>& contacts) {
+  ContactConstraints holding;
+  for (const Contact& c : contacts) holding.add_normal(c);
   return holding;
 }
 
@@ -274,7 +274,7 @@ bool is_accurate(const assembly::SymmetricSolver& solver, const SparseMatrix& a)
 
 }  // namespace
 
-int modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square) {
+int count_modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square) {
   for (double beyond = 0.0; beyond <= farthest; beyond = beyond > 0.0 ? 10.0 * beyond : nearest) {
     const SparseMatrix a = stiffness - (1.0 + beyond) * square * mass;
     const assembly::SymmetricSolver solver(a);

@@ -29,11 +29,11 @@ struct Frequencies {
 
 /// The `count` lowest modes with omega > 0. Shapes: n x n matrices, both triangles stored.
 [[nodiscard]] Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& damping,
-                                             const SparseMatrix& stiffness, const Holding& holding,
+                                             const SparseMatrix& stiffness, const ContactConstraints& holding,
                                              int count);
 
 /// The springs along the normals of all contacts, tangents free.
-[[nodiscard]] Holding close_contacts(const std::vector<Contact>& contacts);
+[[nodiscard]] ContactConstraints constrain_normals(const std::vector<Contact>& contacts);
 
 // Number of modes below a frequency, without computing them.
 //
@@ -44,6 +44,6 @@ struct Frequencies {
 
 /// Counts multiplicities and free motions. `square` = s > 0; if K - s M is singular to rounding, modes up to 1e-5 of s
 /// above it are counted. -1: no factorisation near s is accurate.
-[[nodiscard]] int modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square);
+[[nodiscard]] int count_modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square);
 
 }  // namespace signorini::modes

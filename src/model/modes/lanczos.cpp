@@ -37,7 +37,7 @@ class Products {
 
 }  // namespace
 
-double greatest_eigenvalue(int n, const Operator& apply, double tolerance) {
+double largest_eigenvalue(int n, const Operator& apply, double tolerance) {
   if (n == 1) return apply(Eigen::VectorXd::Ones(1))[0];
   Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0).normalized();
   if (!(apply(x).norm() > 0.0)) return 0.0;
@@ -60,7 +60,7 @@ double greatest_eigenvalue(int n, const Operator& apply, double tolerance) {
   return value;
 }
 
-Vector greatest_eigenvalues(int n, int count, const Operator& apply) {
+Vector largest_eigenvalues(int n, int count, const Operator& apply) {
   try {
     Products op(n, apply);
     Spectra::SymEigsSolver<Products> solver(op, count, std::min(n, std::max(2 * count + 1, 60)));
@@ -72,8 +72,8 @@ Vector greatest_eigenvalues(int n, int count, const Operator& apply) {
   }
 }
 
-base::EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
-                                   const Operator& inverse) {
+base::EigenPairs shift_invert_modes(int count, int width, const SparseMatrix& mass, double shift,
+                                    const Operator& inverse) {
   using Mass = Spectra::SparseSymMatProd<double>;
   try {
     Products op(mass.rows(), inverse);
@@ -132,7 +132,7 @@ base::EigenPairs lanczos(int count, const assembly::SymmetricSolver& solver, con
     if (free.cols() > 0) answer -= free * (inertia.transpose() * answer).eval();
     return answer;
   };
-  return lowest_by_inverse(count, std::min(2 * count + 20, heavies), mass, shift, inverse);
+  return shift_invert_modes(count, std::min(2 * count + 20, heavies), mass, shift, inverse);
 }
 
 /// Grows span {X, A X, A^2 X, ...} in the M-complement of `known`, and reads modes off it.
@@ -157,10 +157,10 @@ class BlockKrylov {
   bool grow(Eigen::Index greatest) {
     Eigen::MatrixXd x = next_;
     const Vector before = (x.transpose() * (mass_ * x)).diagonal();
-    take_out(known_, mass_, x);
-    take_out(basis_, mass_, x);
+    deflate(known_, mass_, x);
+    deflate(basis_, mass_, x);
     x = orthonormalised(x, before);
-    take_out(basis_, mass_, x);
+    deflate(basis_, mass_, x);
     if (x.cols() == 0 || basis_.cols() + x.cols() > greatest) return false;
     next_ = image(x);
     const Eigen::Index size = basis_.cols();
@@ -190,7 +190,7 @@ class BlockKrylov {
   [[nodiscard]] Eigen::MatrixXd image(const Eigen::MatrixXd& x) const {
     Eigen::MatrixXd y = mass_ * x;
     for (Eigen::Index j = 0; j < y.cols(); ++j) y.col(j) = solver_.solve(y.col(j));
-    take_out(known_, mass_, y);
+    deflate(known_, mass_, y);
     return y;
   }
   /// Drops columns that lost nearly all of their norm, `before` = x^T M x: they add no new direction.
@@ -198,7 +198,7 @@ class BlockKrylov {
     Eigen::MatrixXd q(x.rows(), 0);
     for (Eigen::Index j = 0; j < x.cols(); ++j) {
       Eigen::MatrixXd v = x.col(j);
-      take_out(q, mass_, v);
+      deflate(q, mass_, v);
       const double square = v.col(0).dot(mass_ * v.col(0));
       if (!(square > nothing_new * before[j])) continue;
       q.conservativeResize(Eigen::NoChange, q.cols() + 1);
@@ -216,7 +216,7 @@ class BlockKrylov {
 
 }  // namespace
 
-void take_out(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x) {
+void deflate(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x) {
   for (int round = 0; round < 2 && basis.cols() > 0; ++round)
     x -= (basis * (basis.transpose() * (mass * x)).eval()).eval();
 }

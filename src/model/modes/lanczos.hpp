@@ -14,16 +14,16 @@ namespace signorini::modes {
 using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
 /// Relative accuracy `tolerance`. Returns the best estimate if the iteration does not converge.
-[[nodiscard]] double greatest_eigenvalue(int n, const Operator& apply, double tolerance);
+[[nodiscard]] double largest_eigenvalue(int n, const Operator& apply, double tolerance);
 
 /// The algebraically largest eigenvalues, descending; fewer or none if the iteration does not converge. A single start
 /// vector finds each repeated eigenvalue once.
-[[nodiscard]] Vector greatest_eigenvalues(int n, int count, const Operator& apply);
+[[nodiscard]] Vector largest_eigenvalues(int n, int count, const Operator& apply);
 
 /// The `count` lowest modes as far as a single start vector finds them: omega^2 and M-orthonormal shapes, not sorted,
 /// from a Krylov space of dimension `width`; none if the iteration does not converge. `inverse`: (K + shift M)^-1.
-[[nodiscard]] base::EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
-                                                 const Operator& inverse);
+[[nodiscard]] base::EigenPairs shift_invert_modes(int count, int width, const SparseMatrix& mass,
+                                                  double shift, const Operator& inverse);
 
 // A given number of the lowest modes of a large structure, repeated ones included.
 //
@@ -35,7 +35,7 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 // Computations, section 10.3.6), with blocks as wide as the number of missing modes.
 
 /// Subtracts from x its part along the M-orthonormal columns of the basis, twice because of rounding.
-void take_out(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x);
+void deflate(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x);
 
 /// The `below` lowest modes that are not free, then the first one above them: omega^2 ascending, and M-orthonormal
 /// shapes, n x (below + 1). `limit` (omega^2) separates the two. Fewer columns if some were not found. `free`: all

@@ -8,8 +8,8 @@
 #include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
+#include "model/modes/constrained_structure.hpp"
 #include "model/modes/frequencies.hpp"
-#include "model/modes/held.hpp"
 #include "model/modes/lanczos.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
@@ -39,9 +39,9 @@ Lowest lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::
 }
 
 Lowest lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
-  if (statics::null_motions(with_grips(k, fixed)).cols() > 0) return 0.0;
+  if (statics::null_motions(with_constraint_springs(k, fixed)).cols() > 0) return 0.0;
   const Frequencies lowest =
-      lowest_frequencies(mass, SparseMatrix(k.rows(), k.cols()), k, Holding{{}, fixed}, 1);
+      lowest_frequencies(mass, SparseMatrix(k.rows(), k.cols()), k, ContactConstraints{{}, fixed}, 1);
   return lowest.modes.empty() ? Lowest() : lowest.modes[0].omega;
 }
 
@@ -78,7 +78,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return factor.solve_factor(condensed(factor.solve_transposed_factor(x)));
   };
-  return frequency(greatest_eigenvalue(h, apply, digits_of_highest));
+  return frequency(largest_eigenvalue(h, apply, digits_of_highest));
 }
 
 double highest(const SparseMatrix& mass, const SparseMatrix& k) {
@@ -91,17 +91,17 @@ double highest(const SparseMatrix& mass, const SparseMatrix& k) {
 
 }  // namespace
 
-void Holding::hold_normal(const Contact& contact) {
+void ContactConstraints::add_normal(const Contact& contact) {
   if (const auto kn = contact.normal_spring()) springs.push_back({contact.normal, *kn});
   if (contact.takes_impulses()) fixed.push_back(contact.normal);
 }
 
-Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
-  Holding holding;
+ContactConstraints constrain_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
+  ContactConstraints holding;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     if (!closed[k]) continue;
-    holding.hold_normal(c);
+    holding.add_normal(c);
     if (c.tangential_stiffness && !c.tangent.terms.empty())
       holding.springs.push_back({c.tangent, *c.tangential_stiffness});
     else if ((!c.normal_spring() || c.sliding_point()) && !c.tangent.terms.empty())
@@ -110,7 +110,8 @@ Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bo
   return holding;
 }
 
-double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness, const Holding& holding) {
+double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
+                        const ContactConstraints& holding) {
   if (mass.rows() == 0) return 0.0;
   const SparseMatrix k = assembly::with_springs(stiffness, holding.springs);
   if (mass.rows() <= dense_up_to) return lowest_of(mass, k, holding.fixed).value_or(0.0);
@@ -123,7 +124,8 @@ double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
 }
 
 double highest_frequency(const Model& model) {
-  const Holding holding = hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true));
+  const ContactConstraints holding =
+      constrain_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true));
   return highest(model.mass, assembly::with_springs(model.stiffness, holding.springs));
 }
 

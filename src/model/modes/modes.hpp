@@ -20,21 +20,22 @@ namespace signorini::modes {
 inline constexpr int dense_up_to = 200;
 
 /// Constraints by contacts, for a frequency: springs, and fixed forms.
-struct Holding {
+struct ContactConstraints {
   std::vector<assembly::LineSpring> springs;
   std::vector<Combination> fixed;
 
   /// Along its normal a closed contact holds by its spring, or as a constraint; not where N is a datum.
-  void hold_normal(const Contact& contact);
+  void add_normal(const Contact& contact);
 };
 
 /// Contacts with closed[k] constrained in both directions: compliant ones by kn and kt, sliders by kt, or fixed along
 /// their tangent if they have none; rigid ones fixed in both directions.
-[[nodiscard]] Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed);
+[[nodiscard]] ContactConstraints constrain_contacts(const std::vector<Contact>& contacts,
+                                                    const std::vector<bool>& closed);
 
 /// rad per time; 0 if some motion has no stiffness, or if nothing with mass can move.
 [[nodiscard]] double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
-                                      const Holding& holding);
+                                      const ContactConstraints& holding);
 
 /// rad per time, with all contact springs; an estimate for large structures. 0: no stiffness.
 [[nodiscard]] double highest_frequency(const Model& model);

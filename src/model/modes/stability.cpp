@@ -9,7 +9,7 @@
 #include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
-#include "model/modes/held.hpp"
+#include "model/modes/constrained_structure.hpp"
 #include "model/modes/lanczos.hpp"
 #include "model/statics/mechanisms.hpp"
 
@@ -31,7 +31,7 @@ struct Pencil {
 /// factors do not change.
 Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
                    const std::vector<Combination>& fixed) {
-  const SparseMatrix elastic = fixed.empty() ? loose : with_grips(loose, fixed);
+  const SparseMatrix elastic = fixed.empty() ? loose : with_constraint_springs(loose, fixed);
   Vector size = elastic.diagonal().cwiseAbs() + geometric.diagonal().cwiseAbs();
   for (double& d : size) d = d > 0.0 ? d : 1.0;
   // K_g D^-1 K_g has the null motions of K_g and is positive semidefinite.
@@ -66,7 +66,7 @@ std::optional<Shift> find_shift(const Pencil& pencil, const std::vector<Combinat
   const auto try_at = [&](double s) -> std::optional<Shift> {
     const SparseMatrix a = pencil.at(s);
     if (fixed.empty()) return is_definite(a) ? std::optional(Shift{s, a}) : std::nullopt;
-    const SparseMatrix gripped = with_grips(a, fixed), grips = gripped - a;
+    const SparseMatrix gripped = with_constraint_springs(a, fixed), grips = gripped - a;
     for (const double firm : {1.0, 1e3, 1e6})
       if (const SparseMatrix all = a + firm * grips; is_definite(all)) return Shift{s, all};
     return std::nullopt;
@@ -119,13 +119,13 @@ std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatr
   const Operator apply = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
     return along(factor.solve_factor(Vector(-(pencil.geometric * factor.solve_transposed_factor(along(y))))));
   };
-  return factors_of(shift->s, greatest_eigenvalues(n, std::min(count, n - 1), apply));
+  return factors_of(shift->s, largest_eigenvalues(n, std::min(count, n - 1), apply));
 }
 
 }  // namespace
 
 std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
-                                 const Holding& holding, int count) {
+                                 const ContactConstraints& holding, int count) {
   if (elastic.rows() == 0 || geometric.nonZeros() == 0) return {};
   const SparseMatrix k = assembly::with_springs(elastic, holding.springs);
   std::vector<double> factors;
@@ -147,7 +147,7 @@ std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix
 }
 
 bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
-  return motion.dot(k * motion) < -rounding::of_many * assembly::term_size(k, motion);
+  return motion.dot(k * motion) < -rounding::many_operations * assembly::term_magnitude(k, motion);
 }
 
 namespace {
@@ -168,7 +168,7 @@ std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix&
   Vector x = growth.motion;
   for (int round = 0; round < 100; ++round) {
     const double energy = x.dot(k * x), inertia = x.dot(mass * x);
-    if (!(inertia > no_inertia * assembly::term_size(mass, x)) || !std::isfinite(energy / inertia)) {
+    if (!(inertia > no_inertia * assembly::term_magnitude(mass, x)) || !std::isfinite(energy / inertia)) {
       growth.rate = std::numeric_limits<double>::infinity();
       return growth;
     }

@@ -19,7 +19,7 @@ namespace signorini::modes {
 
 /// The lowest `count` of all lambda, ascending; a single 0: unstable under arbitrarily small forces.
 [[nodiscard]] std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
-                                               const Holding& holding, int count);
+                                               const ContactConstraints& holding, int count);
 
 // Growth rate of an unstable structure.
 //

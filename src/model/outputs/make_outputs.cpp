@@ -41,7 +41,7 @@ class Maker {
  public:
   Maker(const Scene& scene, const assembly::DofMap& map, const Model& model)
       : scene_(scene), map_(map), model_(model) {
-    if (!map.matrices()) rows_.emplace(scene, map, model.alpha, model.beta);
+    if (!map.is_matrix_scene()) rows_.emplace(scene, map, model.alpha, model.beta);
   }
 
   Output make(const OutputSpec& spec, const std::vector<Output>& before) {
@@ -99,8 +99,8 @@ class Maker {
     output.forces = row.forces;
     output.given = row.given;
     output.constant = row.constant;
-    for (const SeenLoad& seen : model_.seen_loads) see(seen, row, output);
-    for (const PhysicalRow::Bowl& bowl : row.bowls) restore(bowl, output);
+    for (const LoadCorrection& seen : model_.load_corrections) see(seen, row, output);
+    for (const PhysicalRow::CurvedContact& bowl : row.curved_contacts) restore(bowl, output);
   }
 
   /// Internal forces of a reduced structure balance the loads only without the terms that its equation of motion
@@ -109,7 +109,7 @@ class Maker {
     const Reduction& reduction = *model_.reduction;
     Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
     const Vector dampers = reduction.shapes.transpose() * (row.v - row.rayleigh);
-    const bool creep = reduce::static_shapes_creep(model_.beta, reduction.first_left_out);
+    const bool creep = reduce::static_shapes_are_damped(model_.beta, reduction.first_truncated);
     for (Eigen::Index j = 0; j < a.size(); ++j) {
       if (!model_.dofs[static_cast<std::size_t>(j)].massless) continue;
       a[j] = 0.0;
@@ -119,28 +119,28 @@ class Maker {
     output.a = form_of(a);
   }
 
-  void see(const SeenLoad& seen, const PhysicalRow& row, Output& output) const {
+  void see(const LoadCorrection& seen, const PhysicalRow& row, Output& output) const {
     const Load& load = model_.loads[seen.load];
     const auto part = [&](const Vector& form) {
       return form.head(seen.displacements.size()).dot(seen.displacements);
     };
     const double u = part(row.u), v = part(row.v), a = part(row.a);
     if (v == 0.0 && a == 0.0) {
-      if (u != 0.0) output.given.push_back({load.history.scaled(u), load.name, u, load.of_history});
+      if (u != 0.0) output.given.push_back({load.history.scaled(u), load.name, u, load.history_unit});
       return;
     }
     output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
   /// N u / R in addition to the scene's spring N_0 / R, which is in the row; the model's N_K u / R is damped by beta.
-  void restore(const PhysicalRow::Bowl& bowl, Output& output) const {
+  void restore(const PhysicalRow::CurvedContact& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
-    const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].bowl;
+    const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].pendulum_surface;
     output.restoring.push_back(
-        {bowl.contact, contact.body_tangent(), bowl.factor / in_scene.radius, in_scene.carried});
+        {bowl.contact, contact.body_tangent(), bowl.factor / in_scene.radius, in_scene.nominal_force});
     if (model_.beta != 0.0)
       add(output.v, contact.body_tangent(),
-          bowl.factor * model_.beta * contact::beyond_spring(scene_.contacts[bowl.contact], contact));
+          bowl.factor * model_.beta * contact::extra_stiffness(scene_.contacts[bowl.contact], contact));
   }
 
   void fill(const OutputSpec& spec, PhysicalRow& row, Output& output) {
@@ -164,7 +164,7 @@ class Maker {
   /// rate: 0 displacement, 1 velocity, 2 acceleration.
   void motion(const OutputSpec& spec, int rate, PhysicalRow& row) {
     const double u = rate == 0 ? 1.0 : 0.0, v = rate == 1 ? 1.0 : 0.0, a = rate == 2 ? 1.0 : 0.0;
-    if (map_.matrices()) {
+    if (map_.is_matrix_scene()) {
       const Combination form =
           assembly::combination(map_, spec.direction, "output." + spec.name + ".direction", false);
       form.add_to(rate == 0 ? row.u : rate == 1 ? row.v : row.a, 1.0);
@@ -195,29 +195,29 @@ class Maker {
                                    : "by a rotation"));
         rows_->add_motion(row, numbers[c], sign * u * d[c], sign * v * d[c], sign * a * d[c]);
       }
-      if (rate == 2) rows_->add_frame(row, d[0], d[1], false);
+      if (rate == 2) rows_->add_base_acceleration(row, d[0], d[1], false);
     }
   }
 
-  [[nodiscard]] Way way(const OutputSpec& spec, std::size_t i, const char* key) const {
+  [[nodiscard]] MemberPath way(const OutputSpec& spec, std::size_t i, const char* key) const {
     const auto [piece, backwards] = assembly::piece_between(map_, spec.at[i], spec.at[i + 1], spec.place,
                                                             fmt::format("output.{}.{}", spec.name, key));
     return {piece, backwards};
   }
 
   /// row += requested quantity at the position x on the k-th element of the way.
-  void cut(const OutputSpec& spec, const char* key, const Way& way, std::pair<std::size_t, double> at,
-           const Wanted& wanted, PhysicalRow& row) const {
-    const MemberCuts cuts(scene_, map_);
-    rows_->add_cut(
-        row, MemberCuts::element_of(way, at.first),
-        cuts.cut(way, at.first, at.second, wanted, spec.place, fmt::format("output.{}.{}", spec.name, key)));
+  void cut(const OutputSpec& spec, const char* key, const MemberPath& way, std::pair<std::size_t, double> at,
+           const SectionQuantity& wanted, PhysicalRow& row) const {
+    const MemberForces cuts(scene_, map_);
+    rows_->add_section_force(row, MemberForces::element_of(way, at.first),
+                             cuts.section_force(way, at.first, at.second, wanted, spec.place,
+                                                fmt::format("output.{}.{}", spec.name, key)));
   }
 
   void member_force(const OutputSpec& spec, PhysicalRow& row) {
-    const Wanted wanted = requested_by(spec, spec.fibre);
-    const Way along = way(spec, 0, "at");
-    cut(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted, row);
+    const SectionQuantity wanted = section_quantity(spec, spec.fibre);
+    const MemberPath along = way(spec, 0, "at");
+    cut(spec, "at", along, MemberForces::place_of(along, spec.station), wanted, row);
   }
 
   /// Axes rotated by the angle of `direction`, (c, s): xx = d . sigma d, yy across, xy = d . sigma (-s, c).
@@ -232,8 +232,8 @@ class Maker {
   }
 
   /// The requested quantity at one point of a stretch.
-  Output point(const OutputSpec& spec, const char* key, const Way& way, std::pair<std::size_t, double> at,
-               const Wanted& wanted) const {
+  Output point(const OutputSpec& spec, const char* key, const MemberPath& way,
+               std::pair<std::size_t, double> at, const SectionQuantity& wanted) const {
     Output linear;
     linear.kind = spec.kind;
     linear.unit = scene::unit_of_output(spec, scene_.outputs);
@@ -252,11 +252,11 @@ class Maker {
 
   /// Both fibres at one place.
   void section_extremes(const OutputSpec& spec, Output& output) const {
-    const Way along = way(spec, 0, "at");
+    const MemberPath along = way(spec, 0, "at");
     for (const Fibre fibre : fibres_of(spec)) {
-      const Wanted wanted = requested_by(spec, fibre);
-      output.stretches.push_back(
-          {{point(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted)},
+      const SectionQuantity wanted = section_quantity(spec, fibre);
+      output.segments.push_back(
+          {{point(spec, "at", along, MemberForces::place_of(along, spec.station), wanted)},
            spec.at[0],
            spec.at[1],
            spec.station,
@@ -268,16 +268,17 @@ class Maker {
   void envelope(const OutputSpec& spec, Output& output) const {
     const std::size_t points = points_of(spec.quantity);
     for (std::size_t i = 0; i + 1 < spec.at.size(); ++i) {
-      const Way along = way(spec, i, "nodes");
+      const MemberPath along = way(spec, i, "nodes");
       const auto count = static_cast<double>(along.piece->count);
       for (std::size_t k = 0; k < along.piece->count; ++k)
         for (const Fibre fibre : fibres_of(spec)) {
           const auto at = static_cast<double>(k);
-          Output::Stretch stretch{{}, spec.at[i], spec.at[i + 1], at / count, (at + 1.0) / count, fibre};
+          Output::Segment stretch{{}, spec.at[i], spec.at[i + 1], at / count, (at + 1.0) / count, fibre};
           for (std::size_t j = 0; j < points; ++j)
-            stretch.at.push_back(
-                point(spec, "nodes", along, {k, base::Along::point(points, j)}, requested_by(spec, fibre)));
-          output.stretches.push_back(std::move(stretch));
+            stretch.at.push_back(point(spec, "nodes", along,
+                                       {k, base::PolynomialInterpolation::point(points, j)},
+                                       section_quantity(spec, fibre)));
+          output.segments.push_back(std::move(stretch));
         }
     }
   }
@@ -328,7 +329,7 @@ class Maker {
 
   [[nodiscard]] bool is_held(int node, std::size_t c) const {
     const int number = map_.numbers_at(node)[c];
-    return number == assembly::DofMap::fixed || assembly::DofMap::moving_of_code(number) >= 0;
+    return number == assembly::DofMap::fixed || assembly::DofMap::support_of_code(number) >= 0;
   }
 
   void of_contact(const OutputSpec& spec, Output& output) const {
@@ -386,7 +387,7 @@ class Maker {
       for (const Output::Restoring& r : term.restoring)
         output.restoring.push_back({r.contact, r.slip, factor * r.factor, r.scene_force});
       for (const Output::Given& g : term.given)
-        output.given.push_back({g.history.scaled(factor), g.load, factor * g.factor, g.of_load});
+        output.given.push_back({g.history.scaled(factor), g.load, factor * g.factor, g.load_unit});
       output.constant += factor * term.constant;
     }
   }

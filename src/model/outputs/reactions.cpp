@@ -49,7 +49,7 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
       map.mesh.nodes[static_cast<std::size_t>(map.mesh.by_name.at(body.centre))];
   const std::vector<int> nodes = nodes_of_body(map, asked.body);
   const double size = size_of_body(map, nodes, centre);
-  const auto held = assembly::held_in_body(scene, map, asked.body);
+  const auto held = assembly::constrained_components(scene, map, asked.body);
   Eigen::MatrixXd g(3, static_cast<Eigen::Index>(held.size()));
   Vector along = Vector::Zero(g.cols());  // contribution of each support to the requested reaction
   for (std::size_t j = 0; j < held.size(); ++j) {
@@ -60,7 +60,7 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
   }
   const Eigen::MatrixXd square = g.transpose() * g;
   const Eigen::MatrixXd angles = g.colwise().normalized().transpose() * g.colwise().normalized();
-  if (!(base::symmetric_eigen(angles).values[0] > rounding::of_many))
+  if (!(base::symmetric_eigen(angles).values[0] > rounding::many_operations))
     throw SceneError(
         asked.place, asked.key,
         fmt::format("the supports of rigid body '{}' bear its load together, and nothing decides how much "

@@ -73,13 +73,13 @@ void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double c
     row.v[number] += cv + rayleigh;
     row.a[number] += ca;
     row.rayleigh[number] += rayleigh;
-  } else if (const int s = assembly::DofMap::moving_of_code(number);
+  } else if (const int s = assembly::DofMap::support_of_code(number);
              s >= 0 && (cu != 0.0 || cv + rayleigh != 0.0 || ca != 0.0)) {
     add_given(row, moving_[static_cast<std::size_t>(s)].with_rates(cu, cv + rayleigh, ca), 1.0);
   }
 }
 
-void StructureRows::add_frame(PhysicalRow& row, double x, double y, bool gravity) const {
+void StructureRows::add_base_acceleration(PhysicalRow& row, double x, double y, bool gravity) const {
   if (gravity) row.constant -= x * scene_.gravity[0] + y * scene_.gravity[1];
   for (std::size_t i = 0; i < base_.size(); ++i) {
     const auto& r = scene_.base_motion[i].direction.vector;
@@ -87,7 +87,8 @@ void StructureRows::add_frame(PhysicalRow& row, double x, double y, bool gravity
   }
 }
 
-void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const element::Cut& cut, bool stiff) const {
+void StructureRows::add_end_forces(PhysicalRow& row, std::size_t i, const element::SectionForce& cut,
+                                   bool stiff) const {
   const element::FiniteElement& e = element(i);
   const auto moved = map_.mesh.moved.find(i);
   element::ElementVector ca = cut.acceleration;
@@ -95,8 +96,9 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const element::Cut
   element::ElementVector cu = element::ElementVector::Zero(ca.size()),
                          frozen = cut.deflection;  // frozen forces are not damped
   if (stiff) cu = e.stiffness() * cut.forces;
-  const element::AxialForces standing = map_.frozen_in(i);
-  if (stiff && !standing.none() && !map_.within_body(e)) frozen += e.geometric(standing) * cut.forces;
+  const element::AxialForces standing = map_.axial_forces_in(i);
+  if (stiff && !standing.is_zero() && !map_.within_body(e))
+    frozen += e.geometric_stiffness(standing) * cut.forces;
   const std::vector<int> numbers = map_.element_numbers(i);
   const std::vector<element::ElementUnknown> unknowns = e.unknowns();
   element::PlaneVector frame{0.0, 0.0};
@@ -105,9 +107,9 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const element::Cut
     add_motion(row, numbers[j], cu[at] + frozen[at], 0.0, ca[at], beta_ * cu[at] + alpha_ * ca[at]);
     if (unknowns[j].component < 2) frame[unknowns[j].component] += ca[at];
   }
-  add_frame(row, frame[0], frame[1]);
+  add_base_acceleration(row, frame[0], frame[1]);
   for (const Uniform& load : uniform_[i]) {
-    const element::ElementVector f = e.spread(load.q);
+    const element::ElementVector f = e.load_vector(load.q);
     double factor = cut.load[0] * load.q[0] + cut.load[1] * load.q[1];
     for (Eigen::Index j = 0; j < f.size(); ++j) factor -= cut.forces[j] * f[j];
     add_load(row, load.load, factor);
@@ -132,11 +134,12 @@ void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, st
       add_motion(row, map_.numbers_at(moved.nodes[j])[d], 0.0, 0.0, a, alpha_ * a);
       frame[d] += a;
     }
-  add_frame(row, frame[0], frame[1]);
+  add_base_acceleration(row, frame[0], frame[1]);
 }
 
-void StructureRows::add_cut(PhysicalRow& row, std::size_t i, const element::Cut& cut) const {
-  add_ends(row, i, cut, true);
+void StructureRows::add_section_force(PhysicalRow& row, std::size_t i,
+                                      const element::SectionForce& cut) const {
+  add_end_forces(row, i, cut, true);
 }
 
 void StructureRows::add_stress(PhysicalRow& row, std::size_t body, int node,
@@ -150,7 +153,7 @@ void StructureRows::add_stress(PhysicalRow& row, std::size_t body, int node,
     }
   }
   for (const History& strain : strains_[scene_.members.size() + body])
-    add_given(row, strain, factors.dot(element::stress_of_heat(scene_.bodies[body])));
+    add_given(row, strain, factors.dot(element::thermal_stress(scene_.bodies[body])));
 }
 
 std::array<double, 3> StructureRows::direction_of(const Spring& spring) const {
@@ -178,7 +181,7 @@ void StructureRows::add_mass(PhysicalRow& row, const PointMass& mass, std::size_
   const double m = factor * (c == 2 ? mass.inertia : mass.mass);
   if (m == 0.0) return;
   add_motion(row, map_.numbers_at(map_.mesh.by_name.at(mass.node))[c], 0.0, 0.0, m, alpha_ * m);
-  if (c != 2) add_frame(row, c == 0 ? m : 0.0, c == 1 ? m : 0.0);
+  if (c != 2) add_base_acceleration(row, c == 0 ? m : 0.0, c == 1 ? m : 0.0);
 }
 
 /// Loads are never merged into the constant, even constant ones, because Steering may change a load during a run.
@@ -226,7 +229,7 @@ void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::
   if (const auto t = assembly::sliding_direction(spec); t[0] != 0.0 || t[1] != 0.0)
     forces.T = factor * share * unit_vector(t)[c];
   if (forces.N != 0.0 || forces.T != 0.0) row.forces.push_back(forces);
-  if (spec.bowl && forces.T != 0.0) row.bowls.push_back({k, forces.T});
+  if (spec.pendulum_surface && forces.T != 0.0) row.curved_contacts.push_back({k, forces.T});
 }
 
 void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const {
@@ -236,10 +239,11 @@ void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, doub
     const std::vector<element::ElementUnknown> unknowns = element(i).unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
       // The rotation of a hinged end belongs to the element; it transmits no moment to the node.
-      if (nodes[unknowns[j].place] != node || unknowns[j].component != c || unknowns[j].own) continue;
-      element::Cut cut(unknowns.size());
+      if (nodes[unknowns[j].local_node] != node || unknowns[j].component != c || unknowns[j].internal)
+        continue;
+      element::SectionForce cut(unknowns.size());
       cut.forces[static_cast<Eigen::Index>(j)] = factor;
-      add_ends(row, i, cut, true);
+      add_end_forces(row, i, cut, true);
     }
   }
   for (const auto& [i, moved] : map_.mesh.moved)
@@ -260,9 +264,9 @@ void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, doub
 void StructureRows::add_total(PhysicalRow& row, std::size_t c) const {
   for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) {
     const element::PlaneVector along{c == 0 ? -1.0 : 0.0, c == 1 ? -1.0 : 0.0};
-    element::Cut cut(element(i).unknowns().size());
+    element::SectionForce cut(element(i).unknowns().size());
     cut.forces = element(i).translation(along);
-    add_ends(row, i, cut, false);
+    add_end_forces(row, i, cut, false);
     if (map_.mesh.moved.contains(i)) add_moved_mass(row, i, -1, c, -1.0);
   }
   for (const PointMass& mass : scene_.masses) add_mass(row, mass, c, -1.0);
@@ -274,7 +278,7 @@ void StructureRows::add_total(PhysicalRow& row, std::size_t c) const {
 
 namespace {
 
-void add(element::Cut& to, const element::Cut& from, double factor) {
+void add(element::SectionForce& to, const element::SectionForce& from, double factor) {
   to.forces += factor * from.forces;
   to.acceleration += factor * from.acceleration;
   to.deflection += factor * from.deflection;
@@ -283,10 +287,10 @@ void add(element::Cut& to, const element::Cut& from, double factor) {
 
 }  // namespace
 
-Wanted requested_by(const OutputSpec& spec, Fibre fibre) {
-  Wanted wanted{spec.kind == OutputKind::stress ? OutputQuantity::stress : spec.quantity, fibre};
-  if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::N) wanted.of_M = 0.0;
-  if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::M) wanted.of_N = 0.0;
+SectionQuantity section_quantity(const OutputSpec& spec, Fibre fibre) {
+  SectionQuantity wanted{spec.kind == OutputKind::stress ? OutputQuantity::stress : spec.quantity, fibre};
+  if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::N) wanted.M_factor = 0.0;
+  if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::M) wanted.N_factor = 0.0;
   wanted.intensification = spec.intensification;
   return wanted;
 }
@@ -296,34 +300,36 @@ std::size_t points_of(OutputQuantity quantity) {
   return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;
 }
 
-std::size_t MemberCuts::element_of(const Way& way, std::size_t k) {
+std::size_t MemberForces::element_of(const MemberPath& way, std::size_t k) {
   return way.piece->first + (way.backwards ? way.piece->count - 1 - k : k);
 }
 
-std::pair<std::size_t, double> MemberCuts::place_of(const Way& way, double station) {
+std::pair<std::size_t, double> MemberForces::place_of(const MemberPath& way, double station) {
   const auto count = static_cast<double>(way.piece->count);
   // Between two elements: the next one along the way.
   const double element = std::clamp(std::floor(station * count), 0.0, count - 1.0);
   return {static_cast<std::size_t>(element), station * count - element};
 }
 
-element::Cut MemberCuts::force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const {
+element::SectionForce MemberForces::force(const MemberPath& way, std::size_t k, double x,
+                                          OutputQuantity quantity) const {
   const std::size_t number = element_of(way, k);
   const element::FiniteElement& e = map_.mesh.element(number);
-  element::Cut cut(e.unknowns().size());
+  element::SectionForce cut(e.unknowns().size());
   // In the opposite direction, left and right are exchanged.
   const double sign = way.backwards && quantity == OutputQuantity::M ? -1.0 : 1.0;
-  add(cut, e.cut(quantity, {way.backwards ? 1.0 - x : x, 0.0}, map_.frozen_in(number)), sign);
+  add(cut, e.section_force(quantity, {way.backwards ? 1.0 - x : x, 0.0}, map_.axial_forces_in(number)), sign);
   return cut;
 }
 
-element::Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Wanted& wanted,
-                             const SourcePlace& place, const std::string& key) const {
+element::SectionForce MemberForces::section_force(const MemberPath& way, std::size_t k, double x,
+                                                  const SectionQuantity& wanted, const SourcePlace& place,
+                                                  const std::string& key) const {
   if (wanted.quantity != OutputQuantity::stress) return force(way, k, x, wanted.quantity);
   const element::FiniteElement& e = map_.mesh.element(element_of(way, k));
   const Member& member = scene_.members[static_cast<std::size_t>(e.member())];
   const Section& section = element::section_of(scene_, member);
-  if ((wanted.of_N != 0.0 && section.area == 0.0) || (wanted.of_M != 0.0 && section.modulus == 0.0))
+  if ((wanted.N_factor != 0.0 && section.area == 0.0) || (wanted.M_factor != 0.0 && section.modulus == 0.0))
     throw SceneError(place, key,
                      fmt::format("stresses of section '{}' cannot be computed: give it a shape (pipe, box, i "
                                  "or round), or area and modulus in addition to EA and EI",
@@ -331,10 +337,10 @@ element::Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Want
   const std::optional<Bend>& bend = member.bend;
   const double i = wanted.intensification.value_or(bend ? bend->intensification : 1.0);
   const double side = wanted.fibre == Fibre::left ? -1.0 : 1.0;
-  element::Cut cut(e.unknowns().size());
-  if (wanted.of_N != 0.0) add(cut, force(way, k, x, OutputQuantity::N), wanted.of_N / section.area);
-  if (wanted.of_M != 0.0)
-    add(cut, force(way, k, x, OutputQuantity::M), side * i * wanted.of_M / section.modulus);
+  element::SectionForce cut(e.unknowns().size());
+  if (wanted.N_factor != 0.0) add(cut, force(way, k, x, OutputQuantity::N), wanted.N_factor / section.area);
+  if (wanted.M_factor != 0.0)
+    add(cut, force(way, k, x, OutputQuantity::M), side * i * wanted.M_factor / section.modulus);
   return cut;
 }
 

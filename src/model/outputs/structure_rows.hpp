@@ -23,11 +23,11 @@ struct PhysicalRow {
   std::vector<Output::Given> given;
   double constant = 0.0;
   /// A contact whose curved surface adds N u / R with varying N, and the factor of that force.
-  struct Bowl {
+  struct CurvedContact {
     std::size_t contact = 0;
     double factor = 0.0;
   };
-  std::vector<Bowl> bowls = {};
+  std::vector<CurvedContact> curved_contacts = {};
 };
 
 class StructureRows {
@@ -38,9 +38,9 @@ class StructureRows {
   /// row += cu u + (cv + rayleigh) v + ca a for a number of DofMap::numbers_at().
   void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca, double rayleigh = 0.0) const;
   /// Acceleration of the base and gravity as an acceleration of all nodes: row += x times it along x, y along y.
-  void add_frame(PhysicalRow& row, double x, double y, bool gravity = true) const;
+  void add_base_acceleration(PhysicalRow& row, double x, double y, bool gravity = true) const;
   /// Adds the cut of an element.
-  void add_cut(PhysicalRow& row, std::size_t element, const element::Cut& cut) const;
+  void add_section_force(PhysicalRow& row, std::size_t element, const element::SectionForce& cut) const;
   /// factors . (sigma_x, sigma_y, tau_xy) at a node of a body, an index into Scene::bodies (nodal_stress.hpp),
   /// including stiffness-proportional damping: sigma = D (B (u + beta v) - alpha T e).
   void add_stress(PhysicalRow& row, std::size_t body, int node, const Eigen::RowVector3d& factors) const;
@@ -55,7 +55,8 @@ class StructureRows {
  private:
   [[nodiscard]] const element::FiniteElement& element(std::size_t i) const { return map_.mesh.element(i); }
   /// stiff: include the stiffness term.
-  void add_ends(PhysicalRow& row, std::size_t element, const element::Cut& cut, bool stiff) const;
+  void add_end_forces(PhysicalRow& row, std::size_t element, const element::SectionForce& cut,
+                      bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
   void add_moved_mass(PhysicalRow& row, std::size_t element, int node, std::size_t c, double factor) const;
   void add_load(PhysicalRow& row, std::size_t load, double factor) const;
@@ -84,39 +85,41 @@ class StructureRows {
 // i: stress intensification, as given, or that of the member's bend.
 
 /// A way from node to node; the piece may have the opposite direction.
-struct Way {
+struct MemberPath {
   const element::MeshPiece* piece = nullptr;
   bool backwards = false;
 };
 
-struct Wanted {
+struct SectionQuantity {
   OutputQuantity quantity = OutputQuantity::N;  ///< stress, or N, V, M
   Fibre fibre = Fibre::both;                    ///< fibre of a stress: left or right
-  double of_N = 1.0, of_M = 1.0;                ///< factors of the two parts of a stress
+  double N_factor = 1.0, M_factor = 1.0;        ///< factors of the two parts of a stress
   std::optional<double> intensification = {};
 };
 
 /// The quantity that an output requests, for one fibre.
-[[nodiscard]] Wanted requested_by(const OutputSpec& spec, Fibre fibre);
+[[nodiscard]] SectionQuantity section_quantity(const OutputSpec& spec, Fibre fibre);
 
 /// Number of points of an element whose interpolation polynomial is the quantity (base/curves.hpp).
 [[nodiscard]] std::size_t points_of(OutputQuantity quantity);
 
-class MemberCuts {
+class MemberForces {
  public:
-  MemberCuts(const Scene& scene, const assembly::DofMap& map) : scene_(scene), map_(map) {}
+  MemberForces(const Scene& scene, const assembly::DofMap& map) : scene_(scene), map_(map) {}
 
   /// The k-th element on the way.
-  [[nodiscard]] static std::size_t element_of(const Way& way, std::size_t k);
+  [[nodiscard]] static std::size_t element_of(const MemberPath& way, std::size_t k);
   /// Cut at a position x of the k-th element on the way, 0 to 1. Errors: SceneError under `key` for a section with
   /// unknown stress properties.
-  [[nodiscard]] element::Cut cut(const Way& way, std::size_t k, double x, const Wanted& wanted,
-                                 const SourcePlace& place, const std::string& key) const;
+  [[nodiscard]] element::SectionForce section_force(const MemberPath& way, std::size_t k, double x,
+                                                    const SectionQuantity& wanted, const SourcePlace& place,
+                                                    const std::string& key) const;
   /// k and x at a station of the whole piece.
-  [[nodiscard]] static std::pair<std::size_t, double> place_of(const Way& way, double station);
+  [[nodiscard]] static std::pair<std::size_t, double> place_of(const MemberPath& way, double station);
 
  private:
-  [[nodiscard]] element::Cut force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const;
+  [[nodiscard]] element::SectionForce force(const MemberPath& way, std::size_t k, double x,
+                                            OutputQuantity quantity) const;
 
   const Scene& scene_;
   const assembly::DofMap& map_;

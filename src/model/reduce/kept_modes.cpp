@@ -90,7 +90,7 @@ ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, 
     throw NotReducible(fmt::format("{} modes lie below the cutoff, but {} were found; move the cutoff", count,
                                    rigid.cols() + below));
   const double first = found.pairs.values[found.kept];
-  if (const int sure = modes::modes_below(mass, stiffness, std::max(limit, (1.0 - margin) * first));
+  if (const int sure = modes::count_modes_below(mass, stiffness, std::max(limit, (1.0 - margin) * first));
       sure > count)
     throw NotReducible(fmt::format("the first mode above the cutoff was not found; move the cutoff"));
   return found;
@@ -100,7 +100,7 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
                            const Eigen::MatrixXd& rigid, int heavies) {
   const auto free = static_cast<int>(rigid.cols());
   if (heavies <= all_modes_up_to) return all_elastic(cutoff, mass, stiffness, free, heavies);
-  const int counted = modes::modes_below(mass, stiffness, cutoff * cutoff);
+  const int counted = modes::count_modes_below(mass, stiffness, cutoff * cutoff);
   if (counted < 0) throw NotReducible("the modes below the cutoff cannot be counted; move the cutoff");
   const int count = std::max(counted, free);
   const bool most = count >= heavies / 3;
@@ -134,7 +134,7 @@ KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatri
   KeptModes result;
   result.free = static_cast<int>(rigid.cols());
   const Eigen::Index kept = result.free + elastic;
-  result.left_out = heavies - static_cast<int>(kept);
+  result.truncated_modes = heavies - static_cast<int>(kept);
   result.shapes.resize(mass.rows(), kept);
   result.shapes.leftCols(result.free) = rigid;
   result.squares = Eigen::VectorXd::Zero(kept);
@@ -146,21 +146,21 @@ KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatri
   // A step of inverse iteration improves the low modes, whose energy is small compared with the high ones.
   Eigen::MatrixXd x = pairs.vectors;
   const assembly::SymmetricSolver solver = regular(SparseMatrix(stiffness + result.shift * mass));
-  modes::take_out(rigid, mass, x);
+  modes::deflate(rigid, mass, x);
   for (Eigen::Index j = 0; j < taken; ++j)
     x.col(j) = (pairs.values[j] + result.shift) * solver.solve(mass * x.col(j));
-  modes::take_out(rigid, mass, x);
+  modes::deflate(rigid, mass, x);
   const base::EigenPairs ritz =
       base::generalized_eigen(x.transpose() * (stiffness * x), x.transpose() * (mass * x));
   if (ritz.values.size() != taken || !ritz.values.allFinite())
     throw NotReducible("the modes below the cutoff are not independent; move the cutoff");
   result.shapes.rightCols(elastic) = x * ritz.vectors.leftCols(elastic);
   result.squares.tail(elastic) = ritz.values.head(elastic);
-  if (taken > elastic) result.first_left_out = std::sqrt(ritz.values[elastic]);
+  if (taken > elastic) result.first_truncated = std::sqrt(ritz.values[elastic]);
   return result;
 }
 
-Vector parts(const KeptModes& modes, const Vector& f) {
+Vector modal_loads(const KeptModes& modes, const Vector& f) {
   Vector part = modes.shapes.transpose() * f;
   const Vector terms = modes.shapes.cwiseAbs().transpose() * f.cwiseAbs();
   for (Eigen::Index j = 0; j < part.size(); ++j)
@@ -184,9 +184,9 @@ Vector ResidualFlexibility::without_kept(const Vector& u) const {
   return u - modes_.shapes * (inertia_.transpose() * u);
 }
 
-Vector ResidualFlexibility::answer(const Vector& f) const {
+Vector ResidualFlexibility::response(const Vector& f) const {
   if (complete_) return Vector::Zero(f.size());
-  const Vector part = parts(modes_, f);
+  const Vector part = modal_loads(modes_, f);
   Vector elastic = f - inertia_ * part;
   const Vector terms = f.cwiseAbs() + inertia_size_ * part.cwiseAbs();
   for (Eigen::Index i = 0; i < elastic.size(); ++i)
@@ -205,7 +205,7 @@ constexpr double no_mass = 1e-12;   // 1/omega^2 of a Ritz vector relative to th
 
 /// sum over the kept modes with stiffness: (phi^T f)^2/omega^2.
 double compliance_of_kept(const KeptModes& modes, const Vector& f) {
-  const Vector part = parts(modes, f);
+  const Vector part = modal_loads(modes, f);
   double sum = 0.0;
   for (Eigen::Index j = modes.free; j < part.size(); ++j) sum += part[j] * part[j] / modes.squares[j];
   return sum;
@@ -230,17 +230,18 @@ StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffne
   const auto extend = [&](bool needs_mass) {
     for (std::size_t i = 0; i < forces.size(); ++i) {
       if (forces[i].needs_mass != needs_mass) continue;
-      const Vector rest = rest_of(result.answers[i], basis, stiffness);
+      const Vector rest = rest_of(result.responses[i], basis, stiffness);
       const double energy = rest.dot(stiffness * rest);
-      const double all = compliance_of_kept(modes, forces[i].force) + forces[i].force.dot(result.answers[i]);
+      const double all =
+          compliance_of_kept(modes, forces[i].force) + forces[i].force.dot(result.responses[i]);
       if (!(energy > needless * all)) continue;
       basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
       basis.rightCols(1) = rest / std::sqrt(energy);
     }
   };
   for (const ActingForce& f : forces) {
-    result.answers.push_back(flexibility.answer(f.force));
-    const double residual = std::max(0.0, f.force.dot(result.answers.back()));
+    result.responses.push_back(flexibility.response(f.force));
+    const double residual = std::max(0.0, f.force.dot(result.responses.back()));
     result.shares.push_back(f.share);
     result.shares.back().compliance = compliance_of_kept(modes, f.force) + residual;
     result.shares.back().residual = residual;

@@ -31,11 +31,11 @@ struct NotReducible : std::runtime_error {
 };
 
 struct KeptModes {
-  Eigen::MatrixXd shapes;       ///< n x m, M-orthonormal; free motions first, then ascending
-  Eigen::VectorXd squares;      ///< omega^2, m; exactly 0 for free motions
-  int free = 0;                 ///< number of free motions among them
-  int left_out = 0;             ///< modes with mass above the cutoff
-  double first_left_out = 0.0;  ///< rad per time; 0: none
+  Eigen::MatrixXd shapes;        ///< n x m, M-orthonormal; free motions first, then ascending
+  Eigen::VectorXd squares;       ///< omega^2, m; exactly 0 for free motions
+  int free = 0;                  ///< number of free motions among them
+  int truncated_modes = 0;       ///< modes with mass above the cutoff
+  double first_truncated = 0.0;  ///< rad per time; 0: none
   double shift = 0.0;  ///< shift of omega^2 with which K + shift M is regular; far below the modes left out
 };
 
@@ -45,14 +45,14 @@ struct KeptModes {
                                     const Eigen::MatrixXd& free);
 
 /// Phi^T f, length m; sums of rounding size are set to zero (weight excites no elastic mode of a free body).
-[[nodiscard]] Vector parts(const KeptModes& modes, const Vector& f);
+[[nodiscard]] Vector modal_loads(const KeptModes& modes, const Vector& f);
 
 class ResidualFlexibility {
  public:
   /// Mass and modes are kept by reference. Throws NotReducible where K is singular beyond the free motions.
   ResidualFlexibility(const SparseMatrix& mass, const SparseMatrix& stiffness, const KeptModes& modes);
   /// G_res f; n. Exactly 0 where no mode is left out and all degrees of freedom have mass.
-  [[nodiscard]] Vector answer(const Vector& f) const;
+  [[nodiscard]] Vector response(const Vector& f) const;
 
  private:
   [[nodiscard]] Vector without_kept(const Vector& u) const;  ///< u - Phi Phi^T M u
@@ -84,7 +84,7 @@ struct StaticShapes {
   Eigen::MatrixXd massive, massless;    ///< n x h, n x r
   Eigen::VectorXd massive_squares;      ///< omega_h^2, ascending
   std::vector<ComplianceShare> shares;  ///< one per force, in their order
-  std::vector<Vector> answers;          ///< G_res f of every force
+  std::vector<Vector> responses;        ///< G_res f of every force
 };
 
 [[nodiscard]] StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffness,

@@ -60,13 +60,13 @@ class ReducedStart {
 
   /// Returns false if there is a mechanism.
   [[nodiscard]] bool step(const Vector& r) {
-    std::vector<statics::HeldRow> rows;
+    std::vector<statics::ConstraintRow> rows;
     std::vector<std::size_t> stuck;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
       if (bears(k))
         rows.push_back({c.normal,
-                        c.normal_spring().value_or(statics::own_stiffness(model_.stiffness, c.normal)),
+                        c.normal_spring().value_or(statics::structural_stiffness(model_.stiffness, c.normal)),
                         !c.normal_spring()});
       if (!sticks(k)) continue;
       rows.push_back({c.tangent, *c.tangential_stiffness, false});
@@ -130,7 +130,7 @@ bool is_known(const Model& model) {
 
 }  // namespace
 
-void settle_start(Model& model) {
+void equilibrate_start(Model& model) {
   if (!is_known(model)) return;
   ReducedStart start(model);
   auto [r, most] = start.left_over();

@@ -14,6 +14,6 @@ namespace signorini::reduce {
 
 /// The model must be reduced, with diagonal matrices except for damping. It is unchanged if its start is not static, if
 /// it includes rigidly sticking contacts, if there is a mechanism, or if r is larger than rounding: other loads act.
-void settle_start(Model& model);
+void equilibrate_start(Model& model);
 
 }  // namespace signorini::reduce

@@ -81,7 +81,7 @@ std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
     f.share.label = std::move(what);
     f.share.contact = contact;
     f.share.normal = normal;
-    f.force = assembly::full(form, model.size());
+    f.force = assembly::dense_vector(form, model.size());
     f.needs_mass = needs_mass;
     forces.push_back(std::move(f));
   };
@@ -125,7 +125,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
     const Eigen::MatrixXd c = shapes.massless.transpose() * (light * shapes.massless);
     b.shapes.rightCols(r) = shapes.massless * base::symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
-  const bool creep = static_shapes_creep(beta, modes.first_left_out);
+  const bool creep = static_shapes_are_damped(beta, modes.first_truncated);
   Eigen::VectorXd elastic = b.stiffness;
   if (!creep) elastic.tail(r).setZero();
   b.damping = (alpha * b.mass + beta * elastic).asDiagonal();
@@ -138,7 +138,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   }
   // A dashpot that only a static shape moves, and that relaxes much faster than any mode left out, would make the
   // equations stiff without any other effect.
-  const double first = modes.first_left_out;
+  const double first = modes.first_truncated;
   for (Eigen::Index j = b.heavy; j < b.shapes.cols(); ++j) {
     if (first > 0.0 && b.damping(j, j) * first <= quick_damper) {
       b.damping.row(j).setZero();
@@ -168,7 +168,7 @@ void scale(const Model& model, Basis& b) {
 
 /// The form on the reduced degrees of freedom; `massive`: only on those with mass.
 Combination reduced_form(const Combination& form, const Basis& b, bool massive) {
-  const Vector full_form = assembly::full(form, static_cast<int>(b.shapes.rows()));
+  const Vector full_form = assembly::dense_vector(form, static_cast<int>(b.shapes.rows()));
   const double size = full_form.lpNorm<1>();
   Combination result;
   for (Eigen::Index j = 0; j < (massive ? b.heavy : b.shapes.cols()); ++j)
@@ -179,7 +179,7 @@ Combination reduced_form(const Combination& form, const Basis& b, bool massive) 
 
 /// The support load whose rate term, by beta K and dampers, this load is; null: none.
 const Load* driving(const std::vector<Load>& loads, const Load& rate) {
-  if (rate.kind != LoadKind::support_rate || rate.of_history.time != -1) return nullptr;
+  if (rate.kind != LoadKind::support_rate || rate.history_unit.time != -1) return nullptr;
   for (const Load& load : loads)
     if (load.kind == LoadKind::support && rate.name.starts_with(load.name + " (")) return &load;
   return nullptr;
@@ -192,9 +192,9 @@ void reduce_loads(const Basis& b, double beta, std::vector<Load>& loads) {
   for (const Load& load : loads) {
     Combination form = reduced_form(load.direction, b, false);
     if (const Load* support = driving(loads, load)) {
-      Vector direction = assembly::full(form, static_cast<int>(b.shapes.cols()));
-      const Vector s =
-          assembly::full(reduced_form(support->direction, b, false), static_cast<int>(b.shapes.cols()));
+      Vector direction = assembly::dense_vector(form, static_cast<int>(b.shapes.cols()));
+      const Vector s = assembly::dense_vector(reduced_form(support->direction, b, false),
+                                              static_cast<int>(b.shapes.cols()));
       const double size = direction.cwiseAbs().maxCoeff();
       for (const Eigen::Index j : b.at_once) direction[j] -= beta * s[j];
       form.terms.clear();
@@ -239,7 +239,8 @@ void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& ga
   for (Eigen::Index i = 0; i < count; ++i) {
     const std::size_t k = rigid[static_cast<std::size_t>(i)];
     const Combination& normal = model.contacts[k].normal;
-    forms.row(i) = assembly::full(normal, static_cast<int>(b.shapes.cols())).head(b.heavy).transpose();
+    forms.row(i) =
+        assembly::dense_vector(normal, static_cast<int>(b.shapes.cols())).head(b.heavy).transpose();
     miss(i, 0) = gap[k] - normal.dot(q);
     miss(i, 1) = rate[k] - normal.dot(w);
   }
@@ -261,14 +262,15 @@ Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, con
 }
 
 /// Error bound of a form that was zero, after its motion was written as u = R q and q was recomputed from u:
-///   of_many sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|  The second term belongs to the shapes that
+///   many_operations sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|  The second term belongs to the shapes that
 /// the reduced form N omits, because they move along n only by rounding.
 double noise_of(const Basis& b, const Combination& physical, const Combination& reduced, const Vector& q) {
-  const Vector n = assembly::full(physical, static_cast<int>(b.shapes.rows()));
+  const Vector n = assembly::dense_vector(physical, static_cast<int>(b.shapes.rows()));
   const Vector left_out =
-      b.shapes.transpose() * n - assembly::full(reduced, static_cast<int>(b.shapes.cols()));
+      b.shapes.transpose() * n - assembly::dense_vector(reduced, static_cast<int>(b.shapes.cols()));
   const Vector size = q.cwiseAbs();
-  return rounding::of_many * n.cwiseAbs().dot(b.shapes.cwiseAbs() * size) + left_out.cwiseAbs().dot(size);
+  return rounding::many_operations * n.cwiseAbs().dot(b.shapes.cwiseAbs() * size) +
+         left_out.cwiseAbs().dot(size);
 }
 
 /// A saved state of a reduced run has closed gaps and closing velocities only to rounding; they are set to zero again.
@@ -337,7 +339,7 @@ double ringing(const Model& model, const std::vector<Vector>& answers, double t_
     const Vector& structure = answers[first + i];
     const Vector answer = model.ties ? model.ties->with_tied(structure) : structure;
     for (const Column& column : model.columns)
-      if (!column.velocity && column.dof >= 0 && !model.turns(column))
+      if (!column.velocity && column.dof >= 0 && !model.is_rotation(column))
         greatest = std::max(greatest, jump * std::abs(answer[column.dof]));
   }
   return greatest;
@@ -351,11 +353,11 @@ Reduction facts_of(const Model& model, const KeptModes& modes, const StaticShape
   facts.cutoff = cutoff;
   facts.modes = static_cast<int>(modes.shapes.cols());
   facts.free_modes = modes.free;
-  facts.left_out = modes.left_out;
+  facts.truncated_modes = modes.truncated_modes;
   facts.massless_shapes = static_cast<int>(shapes.massless.cols());
   facts.massive_shapes = static_cast<int>(shapes.massive.cols());
   if (modes.squares.size() > 0) facts.highest_kept = frequency(modes.squares[modes.squares.size() - 1]);
-  facts.first_left_out = modes.first_left_out;
+  facts.first_truncated = modes.first_truncated;
   if (facts.massive_shapes > 0)
     facts.highest_massive = frequency(shapes.massive_squares[shapes.massive_squares.size() - 1]);
   facts.shares = shapes.shares;
@@ -386,7 +388,7 @@ Eigen::MatrixXd stiffness_terms(const SparseMatrix& stiffness, const Basis& b) {
 
 }  // namespace
 
-bool static_shapes_creep(double beta, double first_left_out) {
+bool static_shapes_are_damped(double beta, double first_left_out) {
   return first_left_out == 0.0 || beta * first_left_out > over_damped;
 }
 
@@ -403,7 +405,7 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix&
     refuse(scene, e.what());
   }
   SparseMatrix single = dampers,
-               light = static_shapes_creep(model.beta, modes.first_left_out) ? dampers : dashpots;
+               light = static_shapes_are_damped(model.beta, modes.first_truncated) ? dampers : dashpots;
   if (const auto of_all = rayleigh_factors(dampers, model.mass, model.stiffness); scene.matrices && of_all) {
     model.alpha = of_all->alpha;
     model.beta = of_all->beta;
@@ -417,15 +419,15 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix&
 
   Reduction facts = facts_of(model, modes, shapes, cutoff);
   facts.tolerance = scene.reduction->tolerance;
-  facts.tried = scene.reduction->tried;
-  facts.ringing = ringing(model, shapes.answers, scene.run.t_end);
+  facts.trials = scene.reduction->trials;
+  facts.ringing = ringing(model, shapes.responses, scene.run.t_end);
   const std::vector<Contact> physical = model.contacts;
   reduce_contacts(scene, b, model);
   reduce_loads(b, model.beta, model.loads);
   reduce_state(scene, b, facts.modes, model, physical, facts);
   facts.stiffness_terms = stiffness_terms(model.stiffness, b);
   set_matrices(b, model);
-  if (!scene.initial.saved) settle_start(model);
+  if (!scene.initial.saved) equilibrate_start(model);
   name_dofs(facts, b, model);
   facts.shapes = std::move(b.shapes);
   model.reduction = std::move(facts);

@@ -41,6 +41,6 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix&
 
 /// True if shapes without mass are damped by beta; first_left_out: Reduction's (0: no mode is left out, so they belong
 /// to massless parts of the structure itself).
-[[nodiscard]] bool static_shapes_creep(double beta, double first_left_out);
+[[nodiscard]] bool static_shapes_are_damped(double beta, double first_left_out);
 
 }  // namespace signorini::reduce

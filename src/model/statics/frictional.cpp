@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "base/complementarity.hpp"
+#include "base/lcp.hpp"
 #include "base/text.hpp"
 #include "model/assembly/dofs.hpp"
-#include "model/statics/least_motion.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/quasi_static_rates.hpp"
+#include "model/statics/smallest_motion.hpp"
 #include "model/statics/static_system.hpp"
 
 namespace signorini::statics {
@@ -20,10 +20,10 @@ namespace {
 // Residual of an equilibrium, relative to the largest force or moment; rounding of long paths is below. Chosen value.
 constexpr double balanced = 1e-7;
 
-class Path {
+class LoadingPath {
  public:
-  Path(const SparseMatrix& stiffness, const std::vector<Contact>& contacts, const assembly::DofMap& map,
-       const SourcePlace& place)
+  LoadingPath(const SparseMatrix& stiffness, const std::vector<Contact>& contacts,
+              const assembly::DofMap& map, const SourcePlace& place)
       : stiffness_(stiffness),
         contacts_(contacts),
         map_(map),
@@ -45,7 +45,7 @@ class Path {
 
   FrictionalEquilibrium go_on(FrictionalEquilibrium from, const Stage& stage) {
     u_ = std::move(from.u);
-    standing_ = std::move(from.standing);
+    standing_ = std::move(from.margins);
     found_ = std::move(from.start);
     found_.reactions.clear();
     grow(stage);
@@ -119,7 +119,7 @@ class Path {
   }
 
   /// Refuses a contact at its friction limit whose slip other contacts prevent: its force from then on is undetermined.
-  void refuse_shares(const std::vector<HeldRow>& rows, const std::vector<Unknown>& unknowns,
+  void refuse_shares(const std::vector<ConstraintRow>& rows, const std::vector<Unknown>& unknowns,
                      const std::vector<bool>& moves) const {
     std::vector<bool> slips(rows.size(), false);
     for (std::size_t j = 0; j < unknowns.size(); ++j)
@@ -127,7 +127,7 @@ class Path {
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
       const Unknown& unknown = unknowns[j];
       if (!moves[j] || unknown.kind != Unknown::Kind::slip) continue;
-      if (held_besides(rows, slips, static_cast<std::size_t>(unknown.row)))
+      if (is_also_constrained(rows, slips, static_cast<std::size_t>(unknown.row)))
         refuse_stage(fmt::format(
             "contact '{}' reaches its limit of friction while others hold the same motion, and a "
             "frictional start does not share friction between them; give them a "
@@ -152,11 +152,11 @@ class Path {
     if (pulled.empty()) return;
     // solver errors of forces that are zero do not count as tensile
     const Eigen::VectorXd pressed = q(openings).array() + balanced;
-    if (base::solve_complementarity(m(openings, openings), pressed)) return;
+    if (base::solve_lcp(m(openings, openings), pressed)) return;
     refuse_stage(fmt::format(
         "{} {} would have to pull, however great the friction: the loads overturn what stands there, or "
         "lift it off; check the directions of gravity and of loads and where they act",
-        pulled.size() == 1 ? "contact" : "contacts", base::listed(pulled)));
+        pulled.size() == 1 ? "contact" : "contacts", base::join_quoted(pulled)));
   }
 
   /// K u + sum(N n + T t) = P
@@ -194,10 +194,10 @@ class Path {
   }
 
   /// Constraint rows of all contacts that are not open.
-  std::vector<HeldRow> make_rows(double zero) {
-    std::vector<HeldRow> rows;
+  std::vector<ConstraintRow> make_rows(double zero) {
+    std::vector<ConstraintRow> rows;
     const auto add = [&](const Combination& form, std::optional<double> k) {
-      rows.push_back({form, k ? *k : own_stiffness(stiffness_, form), !k});
+      rows.push_back({form, k ? *k : structural_stiffness(stiffness_, form), !k});
       return static_cast<int>(rows.size()) - 1;
     };
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -238,13 +238,13 @@ class Path {
   /// of the previous forces.
   double zero() {
     for (const LimitMargin& s : standing_) carried_ = std::max({carried_, std::abs(s.N), std::abs(s.T)});
-    return zero_force(carried_);
+    return force_tolerance(carried_);
   }
 
   /// Computes the rates of all quantities along the stage, and the states that go with them.
   void find_rates() {
     const double zero = this->zero();
-    const std::vector<HeldRow> rows = make_rows(zero);
+    const std::vector<ConstraintRow> rows = make_rows(zero);
     const ConstraintRows held(stiffness_, rows);
     if (!held.regular()) refuse_motion(held);
     const std::vector<Unknown> unknowns = make_unknowns(zero);
@@ -264,7 +264,7 @@ class Path {
         const Unknown& unknown = unknowns[static_cast<std::size_t>(j)];
         const auto row = static_cast<std::size_t>(unknown.row);
         // Scaled to forces, so that all unknowns and conditions have the same unit.
-        answers.push_back(motions.answer(held, row, unknown.sign / rows[row].stiffness));
+        answers.push_back(motions.response(held, row, unknown.sign / rows[row].stiffness));
         q[j] = condition(unknown, forces);
         for (Eigen::Index i = 0; i < n; ++i)
           m(i, j) = condition(unknowns[static_cast<std::size_t>(i)], answers.back().second);
@@ -284,11 +284,11 @@ class Path {
       }
       std::vector<double> conditions;
       for (const Unknown& unknown : unknowns) conditions.push_back(condition(unknown, forces));
-      const LeastShare shared = least_share(
+      const SmallestSlips shared = smallest_slips(
           {stiffness_, map_, rows, unknowns, conditions, found->z * size, forces.cwiseAbs().maxCoeff()},
           rates);
       if (!shared.undetermined.empty()) doubt(shared);
-      if (found->several)
+      if (found->ambiguous)
         doubt(fmt::format(
             "at {:.4g} of stage '{}' {} may continue in several ways that all satisfy the laws of contact; "
             "the start takes the one with the least slips and openings",
@@ -300,19 +300,20 @@ class Path {
     take_rates(forces);
   }
 
-  void doubt(const LeastShare& shared) {
+  void doubt(const SmallestSlips& shared) {
     std::vector<std::string> names;
     for (const std::size_t k : shared.undetermined) names.push_back(contacts_[k].name);
     const std::string sentence = fmt::format(
         "stage '{}': nothing resists the {} where {} {} at the limit, so the data do not determine how far "
         "each of them slips; the start takes the least",
-        stage_->name, assembly::describe_motion(shared.motion, map_), base::listed(names),
+        stage_->name, assembly::describe_motion(shared.motion, map_), base::join_quoted(names),
         names.size() == 1 ? "is" : "are");
     doubt(sentence);
   }
   void doubt(const std::string& sentence) {
-    if (std::find(found_.doubts.begin(), found_.doubts.end(), sentence) == found_.doubts.end())
-      found_.doubts.push_back(sentence);
+    if (std::find(found_.undetermined.begin(), found_.undetermined.end(), sentence) ==
+        found_.undetermined.end())
+      found_.undetermined.push_back(sentence);
   }
 
   [[nodiscard]] std::string names_of_unknowns(const std::vector<Unknown>& unknowns) const {
@@ -420,13 +421,13 @@ FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
                                              const std::vector<Contact>& contacts,
                                              const std::vector<Stage>& stages, const assembly::DofMap& map,
                                              const SourcePlace& place) {
-  return Path(stiffness, contacts, map, place).run(stages);
+  return LoadingPath(stiffness, contacts, map, place).run(stages);
 }
 
-FrictionalEquilibrium gone_on(FrictionalEquilibrium from, const SparseMatrix& stiffness,
-                              const std::vector<Contact>& contacts, const Stage& stage,
-                              const assembly::DofMap& map, const SourcePlace& place) {
-  return Path(stiffness, contacts, map, place).go_on(std::move(from), stage);
+FrictionalEquilibrium continue_loading(FrictionalEquilibrium from, const SparseMatrix& stiffness,
+                                       const std::vector<Contact>& contacts, const Stage& stage,
+                                       const assembly::DofMap& map, const SourcePlace& place) {
+  return LoadingPath(stiffness, contacts, map, place).go_on(std::move(from), stage);
 }
 
 }  // namespace signorini::statics

@@ -16,7 +16,7 @@
 // several solutions, one is taken and reported.
 //
 // If closed contacts at their limits leave a motion without resistance, many slips are possible with the same forces;
-// the smallest one is taken (least_motion.hpp) and reported in StaticStart::doubts.
+// the smallest one is taken (smallest_motion.hpp) and reported in StaticStart::doubts.
 #pragma once
 
 #include <vector>
@@ -38,7 +38,7 @@ struct FrictionalEquilibrium {
   Vector u;                    ///< n
   std::vector<double> shears;  ///< T of each contact
   StaticStart start;
-  std::vector<LimitMargin> standing;  ///< one per contact
+  std::vector<LimitMargin> margins;  ///< one per contact
 };
 
 /// Starts from u = 0 without load. Errors: SceneError at `place` with the stage, the fraction reached, and the
@@ -50,8 +50,9 @@ struct FrictionalEquilibrium {
                                                            const SourcePlace& place);
 
 /// Adds one more stage with another stiffness.
-[[nodiscard]] FrictionalEquilibrium gone_on(FrictionalEquilibrium from, const SparseMatrix& stiffness,
-                                            const std::vector<Contact>& contacts, const Stage& stage,
-                                            const assembly::DofMap& map, const SourcePlace& place);
+[[nodiscard]] FrictionalEquilibrium continue_loading(FrictionalEquilibrium from,
+                                                     const SparseMatrix& stiffness,
+                                                     const std::vector<Contact>& contacts, const Stage& stage,
+                                                     const assembly::DofMap& map, const SourcePlace& place);
 
 }  // namespace signorini::statics

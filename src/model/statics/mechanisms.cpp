@@ -27,7 +27,7 @@ Vector scaling(const SparseMatrix& k) {
 /// scaled diagonal, 1, like the others.
 bool is_null(const SparseMatrix& a, const Vector& x) {
   const double bare = (a.diagonal().array() == 0.0).select(x, 0.0).squaredNorm();
-  return x.dot(a * x) <= rounding::of_many * (assembly::term_size(a, x) + bare);
+  return x.dot(a * x) <= rounding::many_operations * (assembly::term_magnitude(a, x) + bare);
 }
 
 /// The lowest `count` eigenvectors of the scaled matrix a (unit diagonal, so that a shift of 1e-14 is below every
@@ -36,7 +36,7 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   const auto n = static_cast<int>(a.rows());
   SparseMatrix shift(n, n);
   shift.setIdentity();
-  const assembly::SymmetricSolver solver(SparseMatrix(a + rounding::of_many * shift));
+  const assembly::SymmetricSolver solver(SparseMatrix(a + rounding::many_operations * shift));
   std::mt19937 random(1);  // fixed seed: reproducible results
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::MatrixXd x(n, count);
@@ -50,14 +50,14 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   return x * base::symmetric_eigen(0.5 * (projected + projected.transpose())).vectors;
 }
 
-/// True if no eigenvalue is near the limit of is_null, of_many |x|^T |a| |x| / |x|^2: a has no negative pivot after ten
+/// True if no eigenvalue is near the limit of is_null, many_operations |x|^T |a| |x| / |x|^2: a has no negative pivot after ten
 /// times this value is subtracted, and the error of a factorisation is below one time.
-bool surely_held(const SparseMatrix& a) {
+bool surely_constrained(const SparseMatrix& a) {
   const auto n = a.rows();
   const double most = (a.cwiseAbs() * Vector::Ones(n)).maxCoeff();
   SparseMatrix one(n, n);
   one.setIdentity();
-  const assembly::SymmetricSolver solver(SparseMatrix(a - (10.0 * rounding::of_many * most) * one));
+  const assembly::SymmetricSolver solver(SparseMatrix(a - (10.0 * rounding::many_operations * most) * one));
   return solver.ok() && solver.smallest_pivot() > 0.0;
 }
 
@@ -65,7 +65,7 @@ Eigen::MatrixXd of_whole(const SparseMatrix& k) {
   const auto n = static_cast<int>(k.rows());
   const Vector s = scaling(k);
   const SparseMatrix a = s.asDiagonal() * k * s.asDiagonal();
-  if (surely_held(a)) return Eigen::MatrixXd(n, 0);
+  if (surely_constrained(a)) return Eigen::MatrixXd(n, 0);
   for (int count = std::min(n, 8);; count = std::min(n, 4 * count)) {
     const bool all = n <= dense_up_to || count == n;
     const Eigen::MatrixXd candidates =
@@ -122,13 +122,13 @@ std::array<Vector, 3> rigid_motions(const assembly::DofMap& map, const std::vect
   rigid.fill(Vector::Zero(map.size()));
   double x = 0.0, y = 0.0, count = 0.0;
   for (const int i : dofs) {
-    const auto node = static_cast<std::size_t>(map.where[static_cast<std::size_t>(i)].first);
+    const auto node = static_cast<std::size_t>(map.locations[static_cast<std::size_t>(i)].first);
     x += map.mesh.nodes[node].x;
     y += map.mesh.nodes[node].y;
     count += 1.0;
   }
   for (const int i : dofs) {
-    const auto [number, component] = map.where[static_cast<std::size_t>(i)];
+    const auto [number, component] = map.locations[static_cast<std::size_t>(i)];
     const element::MeshNode& node = map.mesh.nodes[static_cast<std::size_t>(number)];
     if (component < 2) rigid[static_cast<std::size_t>(component)][i] = 1.0;
     rigid[2][i] = component == 0 ? -(node.y - y / count) : component == 1 ? node.x - x / count : 1.0;
@@ -146,7 +146,7 @@ Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::D
 
 Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map,
                                const std::vector<int>& dofs) {
-  if (map.matrices() || motions.cols() < 2) return motions;
+  if (map.is_matrix_scene() || motions.cols() < 2) return motions;
   const Eigen::MatrixXd q = base::orthonormal(motions);
   Eigen::MatrixXd found(q.cols(), 0), basis(q.cols(), 0);  // coordinates in q; the same, orthonormal
   for (const Vector& rigid : rigid_motions(map, dofs)) {
@@ -167,7 +167,7 @@ Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::D
   return result;
 }
 
-Mechanisms::Mechanisms(const SparseMatrix& k, const std::vector<HeldRow>& rows,
+Mechanisms::Mechanisms(const SparseMatrix& k, const std::vector<ConstraintRow>& rows,
                        const std::vector<bool>& loose) {
   std::vector<assembly::LineSpring> stay;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -182,7 +182,7 @@ Mechanisms::Mechanisms(const SparseMatrix& k, const std::vector<HeldRow>& rows,
   root_.resize(static_cast<Eigen::Index>(rows_.size()));
   moves_.resize(root_.size(), motions_.cols());
   for (Eigen::Index i = 0; i < root_.size(); ++i) {
-    const HeldRow& row = rows[rows_[static_cast<std::size_t>(i)]];
+    const ConstraintRow& row = rows[rows_[static_cast<std::size_t>(i)]];
     root_[i] = std::sqrt(row.stiffness);
     for (Eigen::Index j = 0; j < motions_.cols(); ++j)
       moves_(i, j) = root_[i] * row.form.dot(motions_.col(j));
@@ -190,7 +190,7 @@ Mechanisms::Mechanisms(const SparseMatrix& k, const std::vector<HeldRow>& rows,
   q_ = base::orthonormal(moves_);
 }
 
-std::pair<Vector, Vector> Mechanisms::answer(const ConstraintRows& held, std::size_t row, double r) const {
+std::pair<Vector, Vector> Mechanisms::response(const ConstraintRows& held, std::size_t row, double r) const {
   Vector slips = Vector::Zero(static_cast<Eigen::Index>(held.size()));
   slips[static_cast<Eigen::Index>(row)] = r;
   const Vector none = Vector::Zero(held.matrix().rows());

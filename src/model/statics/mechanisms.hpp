@@ -51,10 +51,11 @@ namespace signorini::statics {
 class Mechanisms {
  public:
   /// loose: one entry per row; true for rows that may slip.
-  Mechanisms(const SparseMatrix& k, const std::vector<HeldRow>& rows, const std::vector<bool>& loose);
+  Mechanisms(const SparseMatrix& k, const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose);
 
   /// u and the forces on all rows for a slip of one loose row by r.
-  [[nodiscard]] std::pair<Vector, Vector> answer(const ConstraintRows& held, std::size_t row, double r) const;
+  [[nodiscard]] std::pair<Vector, Vector> response(const ConstraintRows& held, std::size_t row,
+                                                   double r) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd along(const Eigen::VectorXd& x) const { return q_ * (q_.transpose() * x); }

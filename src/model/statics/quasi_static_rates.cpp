@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/complementarity.hpp"
 #include "base/eigen_dense.hpp"
+#include "base/lcp.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 
@@ -66,10 +66,10 @@ std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen:
     z[contacts[c].unknowns.back()] = -z[way.active.back()];  // slip in the opposite direction
     z[way.active.back()] = 0.0;
   }
-  const double rounded = rounding::of_many * std::max(1.0, z.cwiseAbs().maxCoeff());
+  const double rounded = rounding::many_operations * std::max(1.0, z.cwiseAbs().maxCoeff());
   const Eigen::VectorXd w = q + m * z;
   const Eigen::VectorXd size = Eigen::VectorXd::Ones(q.size()) + m.cwiseAbs() * z.cwiseAbs();
-  if (z.minCoeff() < -rounded || (w + rounding::of_many * size).minCoeff() < 0.0) return std::nullopt;
+  if (z.minCoeff() < -rounded || (w + rounding::many_operations * size).minCoeff() < 0.0) return std::nullopt;
   return Eigen::VectorXd(z.cwiseMax(0.0));
 }
 
@@ -84,25 +84,25 @@ bool next(const std::vector<RateUnknowns>& contacts, std::vector<std::size_t>& c
 
 }  // namespace
 
-std::optional<SlowRates> quasi_static_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
-                                            const std::vector<Unknown>& unknowns) {
-  if (auto z = base::solve_complementarity(m, q)) return SlowRates{std::move(*z)};
+std::optional<QuasiStaticRates> quasi_static_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
+                                                   const std::vector<Unknown>& unknowns) {
+  if (auto z = base::solve_lcp(m, q)) return QuasiStaticRates{std::move(*z)};
   const std::vector<RateUnknowns> contacts = rate_unknowns_of(unknowns);
   double combinations = 1.0;
   for (const RateUnknowns& contact : contacts) combinations *= static_cast<double>(contact.ways.size());
-  if (combinations > static_cast<double>(most_combinations)) return std::nullopt;
-  std::optional<SlowRates> least;
+  if (combinations > static_cast<double>(max_combinations)) return std::nullopt;
+  std::optional<QuasiStaticRates> least;
   std::vector<std::size_t> choice(contacts.size(), 0);
   do {
     auto z = rates_with(m, q, contacts, choice);
     if (!z) continue;
     if (!least) {
-      least = SlowRates{std::move(*z)};
+      least = QuasiStaticRates{std::move(*z)};
       continue;
     }
     const double size = std::max(z->cwiseAbs().maxCoeff(), least->z.cwiseAbs().maxCoeff());
     if ((*z - least->z).cwiseAbs().maxCoeff() <= same_z * size) continue;
-    least->several = true;
+    least->ambiguous = true;
     if (z->norm() < least->z.norm()) least->z = std::move(*z);
   } while (next(contacts, choice));
   return least;
@@ -138,12 +138,12 @@ double margin_of(const Contact& contact, const LimitMargin& standing, int s) {
   return friction_of(contact, standing) * std::abs(standing.N) - s * standing.T;
 }
 
-double zero_force(double greatest) { return same_force * greatest; }
+double force_tolerance(double greatest) { return same_force * greatest; }
 
 bool touching(const Contact& contact, const LimitMargin& standing, double zero, double travelled) {
   if (contact.normal_force_given() || std::abs(standing.N) > zero) return false;
   if (!is_open(standing.state)) return true;
-  const double rounded = rounding::of_many * (contact.gap + travelled);
+  const double rounded = rounding::many_operations * (contact.gap + travelled);
   return standing.gap <=
          (contact.takes_impulses() ? same_force * travelled : zero / contact.normal_stiffness) + rounded;
 }

@@ -1,6 +1,6 @@
 // quasi_static_rates.hpp: quasi-static rates of contacts that touch or are at their friction limits.
 //
-//   w = q + M z,   w >= 0,   z >= 0,   w . z = 0        unknowns and conditions: frictional.hpp, least_motion.hpp
+//   w = q + M z,   w >= 0,   z >= 0,   w . z = 0        unknowns and conditions: frictional.hpp, smallest_motion.hpp
 //
 // Lemke's method is tried first. With friction M is not copositive-plus, and the method may end in a ray although there
 // is a solution. Then all combinations of the contacts' alternatives are tried:
@@ -18,23 +18,24 @@
 #include <optional>
 #include <vector>
 
-#include "model/statics/least_motion.hpp"
+#include "model/statics/smallest_motion.hpp"
 #include "signorini/contact.hpp"
 
 namespace signorini::statics {
 
-struct SlowRates {
-  Eigen::VectorXd z;     ///< one per unknown
-  bool several = false;  ///< other rates satisfy the conditions, too
+struct QuasiStaticRates {
+  Eigen::VectorXd z;       ///< one per unknown
+  bool ambiguous = false;  ///< other rates satisfy the conditions, too
 };
 
 /// q: its largest entry has magnitude one. Unknowns of one contact are adjacent, its opening first. nullopt if no
-/// combination holds, or if there are more than most_combinations.
-[[nodiscard]] std::optional<SlowRates> quasi_static_rates(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
-                                                          const std::vector<Unknown>& unknowns);
+/// combination holds, or if there are more than max_combinations.
+[[nodiscard]] std::optional<QuasiStaticRates> quasi_static_rates(const Eigen::MatrixXd& m,
+                                                                 const Eigen::VectorXd& q,
+                                                                 const std::vector<Unknown>& unknowns);
 
 /// Chosen value: a start tries this number in less than a second.
-inline constexpr std::size_t most_combinations = 20'000;
+inline constexpr std::size_t max_combinations = 20'000;
 
 // State of a contact during quasi-static loading, and its distance from the limits.
 //
@@ -60,7 +61,7 @@ struct LimitMargin {
 [[nodiscard]] double margin_of(const Contact& contact, const LimitMargin& standing, int s);
 
 /// Threshold below which a force is zero, for the largest force so far.
-[[nodiscard]] double zero_force(double greatest);
+[[nodiscard]] double force_tolerance(double greatest);
 /// zero: threshold of forces; travelled: sum of the magnitudes of the gap's terms.
 [[nodiscard]] bool touching(const Contact& contact, const LimitMargin& standing, double zero,
                             double travelled);

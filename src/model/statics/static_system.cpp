@@ -25,7 +25,8 @@ constexpr double spanned = 1e-9;
 
 }  // namespace
 
-bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loose, std::size_t row) {
+bool is_also_constrained(const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose,
+                         std::size_t row) {
   std::vector<const Combination*> forms{&rows[row].form};
   for (std::size_t j = 0; j < rows.size(); ++j)
     if (j != row && rows[j].rigid && !loose[j]) forms.push_back(&rows[j].form);
@@ -36,20 +37,21 @@ bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loo
   return (own - others * base::least_squares(others, own)).norm() <= spanned * own.norm();
 }
 
-ConstraintRows::ConstraintRows(const SparseMatrix& k, std::vector<HeldRow> rows)
+ConstraintRows::ConstraintRows(const SparseMatrix& k, std::vector<ConstraintRow> rows)
     : rows_(std::move(rows)),
       matrix_(assembly::with_springs(k, springs())),
       solver_(matrix_),
       regular_(solver_.ok() &&
-               (solver_.smallest_share() > regular_share || null_motions(matrix_).cols() == 0)) {
+               (solver_.smallest_pivot_ratio() > regular_share || null_motions(matrix_).cols() == 0)) {
   for (std::size_t j = 0; j < rows_.size(); ++j)
     if (rows_[j].rigid) rigid_.push_back(j);
   if (!regular()) return;
   const auto n = static_cast<Eigen::Index>(rigid_.size());
   schur_.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    answers_.push_back(solver_.solve(assembly::full(rigid_row(i).form, static_cast<int>(k.rows()))));
-    for (Eigen::Index j = 0; j < n; ++j) schur_(j, i) = rigid_row(j).form.dot(answers_.back());
+    responses_.push_back(
+        solver_.solve(assembly::dense_vector(rigid_row(i).form, static_cast<int>(k.rows()))));
+    for (Eigen::Index j = 0; j < n; ++j) schur_(j, i) = rigid_row(j).form.dot(responses_.back());
   }
 }
 
@@ -67,7 +69,7 @@ std::pair<Vector, Vector> ConstraintRows::solve(Vector load, const Vector& r) co
     // Rows that fix the same motion share its force: the least-norm solution.
     const Eigen::VectorXd multipliers = base::least_squares(schur_, miss);
     for (Eigen::Index i = 0; i < n; ++i) {
-      u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
+      u -= multipliers[i] * responses_[static_cast<std::size_t>(i)];
       forces[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])] = multipliers[i];
     }
   }
@@ -80,7 +82,7 @@ std::pair<Vector, Vector> ConstraintRows::solve(Vector load, const Vector& r) co
 
 std::vector<assembly::LineSpring> ConstraintRows::springs() const {
   std::vector<assembly::LineSpring> list;
-  for (const HeldRow& row : rows_) list.push_back({row.form, row.stiffness});
+  for (const ConstraintRow& row : rows_) list.push_back({row.form, row.stiffness});
   return list;
 }
 
@@ -121,9 +123,9 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
 SparseMatrix weak_support(const assembly::DofMap& map, const SparseMatrix& k) {
   const double largest = k.diagonal().cwiseAbs().maxCoeff();
   std::map<int, double> of_node;
-  const auto node = [&](int i) { return map.where[static_cast<std::size_t>(i)].first; };
+  const auto node = [&](int i) { return map.locations[static_cast<std::size_t>(i)].first; };
   const auto translates = [&](int i) {
-    return !map.matrices() && !map.dofs[static_cast<std::size_t>(i)].rotation;
+    return !map.is_matrix_scene() && !map.dofs[static_cast<std::size_t>(i)].rotation;
   };
   for (int i = 0; i < k.rows(); ++i)
     if (translates(i)) of_node[node(i)] += std::abs(k.coeff(i, i));
@@ -138,7 +140,7 @@ SparseMatrix weak_support(const assembly::DofMap& map, const SparseMatrix& k) {
 
 }  // namespace
 
-double own_stiffness(const SparseMatrix& k, const Combination& form) {
+double structural_stiffness(const SparseMatrix& k, const Combination& form) {
   double sum = 0.0;
   for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
   double length = 0.0;
@@ -180,7 +182,7 @@ struct Turning {
     std::vector<Eigen::Index> moving;
     std::vector<bool> turns(static_cast<std::size_t>(motions.rows()), false);
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
-      if (assembly::greatest_translation(motions.col(j), map) > 0.0) {
+      if (assembly::max_translation(motions.col(j), map) > 0.0) {
         moving.push_back(j);
         continue;
       }
@@ -201,7 +203,7 @@ std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::Mat
   Turning turning(motions, dofs, problem.map);
   Eigen::MatrixXd null = simple_motions(turning.others, problem.map, turning.dofs);
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
-    const double size = assembly::greatest_translation(null.col(j), problem.map);
+    const double size = assembly::max_translation(null.col(j), problem.map);
     null.col(j) /= size > 0.0 ? size : null.col(j).cwiseAbs().maxCoeff();
   }
   const Eigen::Index m = null.cols();
@@ -239,8 +241,8 @@ std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::Mat
 
 }  // namespace
 
-std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& motions,
-                                     const std::vector<bool>& closed, bool pressed_only) {
+std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem, const Eigen::MatrixXd& motions,
+                                               const std::vector<bool>& closed, bool pressed_only) {
   std::vector<std::size_t> all(problem.contacts.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   if (problem.size() <= together_up_to) {
@@ -286,7 +288,7 @@ struct StiffContacts {
     for (std::size_t c = 0; c < closed.size(); ++c) {
       const Contact& contact = of.contacts[c];
       if (!closed[c] || !contact.normal_spring()) continue;
-      if (!(contact.normal_stiffness > own_stiffness(of.stiffness, contact.normal))) continue;
+      if (!(contact.normal_stiffness > structural_stiffness(of.stiffness, contact.normal))) continue;
       soft[c] = false;
       list.push_back(c);
     }
@@ -306,18 +308,18 @@ struct StiffContacts {
 
 }  // namespace
 
-ConstrainedState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
-                            const std::vector<FreeMotion>& held) {
+ConstrainedState solve_constrained(const StaticProblem& problem, const std::vector<bool>& closed,
+                                   const std::vector<FreeMotion>& held) {
   const SparseMatrix whole = problem.matrix(closed);
   std::vector<assembly::LineSpring> springs;
   bool loose = false;
   for (const FreeMotion& f : held) {
-    if (f.holder < 0) {
+    if (f.contact_index < 0) {
       loose = true;
       continue;
     }
-    const Combination& t = problem.contacts[static_cast<std::size_t>(f.holder)].tangent;
-    springs.push_back({t, own_stiffness(whole, t)});
+    const Combination& t = problem.contacts[static_cast<std::size_t>(f.contact_index)].tangent;
+    springs.push_back({t, structural_stiffness(whole, t)});
   }
   const StiffContacts stiff(problem, closed);
   SparseMatrix k = assembly::with_springs(problem.matrix(stiff.soft), springs);
@@ -347,7 +349,8 @@ ConstrainedState solve_held(const StaticProblem& problem, const std::vector<bool
     Eigen::VectorXd miss(m);
     for (Eigen::Index j = 0; j < m; ++j)
       answer.col(j) = refined(
-          assembly::full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()), false);
+          assembly::dense_vector(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()),
+          false);
     for (Eigen::Index i = 0; i < m; ++i) {
       const std::size_t c = rigid[static_cast<std::size_t>(i)];
       miss[i] = -problem.gap(c, state.u);
@@ -367,7 +370,7 @@ double driving_work(const StaticProblem& problem, const SparseMatrix& k, const V
                     const Vector& motion, const Vector& u) {
   const double work = motion.dot(p - k * u);
   const double roundoff =
-      rounding::of_many * motion.cwiseAbs().dot(k.cwiseAbs() * u.cwiseAbs() + p.cwiseAbs());
+      rounding::many_operations * motion.cwiseAbs().dot(k.cwiseAbs() * u.cwiseAbs() + p.cwiseAbs());
   double motion_size[2]{0.0, 0.0}, load_size[2]{0.0, 0.0};  // translations, rotations
   for (int i = 0; i < problem.size(); ++i) {
     const std::size_t kind = problem.map.dofs[static_cast<std::size_t>(i)].rotation ? 1 : 0;

@@ -24,19 +24,19 @@ namespace signorini::statics {
 // enforced by multipliers (a dense Schur complement, with one unknown per rigid row).
 
 /// d . u - c F = r: an active constraint row; F is the force along -d.
-struct HeldRow {
+struct ConstraintRow {
   Combination form;
   double stiffness = 0.0;  ///< 1 / c; for a rigid row the structure's own, which does not affect the solution
   bool rigid = false;
 };
 
 /// True if rigid rows that are not loose also prevent the motion along this row. Its force then is not unique.
-[[nodiscard]] bool held_besides(const std::vector<HeldRow>& rows, const std::vector<bool>& loose,
-                                std::size_t row);
+[[nodiscard]] bool is_also_constrained(const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose,
+                                       std::size_t row);
 
 class ConstraintRows {
  public:
-  ConstraintRows(const SparseMatrix& k, std::vector<HeldRow> rows);
+  ConstraintRows(const SparseMatrix& k, std::vector<ConstraintRow> rows);
 
   /// True if the matrix is positive definite: there is no unconstrained motion.
   [[nodiscard]] bool regular() const { return regular_; }
@@ -47,36 +47,37 @@ class ConstraintRows {
   [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const;
 
  private:
-  [[nodiscard]] const HeldRow& rigid_row(Eigen::Index i) const {
+  [[nodiscard]] const ConstraintRow& rigid_row(Eigen::Index i) const {
     return rows_[rigid_[static_cast<std::size_t>(i)]];
   }
   [[nodiscard]] std::vector<assembly::LineSpring> springs() const;
 
-  std::vector<HeldRow> rows_;
+  std::vector<ConstraintRow> rows_;
   SparseMatrix matrix_;
   assembly::SymmetricSolver solver_;
   bool regular_;
   std::vector<std::size_t> rigid_;
   Eigen::MatrixXd schur_;
-  std::vector<Vector> answers_;
+  std::vector<Vector> responses_;
 };
 
 /// A spring constant along the form, as stiff as the structure.
-[[nodiscard]] double own_stiffness(const SparseMatrix& k, const Combination& form);
+[[nodiscard]] double structural_stiffness(const SparseMatrix& k, const Combination& form);
 
 struct StaticProblem {
   const SparseMatrix& stiffness;
   const Vector& load;
   const std::vector<Contact>& contacts;
   const assembly::DofMap& map;
-  double firmness = 1.0;  ///< stiffness of rigid contacts, in units of the structure's own
-  bool forces = false;    ///< request: contacts that hold loose motions must carry no other forces
+  double rigid_stiffness_factor = 1.0;  ///< stiffness of rigid contacts, in units of the structure's own
+  bool forces = false;  ///< request: contacts that hold loose motions must carry no other forces
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return !contacts[k].normal_force_given(); }
   [[nodiscard]] double normal_stiffness(std::size_t k) const {
-    return contacts[k].takes_impulses() ? firmness * own_stiffness(stiffness, contacts[k].normal)
-                                        : contacts[k].normal_stiffness;
+    return contacts[k].takes_impulses()
+               ? rigid_stiffness_factor * structural_stiffness(stiffness, contacts[k].normal)
+               : contacts[k].normal_stiffness;
   }
   [[nodiscard]] double gap(std::size_t k, const Vector& u) const { return contacts[k].gap_at(u); }
   /// K with the springs of the closed contacts; closed[k] is ignored for sliders.
@@ -88,15 +89,16 @@ struct StaticProblem {
 /// A free motion and the contact whose ut = 0 fixes it (-1: none, it stays at zero).
 struct FreeMotion {
   Vector motion;
-  int holder = -1;
+  int contact_index = -1;
 };
 
 /// The free motions of the null space `null` (n x m), one per holding contact: contacts in file order, closed ones and
 /// sliders first, open ones last unless `pressed_only`. Motions are scaled to t_h . motion = 1 at their own contact and
 /// 0 at the others.
-[[nodiscard]] std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& null,
-                                                   const std::vector<bool>& closed,
-                                                   bool pressed_only = false);
+[[nodiscard]] std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem,
+                                                             const Eigen::MatrixXd& null,
+                                                             const std::vector<bool>& closed,
+                                                             bool pressed_only = false);
 
 /// The displacement with the free motions held, and -N of every contact; for closed rigid contacts the required
 /// reaction, with either sign.
@@ -104,10 +106,11 @@ struct ConstrainedState {
   Vector u;
   std::vector<double> reactions;
 };
-[[nodiscard]] ConstrainedState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
-                                          const std::vector<FreeMotion>& held);
+[[nodiscard]] ConstrainedState solve_constrained(const StaticProblem& problem,
+                                                 const std::vector<bool>& closed,
+                                                 const std::vector<FreeMotion>& held);
 
-/// Work of the loads on a free motion, at the displacement u of solve_held: zero in equilibrium. k and p: matrix() and
+/// Work of the loads on a free motion, at the displacement u of solve_constrained: zero in equilibrium. k and p: matrix() and
 /// right_side() of the problem. Work below rounding, or below 1e-9 of the largest load times the largest displacement,
 /// counts as zero.
 [[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,

@@ -28,14 +28,15 @@ struct Trial {
 
 Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   Trial trial;
-  trial.held = hold_motions(problem, null_motions(problem.matrix(closed)), closed);
-  ConstrainedState state = solve_held(problem, closed, trial.held);
+  trial.held = constrain_free_motions(problem, null_motions(problem.matrix(closed)), closed);
+  ConstrainedState state = solve_constrained(problem, closed, trial.held);
   trial.u = std::move(state.u);
   trial.reactions = std::move(state.reactions);
   // Motions without a holding contact first: their message is more specific than that for one held by friction.
   std::vector<std::size_t> order(trial.held.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_partition(order.begin(), order.end(), [&](std::size_t j) { return trial.held[j].holder < 0; });
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t j) { return trial.held[j].contact_index < 0; });
   const SparseMatrix k = problem.matrix(closed);
   const Vector p = problem.right_side(closed);
   for (const std::size_t j : order) {
@@ -43,7 +44,7 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
     const Vector& motion = trial.held[j].motion;
     const double work = driving_work(problem, k, p, motion, trial.u);
     if (work == 0.0) continue;
-    const double size = assembly::greatest_translation(motion, problem.map);
+    const double size = assembly::max_translation(motion, problem.map);
     trial.driven = static_cast<int>(j);
     trial.force = size > 0.0 ? std::abs(work) / size : std::abs(work);
   }
@@ -74,7 +75,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   std::vector<assembly::LineSpring> grips;
   const SparseMatrix k = problem.matrix(all);
   for (const Contact& c : problem.contacts)
-    if (!c.tangent.terms.empty()) grips.push_back({c.tangent, own_stiffness(k, c.tangent)});
+    if (!c.tangent.terms.empty()) grips.push_back({c.tangent, structural_stiffness(k, c.tangent)});
   const Eigen::MatrixXd null = simple_motions(null_motions(assembly::with_springs(k, grips)), problem.map);
   if (null.cols() == 0) return;
   refuse_roundoff(problem, null, place, key);
@@ -95,7 +96,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   const Trial gripped = attempt(problem, all);
   if (gripped.driven >= 0) {
     const std::string name = assembly::describe_motion(gripped.driven_motion().motion, problem.map);
-    const int holder = gripped.driven_motion().holder;
+    const int holder = gripped.driven_motion().contact_index;
     const std::string hold = holder < 0 ? "nothing restrains it"
                                         : fmt::format(
                                               "only friction at contact '{}' could prevent this, and initial "
@@ -134,12 +135,12 @@ bool carries_nothing(const StaticProblem& problem, std::size_t k, double reactio
 
 /// Rigid contacts are springs in the matrix. Negative energy that only they resist needs stiff springs; friction may
 /// resist some of the remaining negative energy.
-double firm_enough(StaticProblem problem, const std::vector<bool>& closed) {
+double find_rigid_stiffness_factor(StaticProblem problem, const std::vector<bool>& closed) {
   double best = 1.0;
   Eigen::Index least = null_motions(problem.matrix(closed)).cols();
   for (const double firmness : {1e2, 1e4, 1e6}) {
     if (least == 0) break;
-    problem.firmness = firmness;
+    problem.rigid_stiffness_factor = firmness;
     const Eigen::Index left = null_motions(problem.matrix(closed)).cols();
     if (left < least) best = firmness;
     least = std::min(least, left);
@@ -149,9 +150,9 @@ double firm_enough(StaticProblem problem, const std::vector<bool>& closed) {
 
 std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
   const std::string name = assembly::describe_motion(f.motion, problem.map);
-  if (f.holder < 0) return name + ", held by no contact, stays at zero";
+  if (f.contact_index < 0) return name + ", held by no contact, stays at zero";
   return fmt::format("{} held at contact '{}'", name,
-                     problem.contacts[static_cast<std::size_t>(f.holder)].name);
+                     problem.contacts[static_cast<std::size_t>(f.contact_index)].name);
 }
 
 }  // namespace
@@ -165,7 +166,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
   if (!search.mechanisms) refuse_mechanisms(problem, all, place, search.key);
 
   std::vector<bool> closed = search.closed ? *search.closed : closed_supports(problem);
-  if (search.closed) problem.firmness = firm_enough(problem, closed);
+  if (search.closed) problem.rigid_stiffness_factor = find_rigid_stiffness_factor(problem, closed);
   // A contact without force may be closed only since Newton's method released rigid contacts, and would displace a free
   // motion: it opens, once. If its gap is negative without it, it closes for good.
   std::vector<bool> opened(contacts.size(), false);
@@ -175,7 +176,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
     const Trial trial = attempt(problem, closed);
     if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force, search.key);
     std::vector<bool> next = closed;
-    const double size = trial.u.size() == 0 ? 0.0 : assembly::greatest_translation(trial.u, map);
+    const double size = trial.u.size() == 0 ? 0.0 : assembly::max_translation(trial.u, map);
     for (std::size_t k = 0; k < next.size(); ++k) {
       if (!problem.is_support(k)) continue;
       const double g = problem.gap(k, trial.u);

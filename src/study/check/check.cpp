@@ -73,13 +73,13 @@ CheckReport check(const Scene& scene, const Model& model) {
   if (model.reduction) warn_of_lost_state(model, report.warnings);
   measure_mass(scene, structure, report);
   report.free_motions = checks::free_motions(scene, structure, report.contacts);
-  const auto frequencies = [&](const SparseMatrix& damping, const modes::Holding& holding) {
+  const auto frequencies = [&](const SparseMatrix& damping, const modes::ContactConstraints& holding) {
     return modes::lowest_frequencies(structure.mass, damping, structure.stiffness, holding, shown_modes);
   };
   const std::vector<bool> all(structure.contacts.size(), true);
   report.open = frequencies(structure.damping, {});
-  report.closed = frequencies(with_dashpots(structure), modes::close_contacts(structure.contacts));
-  report.stuck = frequencies(with_dashpots(structure), modes::hold_contacts(structure.contacts, all));
+  report.closed = frequencies(with_dashpots(structure), modes::constrain_normals(structure.contacts));
+  report.stuck = frequencies(with_dashpots(structure), modes::constrain_contacts(structure.contacts, all));
   if (structure.geometric) report.load_factors = structure.geometric->load_factors;
   report.stiffness = checks::stiffness_ratios(structure);
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
@@ -101,7 +101,7 @@ base::Json frequency_json(const modes::Frequencies& frequencies) {
 base::Json contact_json(const Contact& contact, const ContactSample& sample) {
   base::Json json = {
       {"name", contact.name}, {"law", contact.law->name()}, {"state", to_string(sample.state)}};
-  if (const auto gap = contact.gap_if_any(sample.gap)) json["gap"] = *gap;
+  if (const auto gap = contact.optional_gap(sample.gap)) json["gap"] = *gap;
   json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;
@@ -110,7 +110,7 @@ base::Json contact_json(const Contact& contact, const ContactSample& sample) {
 }
 
 base::Json body_json(const Scene& scene, const BodySpec& body) {
-  const mesh::MeshQuality q = mesh::quality_of(body.mesh.elements, [&](int n) {
+  const mesh::MeshQuality q = mesh::measure_quality(body.mesh.elements, [&](int n) {
     const Node& node = scene.nodes[static_cast<std::size_t>(n)];
     return mesh::PlanePoint{node.x, node.y};
   });
@@ -120,8 +120,8 @@ base::Json body_json(const Scene& scene, const BodySpec& body) {
   return {{"name", body.name},
           {"nodes", body.node_count},
           {"elements", body.mesh.elements.size()},
-          {"least_angle", worst(q.least_angle)},
-          {"greatest_angle", worst(q.greatest_angle)},
+          {"least_angle", worst(q.min_angle)},
+          {"greatest_angle", worst(q.max_angle)},
           {"aspect", worst(q.aspect)}};
 }
 
@@ -135,10 +135,10 @@ base::Json run_json(const Scene& scene, const CheckReport& report) {
                      {"rows", report.rows},
                      {"unknowns", report.cost.unknowns},
                      {"omega_max", report.cost.omega_max}};
-  if (report.cost.effort.steps > 0.0) {
-    json["steps_about"] = report.cost.effort.steps;
-    json["seconds_about"] = report.cost.effort.seconds;
-    const run::Effort& effort = report.cost.effort;
+  if (report.cost.estimate.steps > 0.0) {
+    json["steps_about"] = report.cost.estimate.steps;
+    json["seconds_about"] = report.cost.estimate.seconds;
+    const run::CostEstimate& effort = report.cost.estimate;
     if (effort.by_series > 0.0) json["seconds_by_series_about"] = effort.by_series;
     if (effort.by_modes > 0.0) json["seconds_in_modes_about"] = effort.by_modes;
     if (report.cost.exact) json["seconds_with_exact_about"] = *report.cost.exact;

@@ -42,7 +42,7 @@ struct Discontinuity {
 struct Cost {
   long unknowns = 0;
   double omega_max = 0.0;  ///< of the structure with sticking contacts, and of harmonic loads
-  run::Effort effort;
+  run::CostEstimate estimate;
   std::optional<double> exact;     ///< seconds that exact would take instead of ida, by the same estimate
   std::vector<run::Trial> trials;  ///< measurements by measure_cost(); empty without it
 };

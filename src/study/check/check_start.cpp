@@ -31,7 +31,7 @@ class FirstStep : public Recorder {
 
 /// The tangent restricted to degrees of freedom with mass: only there does a rigid constraint act immediately.
 Vector heavy_part(const Model& model, const Combination& tangent) {
-  Vector t = assembly::full(tangent, model.size());
+  Vector t = assembly::dense_vector(tangent, model.size());
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) t[i] = 0.0;
   return t;
@@ -70,7 +70,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
         return Ambiguity{k,
                          fmt::format("contacts {} stick rigidly to the same motion, so their friction forces "
                                      "are not unique; give them a tangential_stiffness",
-                                     base::listed(group))};
+                                     base::join_quoted(group))};
       }
     }
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);
@@ -154,8 +154,8 @@ std::vector<check::Discontinuity> discontinuities(const Model& model, double t_e
 check::Cost cost_of(const Model& model, const RunSpec& run, const Method& method) {
   RunSpec chosen = run;
   chosen.engine = method.engine;
-  const run::Expected found = run::expected(model, run, method);
-  return {found.unknowns, found.omega_max, found.effort, run::exact_instead(model, chosen), {}};
+  const run::ExpectedCost found = run::expected_cost(model, run, method);
+  return {found.unknowns, found.omega_max, found.estimate, run::seconds_with_exact(model, chosen), {}};
 }
 
 }  // namespace signorini::checks

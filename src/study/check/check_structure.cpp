@@ -11,7 +11,7 @@
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/loads.hpp"
-#include "model/modes/held.hpp"
+#include "model/modes/constrained_structure.hpp"
 #include "model/modes/stability.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
@@ -67,10 +67,10 @@ std::vector<std::string> loose_parts(const Scene& scene) {
     if (!sections.contains(section.name)) unused.push_back(section.name);
   if (!loose.empty())
     result.push_back(fmt::format("no member, mass, spring or contact is attached to node{} {}",
-                                 loose.size() > 1 ? "s" : "", base::listed(loose, 5)));
+                                 loose.size() > 1 ? "s" : "", base::join_quoted(loose, 5)));
   if (!unused.empty())
-    result.push_back(
-        fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "", base::listed(unused, 5)));
+    result.push_back(fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "",
+                                 base::join_quoted(unused, 5)));
   return result;
 }
 
@@ -102,12 +102,12 @@ check::MassFacts mass_of(const Scene& scene, const Model& model) {
   const element::Mesh mesh = element::make_mesh(scene);
   for (const auto& e : mesh.elements) {
     // The shares of the nodes are those of a uniform load along x.
-    const element::ElementVector shares = e->spread({1.0 / e->extent(), 0.0});
+    const element::ElementVector shares = e->load_vector({1.0 / e->extent(), 0.0});
     const std::vector<element::ElementUnknown> unknowns = e->unknowns();
     double x = 0.0, y = 0.0;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
       if (unknowns[j].component != 0) continue;
-      const element::MeshNode& node = mesh.node(e->nodes()[unknowns[j].place]);
+      const element::MeshNode& node = mesh.node(e->nodes()[unknowns[j].local_node]);
       x += shares[static_cast<Eigen::Index>(j)] * node.x;
       y += shares[static_cast<Eigen::Index>(j)] * node.y;
     }
@@ -164,11 +164,12 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
       statics::StaticProblem{model.stiffness, load, model.contacts, map, firmness_of(model)}.matrix(closed);
   std::vector<std::string> names;
   for (const statics::FreeMotion& f :
-       statics::hold_motions(problem, statics::null_motions(k).topRows(own.size), closed, true)) {
+       statics::constrain_free_motions(problem, statics::null_motions(k).topRows(own.size), closed, true)) {
     // A contact without friction or a spring follows the motion and does not hold it.
-    const Contact* holder = f.holder < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.holder)];
+    const Contact* holder =
+        f.contact_index < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.contact_index)];
     const bool holds =
-        holder != nullptr && closed[static_cast<std::size_t>(f.holder)] && holder->has_friction();
+        holder != nullptr && closed[static_cast<std::size_t>(f.contact_index)] && holder->has_friction();
     names.push_back(assembly::describe_motion(f.motion, map) +
                     (holds ? fmt::format(", restrained only by friction at contact '{}'", holder->name)
                      : modes::has_negative_energy(k, own.with_points(model, f.motion))
@@ -180,14 +181,15 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
 
 std::vector<check::StiffnessRatio> stiffness_ratios(const Model& model) {
   const std::vector<bool> all(model.contacts.size(), true);
-  const modes::Holding holding = modes::hold_contacts(model.contacts, all);
+  const modes::ContactConstraints holding = modes::constrain_contacts(model.contacts, all);
   const SparseMatrix k = assembly::with_springs(model.stiffness, holding.springs);
-  if (holding.springs.empty() || statics::null_motions(modes::with_grips(k, holding.fixed)).cols() > 0)
+  if (holding.springs.empty() ||
+      statics::null_motions(modes::with_constraint_springs(k, holding.fixed)).cols() > 0)
     return {};
-  const modes::HeldStructure structure(k, holding.fixed);
+  const modes::ConstrainedStructure structure(k, holding.fixed);
   std::vector<check::StiffnessRatio> result;
   const auto add = [&](std::size_t contact, bool normal, const Combination& form, double stiffness) {
-    const double give = form.dot(structure.solve(assembly::full(form, model.size())));
+    const double give = form.dot(structure.solve(assembly::dense_vector(form, model.size())));
     // 1 / give is the sum of the spring and the rest in parallel; below rounding there is no rest.
     const double rest = give > 0.0 ? 1.0 / give - stiffness : 0.0;
     result.push_back({static_cast<int>(contact), normal, stiffness, rest > 1e-12 * stiffness ? rest : 0.0});

@@ -156,7 +156,7 @@ std::string LoggedEvent::name() const { return contact + " " + type + ", " + fro
 
 Alignment align(const std::vector<LoggedEvent>& reference, const std::vector<LoggedEvent>& other,
                 const AlignmentSettings& settings) {
-  const double roundoff = rounding::of_few * std::abs(settings.t_end);
+  const double roundoff = rounding::few_operations * std::abs(settings.t_end);
   const double instant = std::max(settings.instant, roundoff);
   Walk a(reference, settings.t_end, instant), b(other, settings.t_end, instant);
   Alignment result;

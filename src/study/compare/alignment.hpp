@@ -24,13 +24,13 @@ namespace signorini::compare {
 
 // The largest of many differences, and its place.
 
-struct Greatest {
+struct MaxDifference {
   double value = 0.0;
   double t = 0.0;
   std::string where;  ///< a column, a contact, an event
 
   /// Keeps the larger difference. NaN counts as larger than all numbers.
-  void take(double difference, double at, const std::string& place) {
+  void update(double difference, double at, const std::string& place) {
     if (std::isnan(value) || difference <= value) return;
     value = difference;
     t = at;
@@ -41,16 +41,16 @@ struct Greatest {
 /// Largest difference of one quantity: over the time that both runs cover, and up to the first difference of their
 /// sequences.
 struct Deviation {
-  Greatest whole, until_split;
-  std::size_t count = 0;              ///< number of compared pairs; 0: nothing to compare
-  std::size_t count_until_split = 0;  ///< number of pairs after t = 0 and before the sequences differ
-  std::vector<std::string> alone;     ///< columns or contacts that only one of the two runs has
+  MaxDifference whole, until_split;
+  std::size_t count = 0;               ///< number of compared pairs; 0: nothing to compare
+  std::size_t count_until_split = 0;   ///< number of pairs after t = 0 and before the sequences differ
+  std::vector<std::string> unmatched;  ///< columns or contacts that only one of the two runs has
 
-  void take(double difference, double at, const std::string& place, double split) {
+  void update(double difference, double at, const std::string& place, double split) {
     ++count;
-    whole.take(difference, at, place);
+    whole.update(difference, at, place);
     if (!(at < split)) return;
-    until_split.take(difference, at, place);
+    until_split.update(difference, at, place);
     if (at > 0.0) ++count_until_split;
   }
 };

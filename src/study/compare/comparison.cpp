@@ -42,7 +42,7 @@ std::vector<CommonColumn> common_columns(const result::CsvReader& a, const resul
     const auto found = std::find(b.header().begin(), b.header().end(), name);
     if (found == b.header().end()) {
       alone.push_back(name);
-      quantity(c, name).alone.push_back(name);
+      quantity(c, name).unmatched.push_back(name);
     } else {
       columns.push_back({name, i, static_cast<std::size_t>(found - b.header().begin()), &quantity(c, name)});
     }
@@ -50,11 +50,11 @@ std::vector<CommonColumn> common_columns(const result::CsvReader& a, const resul
   for (std::size_t i = 1; i < b.header().size(); ++i)
     if (std::find(a.header().begin(), a.header().end(), b.header()[i]) == a.header().end()) {
       alone.push_back(b.header()[i]);
-      quantity(c, b.header()[i]).alone.push_back(b.header()[i]);
+      quantity(c, b.header()[i]).unmatched.push_back(b.header()[i]);
     }
   if (!alone.empty()) {
     c.notes.push_back(fmt::format("{}: {} in one of the two runs only, the first is \"{}\"", table,
-                                  base::count_of(alone.size(), "column"), alone[0]));
+                                  base::count_text(alone.size(), "column"), alone[0]));
   }
   return columns;
 }
@@ -79,8 +79,8 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const CommonColumn& column = columns[i];
       const double difference = std::abs(join.a().number(column.a) - join.b().number(column.b));
-      column.quantity->take(difference, join.t(), column.name, split);
-      c.columns[i].second.take(difference, join.t(), column.name, split);
+      column.quantity->update(difference, join.t(), column.name, split);
+      c.columns[i].second.update(difference, join.t(), column.name, split);
       if (column.quantity == &c.displacement) displacement = std::max(displacement, difference);
       if (column.quantity == &c.velocity) velocity = std::max(velocity, difference);
     }
@@ -107,8 +107,8 @@ void compare_response(const ComparedRun& a, const ComparedRun& b, double split, 
   }
   while (join.next())
     for (std::size_t i = 0; i < columns.size(); ++i)
-      c.response[i].deviation.take(std::abs(join.a().number(columns[i].a) - join.b().number(columns[i].b)),
-                                   join.t(), columns[i].name, split);
+      c.response[i].deviation.update(std::abs(join.a().number(columns[i].a) - join.b().number(columns[i].b)),
+                                     join.t(), columns[i].name, split);
   c.rows.response = join.rows();
 }
 
@@ -117,11 +117,11 @@ void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Co
   Comparison ignored;  // its columns belong to no other quantity
   std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "energy.csv");
   std::erase_if(columns, [](const CommonColumn& column) { return column.name == "balance"; });
-  c.energy.alone = std::move(ignored.displacement.alone);
+  c.energy.unmatched = std::move(ignored.displacement.unmatched);
   while (join.next()) {
     for (const CommonColumn& column : columns)
-      c.energy.take(std::abs(join.a().number(column.a) - join.b().number(column.b)), join.t(), column.name,
-                    split);
+      c.energy.update(std::abs(join.a().number(column.a) - join.b().number(column.b)), join.t(), column.name,
+                      split);
   }
   c.rows.energy = join.rows();
 }
@@ -173,13 +173,13 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
   // neighbours.
   struct Waiting {
     double t, before;
-    Greatest greatest;
+    MaxDifference greatest;
     bool any = false;
   };
   std::optional<Waiting> waiting;
   const auto judge = [&](double next) {
     if (!waiting || !waiting->any || events.any(waiting->before, next)) return;
-    c.force_away.take(waiting->greatest.value, waiting->t, waiting->greatest.where, split);
+    c.force_away.update(waiting->greatest.value, waiting->t, waiting->greatest.where, split);
   };
   double before = 0.0;
   RowCount& rows = c.rows.contacts;
@@ -201,11 +201,11 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
       if (found == rows_b.forces().end()) continue;
       ++rows.compared;
       const double dN = std::abs(forces.N - found->second.N), dT = std::abs(forces.T - found->second.T);
-      by_contact[name].first.take(dN, t, name + ".N", split);
-      by_contact[name].second.take(dT, t, name + ".T", split);
+      by_contact[name].first.update(dN, t, name + ".N", split);
+      by_contact[name].second.update(dT, t, name + ".T", split);
       for (const auto& [difference, what] : {std::pair(dN, ".N"), std::pair(dT, ".T")}) {
-        c.force.take(difference, t, name + what, split);
-        waiting->greatest.take(difference, t, name + what);
+        c.force.update(difference, t, name + what, split);
+        waiting->greatest.update(difference, t, name + what);
       }
       waiting->any = true;
       N = std::max(N, dN);
@@ -231,8 +231,8 @@ void note_contacts(const ComparedRun& a, const ComparedRun& b, Comparison& c) {
     for (const auto& contact : one->figures.facts.contacts)
       if (!has(*two, contact.name)) {
         c.notes.push_back(fmt::format("contact \"{}\" is in {} only", contact.name, one->figures.name));
-        c.force.alone.push_back(contact.name);
-        c.force_away.alone.push_back(contact.name);
+        c.force.unmatched.push_back(contact.name);
+        c.force_away.unmatched.push_back(contact.name);
       }
 }
 
@@ -263,7 +263,7 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   const double split = c.alignment.split ? c.alignment.split->t : never;
   for (const AlignedPair& pair : c.alignment.pairs) {
     const LoggedEvent& event = reference.events[pair.reference];
-    c.event_time.take(std::abs(other.events[pair.other].t - event.t), event.t, event.name(), never);
+    c.event_time.update(std::abs(other.events[pair.other].t - event.t), event.t, event.name(), never);
   }
   compare_motion(reference, other, settings, split, c);
   compare_forces(reference, other, settings, split, c);

@@ -4,7 +4,7 @@
 
 #include "base/json.hpp"
 #include "result/summary_parts.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 
 namespace signorini::compare {
 namespace {
@@ -20,7 +20,7 @@ result::CsvTable<RunFigures> run_table(const Audit& audit) {
                                {"outcome", [](const R& r) { return r.facts.outcome; }},
                                {"t", &R::t},
                                {"reason", &R::reason},
-                               {"events", [](const R& r) { return changes_in(r.events_by_type); }},
+                               {"events", [](const R& r) { return count_state_changes(r.events_by_type); }},
                                {"wall_time", &R::wall_time},
                                {"steps", &R::steps},
                                {"factorisations", &R::factorisations},
@@ -58,8 +58,8 @@ std::string runs_csv(const ComparisonReport& report) {
 struct Difference {
   const std::string& run;
   Quantity quantity;
-  [[nodiscard]] const Greatest& whole() const { return quantity.deviation->whole; }
-  [[nodiscard]] const Greatest& until_split() const { return quantity.deviation->until_split; }
+  [[nodiscard]] const MaxDifference& whole() const { return quantity.deviation->whole; }
+  [[nodiscard]] const MaxDifference& until_split() const { return quantity.deviation->until_split; }
 };
 
 std::string differences_csv(const ComparisonReport& report) {
@@ -121,7 +121,7 @@ base::Json event_json(const LoggedEvent& event) {
           {"to", event.to}};
 }
 
-base::Json greatest_json(const Greatest& greatest) {
+base::Json greatest_json(const MaxDifference& greatest) {
   base::Json json = {{"value", greatest.value}, {"t", greatest.t}};
   if (!greatest.where.empty()) json["where"] = greatest.where;
   return json;
@@ -134,7 +134,7 @@ base::Json run_json(const RunFigures& run) {
           {"outcome", run.facts.outcome},
           {"t", run.t},
           {"reason", run.reason},
-          {"events", {{"total", changes_in(run.events_by_type)}, {"by_type", run.events_by_type}}},
+          {"events", {{"total", count_state_changes(run.events_by_type)}, {"by_type", run.events_by_type}}},
           {"wall_time", study::json_of(run.wall_time)},
           {"steps", study::json_of(run.steps)},
           {"factorisations", study::json_of(run.factorisations)},

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array<const char*, 6> colours = {"#1a1a1a", "#d95f02", "#1f77b4",
                                                 "#1b9e77", "#e7298a", "#7b3294"};
-constexpr std::size_t most_contacts = 24;  // limit for pictures of single contacts
+constexpr std::size_t max_contacts = 24;  // limit for pictures of single contacts
 
 /// Later runs are thinner and dashed, on top: coinciding curves stay visible.
 std::string look(std::size_t run) {
@@ -54,7 +54,7 @@ struct DifferenceCurve {
 
 class Pictures {
  public:
-  Pictures(fs::path folder, const ComparisonReport& report, const result::PictureLook& look)
+  Pictures(fs::path folder, const ComparisonReport& report, const result::PictureStyle& look)
       : folder_(std::move(folder)), report_(report) {
     double t_end = 0.0;
     for (const ComparedRun& run : report.runs) t_end = std::max(t_end, run.figures.t);
@@ -65,7 +65,7 @@ class Pictures {
       names.push_back(run.figures.name);
     }
     for (result::PlottedRun& run : runs_) {
-      run.legend = result::room_for(names);
+      run.legend = result::legend_width(names);
       run.look = look;
     }
   }
@@ -126,7 +126,7 @@ class Pictures {
       panel.axes = "set format y '%.0e'\n" + y_range(curve, panel.curves);
       for (std::size_t r = 1; r < runs_.size(); ++r)
         if (const auto& split = report_.comparisons[r - 1].alignment.split)
-          panel.axes += result::upright(
+          panel.axes += result::vertical_line(
               r, split->t, fmt::format("dashtype 3 linecolor '{}'", colours[r % colours.size()]));
       picture.panels.push_back(panel);
     }
@@ -151,7 +151,7 @@ class Pictures {
         if (run.facts.contacts[k].name == contact) all.take(run.ranges[k].*curve.range);
       }
     }
-    return result::steady(all, scales.*curve.scale);
+    return result::constant_axis(all, scales.*curve.scale);
   }
 
   /// At most 12 decades below the largest value. A logarithmic axis needs a positive value, even if all runs agree
@@ -167,7 +167,7 @@ class Pictures {
         if (column.ends_with(end)) greatest = std::max(greatest, deviation.whole.value);
     }
     if (greatest > 0.0 && greatest < 1e300) {
-      return "set yrange [" + base::shortest(greatest * 1e-12) + "<*:*]\n";
+      return "set yrange [" + base::format_number(greatest * 1e-12) + "<*:*]\n";
     }
     curves.push_back({"1e-18", "", "with lines linecolor '#ffffff'"});
     return "set yrange [1e-20:1e-10]\n";
@@ -212,12 +212,12 @@ void begin_comparison_plots(const fs::path& directory) {
 }
 
 std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report,
-                                             const result::PictureLook& look) {
+                                             const result::PictureStyle& look) {
   const Pictures pictures(directory / "plots", report, look);
   result::PictureFiles files;  // their tables exist already
   if (!pictures.any()) return {};
   const auto& contacts = report.runs.front().figures.facts.contacts;
-  for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k)
+  for (std::size_t k = 0; k < std::min(contacts.size(), max_contacts); ++k)
     files.add(pictures.first(),
               pictures.contact(k, fmt::format("contact-{}-{}", k + 1, plain(contacts[k].name))));
   if (!report.comparisons.empty()) files.add(pictures.first(), pictures.differences());

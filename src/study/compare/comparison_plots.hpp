@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "result/picture_look.hpp"
+#include "result/picture_style.hpp"
 #include "study/compare/comparison_files.hpp"
 
 namespace signorini::compare {
@@ -24,6 +24,6 @@ void begin_comparison_plots(const std::filesystem::path& directory);
 /// FileError.
 std::vector<std::filesystem::path> write_comparison_plots(const std::filesystem::path& directory,
                                                           const ComparisonReport& report,
-                                                          const result::PictureLook& look = {});
+                                                          const result::PictureStyle& look = {});
 
 }  // namespace signorini::compare

@@ -44,7 +44,7 @@ std::string not_covered(const std::string& quantity, const RunFigures& reference
   };
   const auto fewer = [](const char* file, const std::string& name, std::size_t rows, std::size_t expected) {
     return fmt::format("{} of {} has {}, expected {} at the times of its history.csv", file, name,
-                       base::count_of(rows, "row"), expected);
+                       base::count_text(rows, "row"), expected);
   };
   const RowCount& history = c.rows.history;
   if (!history.all()) return sentence("history.csv", history);
@@ -73,7 +73,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// Columns or contacts of the quantity that only one run has; empty: all are common, and there are some.
 std::string not_common(const Quantity& quantity, const Comparison& c) {
-  const std::vector<std::string>& alone = quantity.deviation->alone;
+  const std::vector<std::string>& alone = quantity.deviation->unmatched;
   if (quantity.deviation->count > 0 && alone.empty()) return "";
   std::vector<std::string> common;
   for (const auto& [name, deviation] : c.columns) common.push_back(name);
@@ -171,12 +171,13 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
     if (limit.name == "event_time" && split && !sequence_limited)
       list.push_back(fmt::format(
           "{}: {} from t = {:.9g} on have no partner whose time could keep event_time {}", other.name,
-          base::count_of(split->unaligned, "event"), split->t, base::shortest(limit.value)));
+          base::count_text(split->unaligned, "event"), split->t, base::format_number(limit.value)));
     if (limit.name == sequence) {
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
       list.push_back(fmt::format("{}: sequence parts at t = {:.9g}, {} from there on exceed {}", other.name,
-                                 split->t, base::count_of(unaligned, "event"), base::shortest(limit.value)));
+                                 split->t, base::count_text(unaligned, "event"),
+                                 base::format_number(limit.value)));
       continue;
     }
     const std::vector<Quantity> known = quantities(comparison, reference.facts.units);
@@ -185,14 +186,14 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
           fmt::format("{}: {} has a limit, and not both runs have such an output", other.name, limit.name));
     for (const Quantity& quantity : known) {
       if (quantity.name != limit.name) continue;
-      const Greatest& greatest = quantity.deviation->whole;
+      const MaxDifference& greatest = quantity.deviation->whole;
       const std::string why = whole ? no_comparison(quantity, reference, other, comparison) : "";
       if (!why.empty())
         list.push_back(fmt::format("{}: {} has a limit, and {}", other.name, limit.name, why));
       if (!(greatest.value <= limit.value))
         list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds {}", other.name, limit.name,
                                    greatest.value, quantity.unit, greatest.t, greatest.where,
-                                   base::shortest(limit.value)));
+                                   base::format_number(limit.value)));
     }
   }
   return list;

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_violations = 100;  // limit of stored violations; all are counted
+constexpr std::size_t max_stored_violations = 100;  // limit of stored violations; all are counted
 
 study::PreparedRun prepared_of(const fs::path& directory) {
   const fs::path path = directory / "run.toml";
@@ -47,18 +47,18 @@ RunSpec spec_of(const Scene& scene, const RecordedSummary& recorded) {
 
 class DirectoryLawChecker {
  public:
-  DirectoryLawChecker(const fs::path& directory, const Scene& scene, DirectoryTestimony& result)
+  DirectoryLawChecker(const fs::path& directory, const Scene& scene, DirectoryLawCheck& result)
       : directory_(directory),
         scene_(scene),
         model_(result.model),
         result_(result),
         recorded_(read_recorded_summary(directory, model_)),
-        engine_(run::checked_engine(spec_of(scene, recorded_), engine::tolerance_of(model_, scene.run),
-                                    recorded_.flow,
-                                    run::engine_row(recorded_.engine).can.knows_low_flights(model_))),
-        witness_(model_, engine_.limits),
+        engine_(run::checked_engine(
+            spec_of(scene, recorded_), engine::tolerance_of(model_, scene.run), recorded_.flow,
+            run::engine_row(recorded_.engine).capabilities.resolves_low_flights(model_))),
+        law_checker_(model_, engine_.limits),
         motion_(model_, engine_),
-        rows_(model_, engine_, witness_, recorded_.stopped) {
+        rows_(model_, engine_, law_checker_, recorded_.stopped) {
     result_.complete = recorded_.ended;
     for (Event& event : read_recorded_events(directory, model_, recorded_.ended))
       events_.push_back(std::move(event));
@@ -83,7 +83,7 @@ class DirectoryLawChecker {
  private:
   void add(Violation v) {
     ++result_.testimony.violated;
-    if (result_.testimony.violations.size() < most_violations)
+    if (result_.testimony.violations.size() < max_stored_violations)
       result_.testimony.violations.push_back(std::move(v));
   }
   void missing(double t, const char* law) { add({t, result::instants_file, -1, law, 1.0, 0.0, {}, true}); }
@@ -105,13 +105,13 @@ class DirectoryLawChecker {
     const auto refuse = [](const std::string& file, const std::string& why) { throw FileError(file, why); };
     const double end = recorded_.ended && !recorded_.stopped ? recorded_.t : last_event_;
     const std::string path = (directory_ / result::instants_file).string();
-    if (recorded_.ended && t_ < end - rounding::of_few * end)
-      refuse(path, cut_at(reader, fmt::format("the instant at t = {:.9g}", end)));
-    if (recorded_.ended && reader.is_cut()) refuse(path, cut_at(reader, "a line break"));
+    if (recorded_.ended && t_ < end - rounding::few_operations * end)
+      refuse(path, truncation_message(reader, fmt::format("the instant at t = {:.9g}", end)));
+    if (recorded_.ended && reader.is_cut()) refuse(path, truncation_message(reader, "a line break"));
     if (last_change_ > last_event_ && lacking_ > 0)
       refuse((directory_ / "events.csv").string(),
              fmt::format("line {}: found no more, expected {}, up to t = {:.9g}; the file is cut",
-                         result_.events + 2, base::count_of(static_cast<std::size_t>(lacking_), "event"),
+                         result_.events + 2, base::count_text(static_cast<std::size_t>(lacking_), "event"),
                          last_change_));
   }
 
@@ -173,7 +173,7 @@ class DirectoryLawChecker {
   [[nodiscard]] law_check::RecordedEvent recorded(const Event& event, const InstantRow& row) const {
     law_check::RecordedEvent result = run::recorded_event(event);
     const auto plain = [](State recorded, State kept) {
-      return is_own(kept) && kind_of(kept) == recorded ? kept : recorded;
+      return is_user_law_state(kept) && kind_of(kept) == recorded ? kept : recorded;
     };
     result.from = plain(event.from, row.before.states[result.contact].state);
     result.to = plain(event.to, row.after.states[result.contact].state);
@@ -182,7 +182,7 @@ class DirectoryLawChecker {
   }
 
   void instant(const InstantRow& row) {
-    motion_.reach(witness_, row.before.u, row.before.v);
+    motion_.update_maxima(law_checker_, row.before.u, row.before.v);
     law_check::InstantRecord record;
     const motion::Side side = row.breakpoint && !row.start ? motion::Side::before : motion::Side::after;
     record.before = motion_.side(motion::Forcing(model_, row.t, side), row.t, row.eigenvector_condition);
@@ -195,10 +195,10 @@ class DirectoryLawChecker {
       if (model_.contacts[record.events.back().contact].normal_force_given() == event.gap.has_value())
         add({row.t, to_string(event.type), event.contact, "row", 1.0, 0.0, {}, true});
     }
-    for (Violation& v : witness_.instant(record)) add(std::move(v));
+    for (Violation& v : law_checker_.check_instant(record)) add(std::move(v));
     beside_others(row, record);
     rows_.instant(row, record);
-    motion_.leave(motion::Forcing(model_, row.t, motion::Side::after), row.t);
+    motion_.finish_instant(motion::Forcing(model_, row.t, motion::Side::after), row.t);
     for (std::size_t k = 0; k < model_.contacts.size() && !row.start; ++k)
       if (to_string(row.before.states[k].state) != std::string(to_string(row.after.states[k].state)))
         last_change_ = row.t;
@@ -215,11 +215,11 @@ class DirectoryLawChecker {
       from.mode = &last_->after.states;
       from.forces = &last_->after.forces;
       from.driven = left_driven_;
-      for (Violation& v : witness_.stretch(row.t, from, record.before)) add(std::move(v));
+      for (Violation& v : law_checker_.check_stretch(row.t, from, record.before)) add(std::move(v));
     }
     Vector load = Vector::Zero(model_.size());
     motion::Forcing(model_, row.t, motion::Side::after).add_load(row.t, 0, load.data());
-    for (Violation& v : witness_.equilibrium(row.t, record.after, load)) add(std::move(v));
+    for (Violation& v : law_checker_.check_equilibrium(row.t, record.after, load)) add(std::move(v));
     last_ = row;
     left_driven_ = record.after.driven;
   }
@@ -229,7 +229,7 @@ class DirectoryLawChecker {
     if (model_.static_start || model_.reduction) return;
     for (const auto& [recorded, asked, unit] : {std::tuple(&row.before.u, &model_.u0, seen::length),
                                                 std::tuple(&row.before.v, &model_.v0, seen::velocity)}) {
-      const double limit = rounding::of_few * asked->lpNorm<Eigen::Infinity>();
+      const double limit = rounding::few_operations * asked->lpNorm<Eigen::Infinity>();
       const double off = (*recorded - *asked).lpNorm<Eigen::Infinity>();
       if (off > limit) add({row.t, "start", -1, "initial values", off, limit, unit, false});
     }
@@ -238,10 +238,10 @@ class DirectoryLawChecker {
   void point_to(const InstantRow& row, law_check::InstantRecord& record) const {
     record.t = row.t;
     record.resolution = row.resolution;
-    record.forgiven = row.forgiven;
+    record.forgiven = row.tolerated_violation;
     record.eigenvector_condition = row.eigenvector_condition;
     record.start = row.start;
-    record.continues = row.start && !model_.continues.empty();
+    record.continues = row.start && !model_.saved_contacts.empty();
     record.breakpoint = row.breakpoint;
     record.load_jumps = row.load_jumps;
     record.located = row.located;
@@ -254,27 +254,28 @@ class DirectoryLawChecker {
     };
     point(row.before, record.before);
     point(row.after, record.after);
-    record.after.a_reach = motion_.of_accelerations(witness_, row.after.a, row.eigenvector_condition);
-    for (const InstantBlow& blow : row.blows)
+    record.after.acceleration_terms =
+        motion_.acceleration_terms(law_checker_, row.after.a, row.eigenvector_condition);
+    for (const InstantImpact& blow : row.impacts)
       record.impulses.push_back(
           {static_cast<std::size_t>(blow.contact), blow.turn, blow.normal, blow.tangent});
     std::stable_sort(record.impulses.begin(), record.impulses.end(),
                      [](const law_check::RecordedImpulse& a, const law_check::RecordedImpulse& b) {
-                       return a.turn < b.turn;
+                       return a.impact_number < b.impact_number;
                      });
-    record.captures = row.captures;
+    record.captures = row.capture_impulses;
     for (const int k : row.released) record.released.push_back(static_cast<std::size_t>(k));
   }
 
   fs::path directory_;
   const Scene& scene_;
   const Model& model_;
-  DirectoryTestimony& result_;
+  DirectoryLawCheck& result_;
   RecordedSummary recorded_;
   run::CheckedEngine engine_;
-  law_check::LawChecker witness_;
+  law_check::LawChecker law_checker_;
   run::CheckedMotion motion_;
-  TableRows rows_;
+  TableRowChecker rows_;
   std::deque<Event> events_;
   std::optional<InstantRow> last_;               // the last instant
   std::vector<law_check::Driven> left_driven_;   // after it
@@ -285,9 +286,9 @@ class DirectoryLawChecker {
 
 }  // namespace
 
-DirectoryTestimony witness_directory(const fs::path& directory) {
+DirectoryLawCheck check_directory_laws(const fs::path& directory) {
   study::PreparedRun prepared = prepared_of(directory);
-  DirectoryTestimony result;
+  DirectoryLawCheck result;
   result.model = std::move(prepared.model);
   DirectoryLawChecker(directory, prepared.scene, result).run();
   return result;

@@ -4,7 +4,7 @@
 //   contacts.csv: rows per time and contact: state of the last instant, its guards, forces of that state
 //   summary.json: as many events of each type as in events.csv; peaks not below any row
 //
-//   DirectoryTestimony found = witness_directory("pipeline-run");
+//   DirectoryLawCheck found = check_directory_laws("pipeline-run");
 //
 // The run's own witness result is not read. Errors: FileError for files that are missing, cut or not tables of a run,
 // SceneError for run.toml.
@@ -20,14 +20,14 @@ namespace signorini::directory_check {
 
 /// The first hundred violations, in the units of the scene; for violations of tables Violation::event is the table's
 /// name.
-struct DirectoryTestimony {
+struct DirectoryLawCheck {
   Model model;
   long instants = 0, events = 0, rows = 0;  ///< numbers of checked items; rows: of contacts.csv and
                                             ///< motion.csv
   bool complete = true;                     ///< the run had ended
-  Testimony testimony;
+  LawCheckSummary testimony;
 };
 
-[[nodiscard]] DirectoryTestimony witness_directory(const std::filesystem::path& directory);
+[[nodiscard]] DirectoryLawCheck check_directory_laws(const std::filesystem::path& directory);
 
 }  // namespace signorini::directory_check

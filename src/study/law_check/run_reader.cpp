@@ -50,8 +50,8 @@ std::optional<RecordedRow> RecordedRowReader::next() {
   return row;
 }
 
-void RecordedRowReader::refuse_as_cut(const std::string& lacks) const {
-  throw FileError(file_.string(), cut_at(reader_, lacks));
+void RecordedRowReader::refuse_truncated(const std::string& lacks) const {
+  throw FileError(file_.string(), truncation_message(reader_, lacks));
 }
 
 namespace {
@@ -83,7 +83,7 @@ class EventCells {
 
   /// Refuses a table whose last line has no line break.
   void refuse_if_cut() const {
-    if (reader_.is_cut()) throw FileError(file_.string(), cut_at(reader_, "a line break"));
+    if (reader_.is_cut()) throw FileError(file_.string(), truncation_message(reader_, "a line break"));
   }
 
  private:
@@ -194,7 +194,7 @@ int ContactNames::at(const std::string& name, const std::filesystem::path& file,
   return found->second;
 }
 
-std::string cut_at(const result::CsvReader& reader, const std::string& lacks) {
+std::string truncation_message(const result::CsvReader& reader, const std::string& lacks) {
   return fmt::format("line {}: found {}, expected {}; the file is cut", reader.line(),
                      reader.is_cut() ? "no line break" : "no more", lacks);
 }
@@ -219,7 +219,7 @@ RecordedSummary read_recorded_summary(const std::filesystem::path& directory, co
     static_cast<void>(json.at("outcome"));
     recorded.ended = json.contains("events");
     const std::string engine = json.value("engine", "");
-    const std::optional<Engine> known = engine_called(engine);
+    const std::optional<Engine> known = find_engine(engine);
     if (!known || *known == Engine::automatic) {
       if (recorded.ended)
         throw FileError(path.string(), "engine: found \"" + base::excerpt(engine) + "\", expected an engine");

@@ -41,7 +41,7 @@ struct RecordedSummary {
                                                       const Model& model, bool ended);
 
 /// Message for a table that ends too early: the line of its end, and the missing part.
-[[nodiscard]] std::string cut_at(const result::CsvReader& reader, const std::string& lacks);
+[[nodiscard]] std::string truncation_message(const result::CsvReader& reader, const std::string& lacks);
 
 /// Index of a contact by name; an unknown name is a FileError for this file and line.
 class ContactNames {
@@ -78,7 +78,7 @@ class RecordedRowReader {
   /// True if a last line without its line break was omitted.
   [[nodiscard]] bool is_cut() const { return reader_.is_cut(); }
   /// Throws a FileError with the line, for a table that ends too early.
-  [[noreturn]] void refuse_as_cut(const std::string& lacks) const;
+  [[noreturn]] void refuse_truncated(const std::string& lacks) const;
 
  private:
   [[nodiscard]] double number(std::size_t column) const;

@@ -11,20 +11,20 @@
 namespace signorini::directory_check {
 
 /// Equal up to the rounding of a conversion of units and back.
-bool TableSpan::same(double a, double b) {
-  return std::abs(a - b) <= rounding::of_few * std::max(std::abs(a), std::abs(b));
+bool TableRowOrder::same(double a, double b) {
+  return std::abs(a - b) <= rounding::few_operations * std::max(std::abs(a), std::abs(b));
 }
 
-void TableSpan::misplaced(const char* file, double t, std::size_t contact) {
+void TableRowOrder::misplaced(const char* file, double t, std::size_t contact) {
   in_order_ = false;
   found_({t, file, static_cast<int>(contact), "rows", 1.0, 0.0, {}, false});
 }
 
-void TableSpan::grid_row(const RecordedRow& row) {
+void TableRowOrder::grid_row(const RecordedRow& row) {
   const std::vector<double>& grid = run_.grid;
   if (place_ >= grid.size() || row.contact != due_ || !same(row.t, grid[place_])) {
     misplaced("contacts.csv", row.t, due_);
-    const double early = row.t - rounding::of_few * std::abs(row.t);
+    const double early = row.t - rounding::few_operations * std::abs(row.t);
     const auto found = std::lower_bound(grid.begin(), grid.end(), early);
     if (found == grid.end() || !same(*found, row.t)) return;  // not an output time
     place_ = static_cast<std::size_t>(found - grid.begin());
@@ -35,11 +35,11 @@ void TableSpan::grid_row(const RecordedRow& row) {
   ++place_;
 }
 
-void TableSpan::end_of_grid(const RecordedRowReader& reader) const {
+void TableRowOrder::end_of_grid(const RecordedRowReader& reader) const {
   if (model_.contacts.empty()) return;
   // The rows of a time that the run has reached exactly exist only if the instant there was completed.
   const std::size_t least =
-      comes_to_its_end()
+      is_complete_run()
           ? run_.grid.size()
           : static_cast<std::size_t>(
                 std::lower_bound(run_.grid.begin(), run_.grid.end(), run_.reached,
@@ -47,29 +47,29 @@ void TableSpan::end_of_grid(const RecordedRowReader& reader) const {
                 run_.grid.begin());
   const bool at_last = !in_order_ && place_ + 1 >= least;  // rows out of order are reported instead
   if ((place_ < least && !at_last) || (due_ > 0 && run_.ended && in_order_))
-    reader.refuse_as_cut(fmt::format("the row of contact \"{}\" at t = {:.9g}", model_.contacts[due_].name,
-                                     place_ < run_.grid.size() ? run_.grid[place_] : run_.reached));
-  if (reader.is_cut() && run_.ended) reader.refuse_as_cut("a line break");
+    reader.refuse_truncated(fmt::format("the row of contact \"{}\" at t = {:.9g}", model_.contacts[due_].name,
+                                        place_ < run_.grid.size() ? run_.grid[place_] : run_.reached));
+  if (reader.is_cut() && run_.ended) reader.refuse_truncated("a line break");
 }
 
-void TableSpan::block_row(const RecordedRow& row) {
+void TableRowOrder::block_row(const RecordedRow& row) {
   const bool next = last_ ? row.contact == last_->contact + 1 : row.contact == 0;
   const bool goes_on = last_ && row.contact == last_->contact && row.t >= last_->t;
-  const bool whole = !last_ || !comes_to_its_end() || same(last_->t, run_.reached);
+  const bool whole = !last_ || !is_complete_run() || same(last_->t, run_.reached);
   if (!goes_on && !(next && whole && row.t == 0.0)) misplaced("motion.csv", row.t, row.contact);
   last_ = row;
 }
 
-void TableSpan::end_of_blocks(const RecordedRowReader& reader) const {
+void TableRowOrder::end_of_blocks(const RecordedRowReader& reader) const {
   if (!run_.ended || model_.contacts.empty()) return;
   const std::size_t all = model_.contacts.size();
   if (!last_ || last_->contact + 1 != all)
-    reader.refuse_as_cut(
+    reader.refuse_truncated(
         fmt::format("rows of contact \"{}\"", model_.contacts[last_ ? last_->contact + 1 : 0].name));
-  if (comes_to_its_end() && !same(last_->t, run_.reached))
-    reader.refuse_as_cut(fmt::format("rows of contact \"{}\" up to t = {:.9g}",
-                                     model_.contacts[last_->contact].name, run_.reached));
-  if (reader.is_cut()) reader.refuse_as_cut("a line break");
+  if (is_complete_run() && !same(last_->t, run_.reached))
+    reader.refuse_truncated(fmt::format("rows of contact \"{}\" up to t = {:.9g}",
+                                        model_.contacts[last_->contact].name, run_.reached));
+  if (reader.is_cut()) reader.refuse_truncated("a line break");
 }
 
 namespace {
@@ -81,20 +81,20 @@ Violation violation(const char* file, double t, std::size_t contact, const char*
 
 }  // namespace
 
-TableRows::TableRows(const Model& model, const run::CheckedEngine& engine,
-                     const law_check::LawChecker& witness, bool stopped)
+TableRowChecker::TableRowChecker(const Model& model, const run::CheckedEngine& engine,
+                                 const law_check::LawChecker& witness, bool stopped)
     : model_(model),
       engine_(engine),
-      witness_(witness),
+      law_checker_(witness),
       stopped_(stopped),
       sizes_(model.contacts.size()),
       peaks_(model.contacts.size()),
       loads_(model.contacts.size()),
       reached_(model.contacts.size(), false) {}
 
-void TableRows::instant(const InstantRow& row, const law_check::InstantRecord& record) {
+void TableRowChecker::instant(const InstantRow& row, const law_check::InstantRecord& record) {
   states_.push_back({row.t, row.resolution, row.before.states, row.after.states});
-  const double held = witness_.held_forces(record.after);
+  const double held = law_checker_.constraint_force_terms(record.after);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     Size& size = sizes_[k];
     const law_check::ContactKinematics m = law_check::kinematics(model_.contacts[k], k, record.after);
@@ -103,15 +103,15 @@ void TableRows::instant(const InstantRow& row, const law_check::InstantRecord& r
       size.gap_at_start = touches ? 0.0 : m.g;
       size.ut_at_start = touches ? contact::slip_of(model_.contacts[k], m.ut, m.T) : m.ut;
     }
-    size.place = std::max(size.place, m.place);
-    size.speed = std::max(size.speed, m.speed);
+    size.place = std::max(size.place, m.displacement_size);
+    size.speed = std::max(size.speed, m.velocity_size);
     size.force = std::max(size.force, held);
   }
 }
 
 /// States after the last instant; at an instant, those of both of its sides, and of other instants within the time
 /// resolution.
-std::vector<ContactState> TableRows::states_at(std::size_t contact, double t) const {
+std::vector<ContactState> TableRowChecker::states_at(std::size_t contact, double t) const {
   std::vector<ContactState> states;
   auto next = std::upper_bound(states_.begin(), states_.end(), t,
                                [](double time, const States& s) { return time < s.t - s.resolution; });
@@ -124,18 +124,18 @@ std::vector<ContactState> TableRows::states_at(std::size_t contact, double t) co
   return states;
 }
 
-long TableRows::contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
-  return read(file, "contacts.csv", {&TableSpan::grid_row, &TableSpan::end_of_grid}, run, found);
+long TableRowChecker::contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
+  return read(file, "contacts.csv", {&TableRowOrder::grid_row, &TableRowOrder::end_of_grid}, run, found);
 }
 
-long TableRows::motion(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
-  return read(file, "motion.csv", {&TableSpan::block_row, &TableSpan::end_of_blocks}, run, found);
+long TableRowChecker::motion(const std::filesystem::path& file, const RunSpan& run, const Found& found) {
+  return read(file, "motion.csv", {&TableRowOrder::block_row, &TableRowOrder::end_of_blocks}, run, found);
 }
 
-long TableRows::read(const std::filesystem::path& file, const char* name, const Order& order,
-                     const RunSpan& run, const Found& found) {
+long TableRowChecker::read(const std::filesystem::path& file, const char* name, const Order& order,
+                           const RunSpan& run, const Found& found) {
   RecordedRowReader reader(file, model_);
-  TableSpan span(model_, run, found);
+  TableRowOrder span(model_, run, found);
   long rows = 0;
   for (; const auto row = reader.next(); ++rows) {
     (span.*order.row)(*row);
@@ -145,15 +145,15 @@ long TableRows::read(const std::filesystem::path& file, const char* name, const 
   return rows;
 }
 
-void TableRows::check(const RecordedRow& row, const RecordedRowReader& reader, const char* file,
-                      const Found& found) {
+void TableRowChecker::check(const RecordedRow& row, const RecordedRowReader& reader, const char* file,
+                            const Found& found) {
   if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
   std::optional<std::vector<Violation>> least;  // over the states at its time with the row's name
   for (const ContactState& state : states_at(row.contact, row.t)) {
     if (row.state != to_string(state.state)) continue;
     std::vector<Violation> broken;
-    if (c.obeys_coulomb() && engine_.follows) broken = broken_by(row, state, file);
+    if (c.obeys_coulomb() && engine_.laws_at_step_ends) broken = violations_of(row, state, file);
     if (!least || broken.size() < least->size()) least = std::move(broken);
   }
   if (!least) {
@@ -165,8 +165,8 @@ void TableRows::check(const RecordedRow& row, const RecordedRowReader& reader, c
 }
 
 /// Violations of a row whose contact is in this state.
-std::vector<Violation> TableRows::broken_by(const RecordedRow& row, const ContactState& state,
-                                            const char* file) const {
+std::vector<Violation> TableRowChecker::violations_of(const RecordedRow& row, const ContactState& state,
+                                                      const char* file) const {
   const Contact& c = model_.contacts[row.contact];
   law_check::ContactKinematics m;
   const Size& size = sizes_[row.contact];
@@ -175,15 +175,15 @@ std::vector<Violation> TableRows::broken_by(const RecordedRow& row, const Contac
   m.g = row.gap.value_or(0.0);
   m.ut = row.ut;
   m.dut = row.vt;
-  m.place = size.place + model_.scales.displacement;
-  m.speed = size.speed;
+  m.displacement_size = size.place + model_.scales.displacement;
+  m.velocity_size = size.speed;
   if (c.compliance_split() && !is_open(state.state)) {  // of its springs, whatever they are
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }
   if (state.state == State::inside) m.g = 0.0;  // a dashpot force, which does not depend on the gap
   std::vector<Violation> broken;
-  witness_.contact(row.t, row.contact, state, m, false, size.force, broken);
+  law_checker_.check_contact(row.t, row.contact, state, m, false, size.force, broken);
   std::erase_if(broken, [&](const Violation& v) {
     return c.tangential_stiffness && v.law == "slip direction";  // needs g', which tables lack
   });
@@ -192,15 +192,15 @@ std::vector<Violation> TableRows::broken_by(const RecordedRow& row, const Contac
   return broken;
 }
 
-void TableRows::check_forces(const RecordedRow& row, const ContactState& state, const char* file,
-                             const Found& found) const {
+void TableRowChecker::check_forces(const RecordedRow& row, const ContactState& state, const char* file,
+                                   const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
   const double kn = c.normal_stiffness, kt = c.tangential_stiffness.value_or(0.0),
                place = sizes_[row.contact].place;
   const double held = c.takes_impulses() ? sizes_[row.contact].force : 0.0;
   const double limit =
-      rounding::of_elimination * ((kn + kt) * place + std::abs(row.N) + std::abs(row.T) + held) +
-      law_check::of_tolerance * (kn + kt) * (engine_.limits.rtol * place + engine_.limits.displacement);
+      rounding::elimination * ((kn + kt) * place + std::abs(row.N) + std::abs(row.T) + held) +
+      law_check::tolerance_factor * (kn + kt) * (engine_.limits.rtol * place + engine_.limits.displacement);
   const auto check = [&](const char* law, double force, double asked) {
     if (const double off = std::abs(force - asked); off > limit)
       found(violation(file, row.t, row.contact, law, off, limit, seen::force));
@@ -213,15 +213,15 @@ void TableRows::check_forces(const RecordedRow& row, const ContactState& state, 
   }
   if (c.normal_spring() && !c.compliance_split() && c.normal_damping == 0.0 && row.gap)
     check("normal force", row.N, kn * *row.gap);
-  if (const int s = law_check::sign_of_slip(state.state); s != 0 && !c.friction.varies())
+  if (const int s = law_check::slip_direction(state.state); s != 0 && !c.friction.is_rate_dependent())
     check("friction force", row.T, -s * law_check::friction_in(c, state.state, 0.0, row.N) * row.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", c.compliance_split() ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
 /// slip = ut - T/kt; with borrowed springs ut is that of the surfaces. of_force: error of T.
-void TableRows::check_slip(const RecordedRow& row, const char* file, double of_force,
-                           const Found& found) const {
+void TableRowChecker::check_slip(const RecordedRow& row, const char* file, double of_force,
+                                 const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
   const double kt = c.compliance_split() ? 0.0 : c.tangential_stiffness.value_or(0.0);
   const double by_force = kt > 0.0 ? row.T / kt : 0.0;
@@ -231,23 +231,24 @@ void TableRows::check_slip(const RecordedRow& row, const char* file, double of_f
           ? 0.0
           : std::abs(motion::Forcing(model_, row.t, motion::Side::after).surface(row.contact, row.t, 0));
   const double size = sizes_[row.contact].place + surface + std::abs(row.ut) + std::abs(by_force);
-  const double limit = rounding::of_elimination * size +
-                       law_check::of_tolerance * (engine_.limits.rtol * size + engine_.limits.displacement) +
-                       (kt > 0.0 ? of_force / kt : 0.0);
+  const double limit =
+      rounding::elimination * size +
+      law_check::tolerance_factor * (engine_.limits.rtol * size + engine_.limits.displacement) +
+      (kt > 0.0 ? of_force / kt : 0.0);
   if (const double off = std::abs(row.slip - (row.ut - by_force)); off > limit)
     found(violation(file, row.t, row.contact, "slip", off, limit, seen::length));
 }
 
-void TableRows::check_ratio(const RecordedRow& row, const char* file, const Found& found) const {
+void TableRowChecker::check_ratio(const RecordedRow& row, const char* file, const Found& found) const {
   const bool due =
       model_.contacts[row.contact].has_friction() && row.state != to_string(State::open) && row.N != 0.0;
-  const double asked = due ? std::abs(row.T / row.N) : 0.0, limit = rounding::of_few * asked;
+  const double asked = due ? std::abs(row.T / row.N) : 0.0, limit = rounding::few_operations * asked;
   const double off = std::abs(row.ratio.value_or(0.0) - asked);
   if (due != row.ratio.has_value() || off > limit)
     found(violation(file, row.t, row.contact, "ratio", off, limit, {}));
 }
 
-void TableRows::reach(const RecordedRow& row) {
+void TableRowChecker::reach(const RecordedRow& row) {
   // A stopped run has rows of a step without an instant at its end; no peak includes them.
   if (stopped_ && !states_.empty() && row.t > states_.back().t) return;
   Peak& peak = peaks_[row.contact];
@@ -267,26 +268,26 @@ void TableRows::reach(const RecordedRow& row) {
   load.greatest_T = std::max(load.greatest_T, row.T);
 }
 
-double TableRows::noise_of_length(std::size_t k) const {
-  return rounding::of_elimination * (sizes_[k].place + model_.scales.displacement) +
-         law_check::of_tolerance * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
+double TableRowChecker::noise_of_length(std::size_t k) const {
+  return rounding::elimination * (sizes_[k].place + model_.scales.displacement) +
+         law_check::tolerance_factor * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
 }
 
-double TableRows::noise_of_force(std::size_t k) const {
+double TableRowChecker::noise_of_force(std::size_t k) const {
   const Contact& c = model_.contacts[k];
-  return (rounding::of_elimination + law_check::of_tolerance * engine_.limits.rtol) *
+  return (rounding::elimination + law_check::tolerance_factor * engine_.limits.rtol) *
              (peaks_[k].N + peaks_[k].T) +
-         law_check::of_tolerance * engine_.limits.force +
+         law_check::tolerance_factor * engine_.limits.force +
          (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * noise_of_length(k);
 }
 
 /// No row may exceed the extremes, and the larger extreme of a force in magnitude is its peak.
-void TableRows::check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
-                            const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
+void TableRowChecker::check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
+                                  const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
   for (std::size_t k = 0; k < recorded.size(); ++k) {
     if (!recorded[k]) continue;
     const bool held = !model_.contacts[k].normal_spring();
-    const double noise = noise_of_force(k) + (held ? rounding::of_elimination * sizes_[k].force : 0.0);
+    const double noise = noise_of_force(k) + (held ? rounding::elimination * sizes_[k].force : 0.0);
     const auto check = [&](double off, double limit) {
       if (off > limit) found(violation("summary.json", 0.0, k, "load", off, limit, seen::force));
     };
@@ -306,7 +307,8 @@ void TableRows::check_loads(const std::vector<std::optional<RecordedSummary::Loa
   }
 }
 
-void TableRows::check_peaks(const std::vector<std::optional<Peak>>& recorded, const Found& found) const {
+void TableRowChecker::check_peaks(const std::vector<std::optional<Peak>>& recorded,
+                                  const Found& found) const {
   if (engine_.limits.step > 0.0) return;  // extremes only at the ends of steps
   for (std::size_t k = 0; k < recorded.size(); ++k) {
     if (!recorded[k]) continue;

@@ -33,12 +33,12 @@ struct RunSpan {
   double reached = 0.0;               ///< as recorded; for a run that has not ended, the last instant
 };
 
-class TableSpan {
+class TableRowOrder {
  public:
   using Found = std::function<void(Violation)>;
 
   /// All arguments must outlive the object.
-  TableSpan(const Model& model, const RunSpan& run, const Found& found)
+  TableRowOrder(const Model& model, const RunSpan& run, const Found& found)
       : model_(model), run_(run), found_(found) {}
 
   /// Checks the next row of contacts.csv; at its end, completeness.
@@ -51,7 +51,7 @@ class TableSpan {
  private:
   void misplaced(const char* file, double t, std::size_t contact);
   [[nodiscard]] static bool same(double a, double b);
-  [[nodiscard]] bool comes_to_its_end() const { return run_.ended && !run_.stopped; }
+  [[nodiscard]] bool is_complete_run() const { return run_.ended && !run_.stopped; }
 
   const Model& model_;
   const RunSpan& run_;
@@ -61,13 +61,13 @@ class TableSpan {
   std::optional<RecordedRow> last_;  // last row of a contact's block
 };
 
-class TableRows {
+class TableRowChecker {
  public:
   using Found = std::function<void(Violation)>;
 
   /// All arguments must outlive the object. stopped: the run ended before t_end, by itself.
-  TableRows(const Model& model, const run::CheckedEngine& engine, const law_check::LawChecker& witness,
-            bool stopped);
+  TableRowChecker(const Model& model, const run::CheckedEngine& engine, const law_check::LawChecker& witness,
+                  bool stopped);
   /// To be called in the order of time.
   void instant(const InstantRow& row, const law_check::InstantRecord& record);
   /// Check all rows of contacts.csv, of motion.csv, and their completeness; return the number of rows. Errors:
@@ -89,15 +89,15 @@ class TableRows {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
   struct Order {  // position in a table
-    void (TableSpan::*row)(const RecordedRow&);
-    void (TableSpan::*end)(const RecordedRowReader&) const;
+    void (TableRowOrder::*row)(const RecordedRow&);
+    void (TableRowOrder::*end)(const RecordedRowReader&) const;
   };
   long read(const std::filesystem::path& file, const char* name, const Order& order, const RunSpan& run,
             const Found& found);
   [[nodiscard]] std::vector<ContactState> states_at(std::size_t contact, double t) const;
   void check(const RecordedRow& row, const RecordedRowReader& reader, const char* file, const Found& found);
-  [[nodiscard]] std::vector<Violation> broken_by(const RecordedRow& row, const ContactState& state,
-                                                 const char* file) const;
+  [[nodiscard]] std::vector<Violation> violations_of(const RecordedRow& row, const ContactState& state,
+                                                     const char* file) const;
   void check_forces(const RecordedRow& row, const ContactState& state, const char* file,
                     const Found& found) const;
   void check_slip(const RecordedRow& row, const char* file, double of_force, const Found& found) const;
@@ -108,7 +108,7 @@ class TableRows {
 
   const Model& model_;
   const run::CheckedEngine& engine_;
-  const law_check::LawChecker& witness_;
+  const law_check::LawChecker& law_checker_;
   bool stopped_;
   std::vector<States> states_;
   std::vector<Size> sizes_;

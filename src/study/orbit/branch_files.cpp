@@ -15,7 +15,7 @@
 #include "result/summary_parts.hpp"
 #include "result/table.hpp"
 #include "scene/resolved_scene.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 #include "study/orbit/orbit_files.hpp"
 
 namespace signorini::orbit_study {
@@ -88,7 +88,7 @@ fs::path mark_folder(const fs::path& directory) {
 scene::ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& options) {
   scene::ResolvedKeys keys = scene::resolved_keys(orbit::branch_reader(read, options.path, options.from)({}));
   const auto given = [](const std::optional<double>& value) {
-    return value ? base::shortest(*value) : "none";
+    return value ? base::format_number(*value) : "none";
   };
   keys["--times"] = std::to_string(options.orbit.times);
   keys["--period"] = given(options.orbit.period);
@@ -96,7 +96,7 @@ scene::ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& optio
   return keys;
 }
 
-base::Json mark_json(const SceneReader& read, const BranchOptions& options, const BranchMark& mark) {
+base::Json mark_json(const SceneReader& read, const BranchOptions& options, const BranchCheckpoint& mark) {
   return {{"path", options.path},
           {"from", options.from},
           {"to", options.to},
@@ -125,7 +125,7 @@ void check_owner(const fs::path& directory, const base::Json& kept, const SceneR
 }  // namespace
 
 void write_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options,
-                const BranchMark& mark) {
+                const BranchCheckpoint& mark) {
   const SceneReader there = orbit::branch_reader(read, options.path, mark.parameter);
   const fs::path last = directory / "last", next = directory / "last.next",
                  before = directory / "last.before";
@@ -147,9 +147,9 @@ void remove_mark(const fs::path& directory) {
   for (const char* name : {"last", "last.before", "last.next"}) fs::remove_all(directory / name, error);
 }
 
-BranchMark read_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options) {
+BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options) {
   const fs::path last = mark_folder(directory);
-  BranchMark mark;
+  BranchCheckpoint mark;
   try {
     std::ifstream branch_stream(directory / "branch.json", std::ios::binary);
     if (base::parse_json(branch_stream).value("complete", false))
@@ -206,7 +206,7 @@ std::string branch_json(const BranchOptions& options, const Units& units, const 
 
 namespace {
 
-constexpr std::size_t most_outputs = 6;
+constexpr std::size_t max_outputs = 6;
 constexpr const char* low_colour = "#d95f02";
 constexpr const char* high_colour = "#1f77b4";
 
@@ -335,7 +335,7 @@ std::string bands(const Branch& branch) {
       s += fmt::format(
           "set object {} rectangle from first {},graph 0 to first {},graph 1 behind fillstyle solid noborder "
           "fillcolor '#f0f0f0'\n",
-          object++, base::shortest(std::min(from, to)), base::shortest(std::max(from, to)));
+          object++, base::format_number(std::min(from, to)), base::format_number(std::max(from, to)));
     i = j + 1;
   }
   return s;
@@ -365,12 +365,12 @@ bool is_picture_of_branch(const std::filesystem::path& file) { return file.stem(
 
 result::PictureFiles branch_pictures(const std::string& title, const Units& units,
                                      const BranchOptions& options, const std::vector<std::string>& outputs,
-                                     const Branch& branch, const result::PictureLook& look) {
+                                     const Branch& branch, const result::PictureStyle& look) {
   result::PictureFiles files(is_picture_of_branch);
   if (branch.points.size() < 2) return files;
-  const result::PlottedRun run = result::unreported_run(title, units, look);
+  const result::PlottedRun run = result::empty_plotted_run(title, units, look);
   BranchTable table;
-  const std::size_t shown = std::min(outputs.size(), most_outputs);
+  const std::size_t shown = std::min(outputs.size(), max_outputs);
   for (std::size_t i = 0; i < shown; ++i) {
     table.column(fmt::format("low {}", i), [i](const BranchPoint& p) { return p.minima[i]; });
     table.column(fmt::format("high {}", i), [i](const BranchPoint& p) { return p.maxima[i]; });

@@ -34,13 +34,13 @@ class BranchWriter {
 
 /// DIR/last. Errors: FileError.
 void write_mark(const std::filesystem::path& directory, const SceneReader& read, const BranchOptions& options,
-                const BranchMark& mark);
+                const BranchCheckpoint& mark);
 /// Removes the mark of an earlier branch.
 void remove_mark(const std::filesystem::path& directory);
 /// The mark of a branch that ended early, or was killed. Errors: FileError; UsageError if the branch is complete, or a
 /// different one.
-[[nodiscard]] BranchMark read_mark(const std::filesystem::path& directory, const SceneReader& read,
-                                   const BranchOptions& options);
+[[nodiscard]] BranchCheckpoint read_mark(const std::filesystem::path& directory, const SceneReader& read,
+                                         const BranchOptions& options);
 
 [[nodiscard]] std::string branch_json(const BranchOptions& options, const Units& units, const Branch& branch);
 
@@ -56,7 +56,7 @@ void remove_mark(const std::filesystem::path& directory);
                                                    const BranchOptions& options,
                                                    const std::vector<std::string>& outputs,
                                                    const Branch& branch,
-                                                   const result::PictureLook& look = {});
+                                                   const result::PictureStyle& look = {});
 
 [[nodiscard]] bool is_picture_of_branch(const std::filesystem::path& file);
 

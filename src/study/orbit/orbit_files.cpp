@@ -126,7 +126,7 @@ Scene scene_beginning_in(Scene scene, const fs::path& directory) {
     text += line + "\n";
     if (line == "[run]")
       text += fmt::format("t_end = {}\noutput_dt = {}\ninitial = {{ run = {} }}\n",
-                          base::shortest(scene.run.t_end), base::shortest(*scene.run.output_dt),
+                          base::format_number(scene.run.t_end), base::format_number(*scene.run.output_dt),
                           quoted(fs::absolute(directory / "start").lexically_normal()));
   }
   scene.resolved = std::move(text);
@@ -147,7 +147,7 @@ void write_orbit(const fs::path& directory, const Scene& scene, const Model& mod
 
 namespace {
 
-constexpr std::size_t most_phase_plots = 3;
+constexpr std::size_t max_phase_plots = 3;
 constexpr const char* phase_plot_colours[] = {"#1f77b4", "#d95f02", "#1b9e77"};
 
 /// Columns of history.csv for one degree of freedom.
@@ -185,12 +185,12 @@ std::vector<PhasePlot> greatest_phase_plots(const std::filesystem::path& directo
     }
   std::stable_sort(list.begin(), list.end(),
                    [](const PhasePlot& a, const PhasePlot& b) { return a.range() > b.range(); });
-  if (list.size() > most_phase_plots) list.resize(most_phase_plots);
+  if (list.size() > max_phase_plots) list.resize(max_phase_plots);
   return list;
 }
 
 result::Picture phase_picture(const std::vector<PhasePlot>& portraits, const Units& units,
-                              const result::PictureLook& look) {
+                              const result::PictureStyle& look) {
   result::Picture picture{
       "phase", "Velocity over displacement, one period",
       result::canvas_of(look, 120.0 + 420.0 * static_cast<double>(portraits.size()), false), false};
@@ -219,7 +219,7 @@ std::vector<std::complex<double>> unit_circle() {
   return list;
 }
 
-result::Picture multiplier_picture(const Orbit& orbit, const result::PictureLook& look) {
+result::Picture multiplier_picture(const Orbit& orbit, const result::PictureStyle& look) {
   const double greatest =
       std::max(1.0, orbit.multipliers.empty() ? 0.0 : std::abs(orbit.multipliers.front()));
   result::Picture picture{"multipliers", "Floquet multipliers and the unit circle",
@@ -243,9 +243,10 @@ bool is_picture_of_orbit(const std::filesystem::path& file) {
 }
 
 result::PictureFiles orbit_pictures(const std::filesystem::path& directory, const std::string& title,
-                                    const Units& units, const Orbit& orbit, const result::PictureLook& look) {
+                                    const Units& units, const Orbit& orbit,
+                                    const result::PictureStyle& look) {
   result::PictureFiles files(is_picture_of_orbit);
-  const result::PlottedRun run = result::unreported_run(title, units, look);
+  const result::PlottedRun run = result::empty_plotted_run(title, units, look);
   if (!orbit.multipliers.empty()) {
     using Row = std::complex<double>;
     const result::CsvTable<Row> table = {{"real", [](const Row& mu) { return mu.real(); }},

@@ -29,7 +29,7 @@ void write_orbit(const std::filesystem::path& directory, const Scene& scene, con
 /// directory: contains the run of a period. Errors: FileError.
 [[nodiscard]] result::PictureFiles orbit_pictures(const std::filesystem::path& directory,
                                                   const std::string& title, const Units& units,
-                                                  const Orbit& orbit, const result::PictureLook& look = {});
+                                                  const Orbit& orbit, const result::PictureStyle& look = {});
 
 [[nodiscard]] bool is_picture_of_orbit(const std::filesystem::path& file);
 

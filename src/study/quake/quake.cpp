@@ -106,7 +106,7 @@ void come_to_rest(std::vector<double>& a, double dt) {
 /// not converge, since a peak of the motion may move; the best iterate is kept.
 void match(Waves& waves, const QuakeSpec& spec) {
   constexpr int turns = 20, periods = 120;
-  const double low = std::log(0.6 * least_matched), high = std::log(2.0 * greatest_matched);
+  const double low = std::log(0.6 * min_matched_period), high = std::log(2.0 * max_matched_period);
   std::vector<double> best = waves.amplitudes;
   double least_off = std::numeric_limits<double>::infinity();
   for (int turn = 0; turn <= turns; ++turn) {
@@ -117,7 +117,7 @@ void match(Waves& waves, const QuakeSpec& spec) {
     for (int i = 0; i < periods; ++i) {
       const double T = std::exp(low + (high - low) * i / (periods - 1));
       quotient.push_back(spec.target(T) / pseudo_acceleration(a, spec.dt, T, spectrum_damping));
-      if (T >= least_matched && T <= greatest_matched)
+      if (T >= min_matched_period && T <= max_matched_period)
         off = std::max(off, std::abs(std::log(quotient.back())));
     }
     if (off < least_off) {

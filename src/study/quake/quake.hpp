@@ -28,7 +28,7 @@ struct QuakeSpec {
 };
 
 /// Range of periods over which a spectrum is matched and reported.
-inline constexpr double least_matched = 0.05, greatest_matched = 2.0;  // s
+inline constexpr double min_matched_period = 0.05, max_matched_period = 2.0;  // s
 inline constexpr double spectrum_damping = 0.05;
 
 /// Samples at 0, dt, ..., D, in the unit of pga or target.

@@ -47,17 +47,18 @@ ExcitedModes excited_modes(const Model& structure, const reduce::KeptModes& kept
   std::vector<Vector> answers;
   for (const Contact& contact : structure.contacts) {
     if (!contact.normal_force_given())
-      answers.push_back(flexibility.answer(assembly::full(contact.normal, n)));
-    if (contact.has_friction()) answers.push_back(flexibility.answer(assembly::full(contact.tangent, n)));
+      answers.push_back(flexibility.response(assembly::dense_vector(contact.normal, n)));
+    if (contact.has_friction())
+      answers.push_back(flexibility.response(assembly::dense_vector(contact.tangent, n)));
   }
   for (const Load& load : structure.loads)
-    answers.push_back(flexibility.answer(assembly::full(load.direction, n)));
+    answers.push_back(flexibility.response(assembly::dense_vector(load.direction, n)));
   for (const Vector& state : {structure.u0, structure.v0})
     answers.push_back(state - kept.shapes * (kept.shapes.transpose() * (structure.mass * state)));
   Span span(structure.stiffness);
   for (int term = 0; term < terms; ++term)
     for (Vector& answer : answers) {
-      if (term > 0) answer = flexibility.answer(structure.mass * answer);
+      if (term > 0) answer = flexibility.response(structure.mass * answer);
       span.add(answer);
     }
   const Eigen::MatrixXd h = span.vectors();

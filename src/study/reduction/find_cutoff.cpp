@@ -41,7 +41,7 @@ std::vector<RequestedPlace> requested_places(const Model& full) {
       places.push_back({fmt::format("tangent of contact '{}'", contact.name), vector_of(contact.tangent, n)});
   }
   for (const Column& column : full.columns)
-    if (!column.velocity && column.dof >= 0 && !full.turns(column))
+    if (!column.velocity && column.dof >= 0 && !full.is_rotation(column))
       places.push_back({column.name, form_of(column, full)});
   return places;
 }
@@ -133,21 +133,21 @@ void TruncationError::finish() {
 
 namespace {
 
-constexpr Eigen::Index fewest_modes = 6;  // modes with stiffness in the first trial; chosen value
+constexpr Eigen::Index min_modes = 6;  // modes with stiffness in the first trial; chosen value
 // Radians of the cutoff: at twice the cutoff, an extreme between two samples is 1 % larger.
 constexpr double radians_a_sample = 0.15;
-constexpr double most_growth = 4.0;   // growth of the cutoff from one trial to the next
+constexpr double max_growth = 4.0;    // growth of the cutoff from one trial to the next
 constexpr double least_growth = 2.0;  // so that the next trial adds most of the missing part
-constexpr double most_radians = 1.0;  // per half step, where few instants are compared: a factor of 1.85
+constexpr double max_radians = 1.0;   // per half step, where few instants are compared: a factor of 1.85
 constexpr double nothing_known =
     1.0;  // error of a trial beside one that misses no less: all of the displacement
 constexpr double usual_order = 2.0;             // of what is missed, in the cutoff, until two trials tell
-constexpr int most_failures = 4;                // trials that cannot run, one after the other
-constexpr int most_moves = 8;                   // of a frequency below which modes cannot be counted or found
+constexpr int max_failures = 4;                 // trials that cannot run, one after the other
+constexpr int max_moves = 8;                    // of a frequency below which modes cannot be counted or found
 constexpr double move_by = 1.01;                // factor
 constexpr double raised = 1.5;                  // a frequency below which too few modes lie
-constexpr Eigen::Index fewest_compared = 2048;  // instants at which trials are compared; chosen
-constexpr Eigen::Index most_compared = 1 << 22;  // displacements that a trial keeps for that: 32 MB
+constexpr Eigen::Index min_compared = 2048;     // instants at which trials are compared; chosen
+constexpr Eigen::Index max_compared = 1 << 22;  // displacements that a trial keeps for that: 32 MB
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction.tolerance", why);
@@ -166,7 +166,7 @@ void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
     reduction.dofs.push_back({place.name, "rate of " + place.name, false, false});
   }
   reduction.shapes = forms * reduction.shapes;
-  for (SeenLoad& seen : model.seen_loads) seen.displacements = forms * seen.displacements;
+  for (LoadCorrection& seen : model.load_corrections) seen.displacements = forms * seen.displacements;
   model.ties.reset();
   model.columns.clear();
   model.outputs.clear();
@@ -178,7 +178,7 @@ void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
 /// Forces of contacts and displacements, at equal steps.
 class Watcher final : public Recorder {
  public:
-  /// samples: steps of the run; both numbers are fewest_compared times a power of two.
+  /// samples: steps of the run; both numbers are min_compared times a power of two.
   Watcher(TruncationError& left_out, Eigen::Index places, Eigen::Index samples, Eigen::Index instants,
           const std::function<bool()>& go_on)
       : left_out_(left_out), every_(samples / instants), go_on_(go_on) {
@@ -242,8 +242,8 @@ class SystemMatrices {
       const double last = std::sqrt(all_->squares[kept - 1]);
       return {kept == all() ? 2.0 * last : 0.5 * (last + std::sqrt(all_->squares[kept])), kept};
     }
-    for (int failures = 0; failures < most_moves;) {
-      const int below = modes::modes_below(model.mass, model.stiffness, omega * omega);
+    for (int failures = 0; failures < max_moves;) {
+      const int below = modes::count_modes_below(model.mass, model.stiffness, omega * omega);
       if (below >= least) return {omega, below};
       failures += below < 0;
       omega *= below < 0 ? move_by : raised;
@@ -282,7 +282,7 @@ struct Trial {
 
 /// Number of steps that resolve this frequency.
 Eigen::Index samples_for(double omega, double t_end) {
-  Eigen::Index samples = fewest_compared;
+  Eigen::Index samples = min_compared;
   while (static_cast<double>(samples) < t_end * omega / radians_a_sample) samples *= 2;
   return samples;
 }
@@ -302,7 +302,7 @@ Trial trial(const Scene& scene, const SystemMatrices& structure, const SystemMat
   run.output_dt = step;
   const auto places = static_cast<Eigen::Index>(asked.size());
   Eigen::Index instants = samples;
-  while (instants > fewest_compared && instants * places > most_compared) instants /= 2;
+  while (instants > min_compared && instants * places > max_compared) instants /= 2;
   Watcher watcher(left_out, places, samples, instants, go_on);
   const Report report = simulate(model, run, watcher);
   Trial result;
@@ -331,7 +331,7 @@ double apart(const Trial& a, const Trial& b, double t_end) {
   for (Eigen::Index i = 0; i <= n; ++i)
     most = std::max(most, (a.at.col(i * every_a) - b.at.col(i * every_b)).cwiseAbs().maxCoeff());
   const double half_a_step = a.reported.cutoff_omega * t_end / static_cast<double>(n);
-  return most / std::cos(std::min(half_a_step, most_radians));
+  return most / std::cos(std::min(half_a_step, max_radians));
 }
 
 /// Factor by which the missing part turned out to be underestimated; 1: it was not.
@@ -366,7 +366,7 @@ class Search {
       Trial now = needed ? tried() : Trial{};
       if (now.ended) return scene_;
       if (!now.failure.empty()) {
-        if (cutoff_.kept == all || ++failures_ == most_failures) refuse(scene_, now.failure);
+        if (cutoff_.kept == all || ++failures_ == max_failures) refuse(scene_, now.failure);
         continue;
       }
       failures_ = 0;
@@ -384,13 +384,13 @@ class Search {
   [[nodiscard]] SystemMatrices::Cutoff first() const {
     const bool known = structure_.all() <= reduce::all_modes_up_to;
     const double lowest = structure_.model.omega1 > 0.0 ? structure_.model.omega1 : 1.0 / scene_.run.t_end;
-    return structure_.cutoff_above(known ? 0.0 : lowest, structure_.free() + fewest_modes);
+    return structure_.cutoff_above(known ? 0.0 : lowest, structure_.free() + min_modes);
   }
 
   /// A model may be refused for where its cutoff lies among the modes; it is moved a little then.
   Trial tried() {
     Trial failed;
-    for (int moves = 0; moves < most_failures; ++moves) {
+    for (int moves = 0; moves < max_failures; ++moves) {
       scene_.reduction->cutoff_omega = cutoff_.omega;
       try {
         return trial(scene_, structure_, cutoff_, go_on_);
@@ -422,7 +422,7 @@ class Search {
                          1.0, 6.0);
     }
     const double growth = std::clamp(1.1 * std::pow(estimated() / *scene_.reduction->tolerance, 1.0 / order),
-                                     least_growth, most_growth);
+                                     least_growth, max_growth);
     return structure_.cutoff_above(growth * cutoff_.omega, cutoff_.kept + 1);
   }
 
@@ -430,8 +430,8 @@ class Search {
   Scene found(std::size_t i) {
     ReductionSpec& spec = *scene_.reduction;
     for (std::size_t j = 0; j < trials_.size(); ++j)
-      if (j != i) spec.tried.push_back(trials_[j].reported);
-    spec.tried.push_back(trials_[i].reported);
+      if (j != i) spec.trials.push_back(trials_[j].reported);
+    spec.trials.push_back(trials_[i].reported);
     spec.cutoff_omega = trials_[i].reported.cutoff_omega;
     return std::move(scene_);
   }
@@ -447,7 +447,7 @@ class Search {
 }  // namespace
 
 Scene find_cutoff(Scene scene, const std::function<bool()>& go_on) {
-  if (!scene.reduction || !scene.reduction->tolerance || !scene.reduction->tried.empty()) return scene;
+  if (!scene.reduction || !scene.reduction->tolerance || !scene.reduction->trials.empty()) return scene;
   return Search(std::move(scene), go_on).run();
 }
 

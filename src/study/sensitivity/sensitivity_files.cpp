@@ -92,19 +92,19 @@ std::string landing_text(const Sensitivities& s) {
   return table.text(rows_of(s.landings, s));
 }
 
-const char* kind_of(const Swap& swap) { return swap.vanish ? "vanish" : "swap"; }
+const char* kind_of(const SequenceChange& swap) { return swap.vanish ? "vanish" : "swap"; }
 
 /// Text of sequence.csv.
 std::string sequence_text(const Sensitivities& s) {
-  const result::CsvTable<Swap> table = {
-      {"parameter", [&s](const Swap& w) { return s.parameters[w.parameter].path; }},
-      {"value", [&s](const Swap& w) { return s.parameters[w.parameter].value; }},
-      {"change", &Swap::change},
+  const result::CsvTable<SequenceChange> table = {
+      {"parameter", [&s](const SequenceChange& w) { return s.parameters[w.parameter].path; }},
+      {"value", [&s](const SequenceChange& w) { return s.parameters[w.parameter].value; }},
+      {"change", &SequenceChange::change},
       {"kind", kind_of},
-      {"first", [](const Swap& w) { return w.first + 1; }},
-      {"second", [](const Swap& w) { return w.second + 1; }},
-      {"t", [&s](const Swap& w) { return s.events[w.first].t; }}};
-  return table.text(least_swaps(s));
+      {"first", [](const SequenceChange& w) { return w.first + 1; }},
+      {"second", [](const SequenceChange& w) { return w.second + 1; }},
+      {"t", [&s](const SequenceChange& w) { return s.events[w.first].t; }}};
+  return table.text(smallest_sequence_changes(s));
 }
 
 /// Derivatives of history's columns by the p-th key.
@@ -175,7 +175,7 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
                        {"correction", s.stretches.correction}};
   json["wall_time"] = s.report.wall_time;
   json["parameters"] = base::Json::array();
-  const std::vector<Swap> swaps = least_swaps(s);
+  const std::vector<SequenceChange> swaps = smallest_sequence_changes(s);
   std::optional<Spread> spreads;
   if (!sigmas.empty()) spreads = spread(s, sigmas);
   for (std::size_t p = 0; p < s.parameters.size(); ++p) {
@@ -184,7 +184,7 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
     row["until"] = json_number(parameter.until);
     row["reason"] = parameter.reason;
     row["sequence_changes"] = base::Json::array();
-    for (const Swap& swap : swaps)
+    for (const SequenceChange& swap : swaps)
       if (swap.parameter == p)
         row["sequence_changes"].push_back({{"change", swap.change},
                                            {"events", {swap.first + 1, swap.second + 1}},
@@ -222,7 +222,7 @@ std::string fit_json(const Fit& fit, const Measurements& measured) {
   json["sigma_given"] = measured.has_sigma;
   json["freedom"] = fit.freedom;
   json["probability"] = number_or_null(fit.probability);
-  json["doubts"] = fit.doubts;
+  json["doubts"] = fit.issues;
   json["keys"] = base::Json::array();
   for (const FittedKey& key : fit.keys)
     json["keys"].push_back({{"path", key.path},
@@ -284,7 +284,7 @@ int contact_numbered(Sensitivities& s, const std::string& name) {
 void read_parameters(const fs::path& file, Sensitivities& s, Sigmas& sigmas) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file.string(), "cannot be read" + base::because(errno));
+  if (!stream) throw FileError(file.string(), "cannot be read" + base::system_error_text(errno));
   try {
     const base::Json json = base::parse_json(stream);
     s.title = json.at("title");
@@ -352,7 +352,7 @@ Spread spread(const Sensitivities& s, const Sigmas& sigmas) {
   for (const Response& r : s.responses)
     result.responses.push_back(sigma_of(sigmas, [&](std::size_t p) { return r.rates[p]; }));
   result.reach.assign(sigmas.size(), std::numeric_limits<double>::infinity());
-  for (const Swap& swap : least_swaps(s))
+  for (const SequenceChange& swap : smallest_sequence_changes(s))
     if (sigmas[swap.parameter] > 0.0)
       result.reach[swap.parameter] =
           std::min(result.reach[swap.parameter], std::abs(swap.change) / sigmas[swap.parameter]);

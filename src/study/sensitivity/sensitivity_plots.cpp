@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "result/picture_files.hpp"
 #include "result/table.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 
 namespace signorini::sensitivity_study {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_figures = 6, most_bars = 16, most_time_pictures = 12;
+constexpr std::size_t max_figures = 6, max_bars = 16, max_time_pictures = 12;
 constexpr std::size_t first_events = 24;  // limit for labelled events in a picture of event times; further
                                           // ones are grey
 constexpr const char* contact_colours[] = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
@@ -52,7 +52,7 @@ void sort_bars(std::vector<Bar>& bars) {
              bars.end());
   std::stable_sort(bars.begin(), bars.end(),
                    [](const Bar& a, const Bar& b) { return std::abs(a.length) > std::abs(b.length); });
-  if (bars.size() > most_bars) bars.resize(most_bars);
+  if (bars.size() > max_bars) bars.resize(max_bars);
   std::reverse(bars.begin(), bars.end());
 }
 
@@ -105,7 +105,7 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first)
     sizes.pop_back();
   std::vector<const Response*> list;
-  for (std::size_t i = 0; i < std::min(sizes.size(), most_figures); ++i) list.push_back(sizes[i].second);
+  for (std::size_t i = 0; i < std::min(sizes.size(), max_figures); ++i) list.push_back(sizes[i].second);
   return list;
 }
 
@@ -120,13 +120,13 @@ std::string axis_of(const Sensitivities& s, const Response& r, bool sigmas) {
 void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const result::PlottedRun& run,
                  result::PictureFiles& files) {
   const std::vector<const Response*> figures = moved_figures(s);
-  const double each = 70.0 + 26.0 * static_cast<double>(std::min(s.parameters.size(), most_bars));
+  const double each = 70.0 + 26.0 * static_cast<double>(std::min(s.parameters.size(), max_bars));
   result::Picture picture{"tornado",
                           sigmas.empty()
                               ? "What one per cent more of each key does: blue more, red less"
                               : "What one standard deviation more of each key does: blue more, red less",
                           result::canvas_of(run.look,
-                                            result::room_above + result::room_below - 64.0 +
+                                            result::margin_above + result::margin_below - 64.0 +
                                                 (each + 64.0) * static_cast<double>(figures.size()),
                                             false, true),
                           false,
@@ -161,7 +161,7 @@ void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const result::Plo
 double span_of(const Sensitivities& s, std::size_t p) {
   const double value = std::abs(s.parameters[p].value);
   double least = 0.0;
-  for (const Swap& swap : least_swaps(s))
+  for (const SequenceChange& swap : smallest_sequence_changes(s))
     if (swap.parameter == p) least = std::max(least, std::abs(swap.change));
   const double most = widest * (value > 0.0 ? value : 1.0);
   return least > 0.0 ? std::min(3.0 * least, most) : most;
@@ -203,12 +203,12 @@ void add_times(const Sensitivities& s, std::size_t p, const result::PlottedRun& 
   result::Panel panel{"t [" + s.units.time + "]", {}};
   panel.axes = "set xlabel " + result::quoted(study::key_with_unit(parameter.path, s.units)) + "\n" +
                result::range_of('x', parameter.value - span, parameter.value + span) + "set yrange [*:*]\n" +
-               result::upright(1, parameter.value, "dashtype 3 linecolor '#808080'");
+               result::vertical_line(1, parameter.value, "dashtype 3 linecolor '#808080'");
   std::size_t arrow = 2;
   const std::string meets = fmt::format("dashtype 2 linecolor '{}'", falling);
-  for (const Swap& swap : least_swaps(s))
+  for (const SequenceChange& swap : smallest_sequence_changes(s))
     if (swap.parameter == p && std::max(swap.first, swap.second) < first_events)
-      panel.axes += result::upright(arrow++, parameter.value + swap.change, meets);
+      panel.axes += result::vertical_line(arrow++, parameter.value + swap.change, meets);
   const std::size_t count = std::min<std::size_t>(s.contacts.size(), std::size(contact_colours));
   for (std::size_t c = 0; c <= count; ++c)
     panel.curves.push_back(
@@ -231,7 +231,7 @@ void add_times(const Sensitivities& s, std::size_t p, const result::PlottedRun& 
 
 void add_sequence(const Sensitivities& s, const result::PlottedRun& run, result::PictureFiles& files) {
   std::vector<Bar> bars;
-  for (const Swap& swap : least_swaps(s)) {
+  for (const SequenceChange& swap : smallest_sequence_changes(s)) {
     const Parameter& parameter = s.parameters[swap.parameter];
     if (parameter.value == 0.0) continue;
     bars.push_back({parameter.path + (swap.change > 0.0 ? " up" : " down"),
@@ -253,7 +253,7 @@ void add_sequence(const Sensitivities& s, const result::PlottedRun& run, result:
                std::string("set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\n") +
                "set xrange [*:*]\n" + bar_tics(bars);
   const double height =
-      result::room_above + result::room_below + 38.0 + 30.0 * static_cast<double>(bars.size());
+      result::margin_above + result::margin_below + 38.0 + 30.0 * static_cast<double>(bars.size());
   files.add(run, {"sequence",
                   "Least change of each key at which, to first order, two events meet",
                   result::canvas_of(run.look, height, false, true),
@@ -264,13 +264,13 @@ void add_sequence(const Sensitivities& s, const result::PlottedRun& run, result:
 }  // namespace
 
 result::PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
-                                          const result::PictureLook& look) {
+                                          const result::PictureStyle& look) {
   result::PictureFiles files(is_picture_of_sensitivities);
-  const result::PlottedRun run = result::unreported_run(s.title, s.units, look);
+  const result::PlottedRun run = result::empty_plotted_run(s.title, s.units, look);
   if (s.events.empty() && s.responses.empty()) return files;
   add_tornado(s, sigmas, run, files);
   if (!s.events.empty())
-    for (std::size_t p = 0; p < std::min(s.parameters.size(), most_time_pictures); ++p)
+    for (std::size_t p = 0; p < std::min(s.parameters.size(), max_time_pictures); ++p)
       add_times(s, p, run, files);
   add_sequence(s, run, files);
   return files;

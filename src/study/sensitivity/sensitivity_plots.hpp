@@ -16,7 +16,7 @@ namespace signorini::sensitivity_study {
 
 /// Empty without events and figures.
 [[nodiscard]] result::PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
-                                                        const result::PictureLook& look = {});
+                                                        const result::PictureStyle& look = {});
 
 /// Removes the files of these pictures and scripts from DIR/plots. Errors: FileError.
 void remove_sensitivity_plots(const std::filesystem::path& directory);

@@ -14,7 +14,7 @@
 #include "result/summary_parts.hpp"
 #include "result/table.hpp"
 #include "study/compare/limits.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 #include "study/speed/pareto_front.hpp"
 
 namespace signorini::speed {
@@ -57,12 +57,12 @@ std::string heading(const std::string& quantity, const std::string& unit) {
 
 std::string sequence(const WorkRow& row) {
   if (!row.events_of_reference) return "";
-  if (row.split.empty() && static_cast<long>(row.alike) == *row.events_of_reference)
-    return fmt::format("all {}", row.alike);
-  const long more = *row.events - static_cast<long>(row.alike);
-  if (more > 0 && static_cast<long>(row.alike) == *row.events_of_reference)
-    return fmt::format("{} and {} more", row.alike, more);
-  return fmt::format("{} of {}", row.alike, *row.events_of_reference);
+  if (row.split.empty() && static_cast<long>(row.matched_events) == *row.events_of_reference)
+    return fmt::format("all {}", row.matched_events);
+  const long more = *row.events - static_cast<long>(row.matched_events);
+  if (more > 0 && static_cast<long>(row.matched_events) == *row.events_of_reference)
+    return fmt::format("{} and {} more", row.matched_events, more);
+  return fmt::format("{} of {}", row.matched_events, *row.events_of_reference);
 }
 
 ErrorRange range_of(const WorkReport& report, const std::string& quantity) {
@@ -90,7 +90,7 @@ std::string study_csv(const WorkReport& report) {
       {"t", &R::t},
       {"events", &R::events},
       {"events_of_reference", &R::events_of_reference},
-      {"alike", [](const R& r) { return r.t ? std::optional(r.alike) : std::nullopt; }},
+      {"alike", [](const R& r) { return r.t ? std::optional(r.matched_events) : std::nullopt; }},
       {"complete", [](const R& r) { return r.complete() ? "true" : "false"; }},
       {"t_split", &R::t_split},
       {"split", &R::split}};
@@ -129,7 +129,7 @@ base::Json row_json(const WorkRow& row) {
                      {"t", study::json_of(row.t)},
                      {"reference", row.reference},
                      {"events", study::json_of(row.events)},
-                     {"alike", row.alike},
+                     {"alike", row.matched_events},
                      {"complete", row.complete()}};
   json["split"] = row.t_split ? base::Json{{"t", *row.t_split}, {"how", row.split}} : base::Json();
   json["errors"] = std::move(errors);
@@ -167,7 +167,7 @@ std::string markdown_table(const WorkTable& table) {
 
 std::string study_markdown(const WorkReport& report, bool picture) {
   std::string text = "# " + plain_markdown(report.title.empty() ? report.scene : report.title) + "\n\n";
-  text += fmt::format("`{}`: {}.\n{}.\n\n", report.scene, work_circumstances(report), work_reference(report));
+  text += fmt::format("`{}`: {}.\n{}.\n\n", report.scene, work_conditions(report), work_reference(report));
   for (const std::string& sentence : work_conclusions(report)) text += plain_markdown(sentence) + "\n";
   text += "\n" + markdown_table(work_table(report)) + "\n";
   if (picture) text += "![error and time](plots/work-precision.png)\n\n";
@@ -228,11 +228,11 @@ std::vector<std::string> work_failures(const WorkReport& report) {
   return list;
 }
 
-std::string work_circumstances(const WorkReport& report) {
+std::string work_conditions(const WorkReport& report) {
   return fmt::format("{}, {}; {}, {}; Signorini {}, SUNDIALS {}, {}; least of {} without output",
-                     base::count_of(report.unknowns, "dof"), base::count_of(report.contacts, "contact"),
-                     report.machine.processor, base::count_of(report.machine.cores, "core"), version,
-                     sundials_version, report.machine.compiler, base::count_of(report.repeats, "repeat"));
+                     base::count_text(report.unknowns, "dof"), base::count_text(report.contacts, "contact"),
+                     report.machine.processor, base::count_text(report.machine.cores, "core"), version,
+                     sundials_version, report.machine.compiler, base::count_text(report.repeats, "repeat"));
 }
 
 std::string work_reference(const WorkReport& report) {
@@ -358,7 +358,7 @@ result::Panel panel_of(std::size_t quantity, const Axis& axis, const std::vector
       "\nset yrange [*:*]\nset xrange [*:*]\nset offsets graph 0.02,graph 0.02,graph 0.06,graph 0.06\n";
   panel.own_axis = true;
   const std::string x = fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN",
-                                    table.number(drawn[quantity]), base::shortest(axis.floor));
+                                    table.number(drawn[quantity]), base::format_number(axis.floor));
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::string data = fmt::format("'line-{}.csv' skip 1", k + 1);
     const auto where = [&](int complete) {
@@ -391,13 +391,13 @@ std::vector<fs::path> write_work_plots(const fs::path& directory, const WorkRepo
   const std::vector<Line> lines = lines_of(report);
   result::PictureFiles files(is_picture_of_work);
   result::PlottedRun run =
-      result::unreported_run(report.title.empty() ? report.scene : report.title, report.units);
+      result::empty_plotted_run(report.title.empty() ? report.scene : report.title, report.units);
   std::vector<std::string> labels;
   for (const Line& line : lines) {
     labels.push_back(line.label);
     files.add_table(fmt::format("line-{}", labels.size()), line_table().text(line.rows));
   }
-  run.legend = result::room_for(labels);
+  run.legend = result::legend_width(labels);
   result::Picture picture{"work-precision",
                           "Time of a run over its error, reference " + report.reference +
                               "; hollow: not all events, or not to the end",

@@ -29,7 +29,7 @@ struct WorkTable {
 [[nodiscard]] std::string work_reference(const WorkReport& report);
 
 /// "51 dofs, 2 contacts; AMD ..., 2 cores; ..."
-[[nodiscard]] std::string work_circumstances(const WorkReport& report);
+[[nodiscard]] std::string work_conditions(const WorkReport& report);
 
 [[nodiscard]] std::string work_json(const WorkReport& report);
 

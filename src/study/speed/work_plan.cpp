@@ -32,7 +32,7 @@ double positive(const std::string& option, const std::string& text) {
 
 }  // namespace
 
-double tidy(double value) { return *base::parse_number(fmt::format("{:.12g}", value)); }
+double rounded_decimal(double value) { return *base::parse_number(fmt::format("{:.12g}", value)); }
 
 std::vector<double> parse_decades(const std::string& option, const std::string& text) {
   const std::string given = option + " " + text;
@@ -50,7 +50,7 @@ std::vector<double> parse_decades(const std::string& option, const std::string& 
     if (!(count <= most_values))
       throw UsageError(fmt::format("{}: makes {:.0f} values, expected at most 100", given, count));
     for (double k = 0.0; k < count; ++k)
-      values.push_back(tidy(start * std::pow(factor, stop < start ? -k : k)));
+      values.push_back(rounded_decimal(start * std::pow(factor, stop < start ? -k : k)));
   } else {
     throw UsageError(
         fmt::format("{}: found {} numbers between colons, expected start:stop or start:stop:factor", given,
@@ -58,7 +58,7 @@ std::vector<double> parse_decades(const std::string& option, const std::string& 
   }
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::count(values.begin(), values.end(), values[i]) > 1)
-      throw UsageError(fmt::format("{}: {} stands twice", given, base::shortest(values[i])));
+      throw UsageError(fmt::format("{}: {} stands twice", given, base::format_number(values[i])));
   return values;
 }
 
@@ -78,13 +78,14 @@ std::string joined(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string accuracy_key(const std::string& engine) {
-  const std::optional<Engine> known = engine_called(engine);
-  return known ? std::string(signorini::accuracy_key(name_of(*known).accuracy)) : "";
+  const std::optional<Engine> known = find_engine(engine);
+  return known ? std::string(signorini::accuracy_key(engine_info(*known).accuracy)) : "";
 }
 
 std::string WorkPoint::setting() const {
   const std::string key = accuracy_key(engine);
-  const std::string own = accuracy ? key.substr(key.find('.') + 1) + "=" + base::shortest(*accuracy) : "";
+  const std::string own =
+      accuracy ? key.substr(key.find('.') + 1) + "=" + base::format_number(*accuracy) : "";
   return joined(own, text_of_varied(*this));
 }
 
@@ -101,7 +102,7 @@ std::string WorkPoint::label() const {
 
 std::vector<Override> WorkPoint::changes() const {
   std::vector<Override> list = {{"run.engine", engine}};
-  if (accuracy) list.push_back({accuracy_key(engine), base::shortest(*accuracy)});
+  if (accuracy) list.push_back({accuracy_key(engine), base::format_number(*accuracy)});
   list.insert(list.end(), varied.begin(), varied.end());
   return list;
 }
@@ -121,7 +122,7 @@ std::vector<WorkPoint> work_points(const WorkRanges& ranges) {
 
 std::vector<double> usual_steps(double t_end) {
   const double first = std::pow(10.0, std::floor(std::log10(t_end / 50.0) + 1e-9));
-  return parse_decades("--dt", base::shortest(first) + ":" + base::shortest(first * 1e-4));
+  return parse_decades("--dt", base::format_number(first) + ":" + base::format_number(first * 1e-4));
 }
 
 }  // namespace signorini::speed

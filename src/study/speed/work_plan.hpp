@@ -22,7 +22,7 @@ namespace signorini::speed {
 [[nodiscard]] std::vector<double> parse_decades(const std::string& option, const std::string& text);
 
 /// The value as written by hand: 1e-05, not 1.0000000000000003e-05.
-[[nodiscard]] double tidy(double value);
+[[nodiscard]] double rounded_decimal(double value);
 
 /// The accuracy key of the engine with this name: "run.rtol", "run.dt", or "".
 [[nodiscard]] std::string accuracy_key(const std::string& engine);

@@ -20,7 +20,7 @@ std::optional<double> WorkRow::wall_time() const {
 void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
                      const compare::Comparison& comparison) {
   const auto& split = comparison.alignment.split;
-  row.alike = comparison.alignment.pairs.size();
+  row.matched_events = comparison.alignment.pairs.size();
   row.split = split ? compare::split_text(reference, run, *split) : "";
   row.t_split = split ? std::optional(split->t) : std::nullopt;
   row.errors.clear();
@@ -30,7 +30,7 @@ void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const 
     const bool part = split && !times;
     if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
     if (part && comparison.alignment.pairs.empty()) continue;  // before the first event: insignificant
-    const compare::Greatest& greatest = part ? deviation.until_split : deviation.whole;
+    const compare::MaxDifference& greatest = part ? deviation.until_split : deviation.whole;
     row.errors.push_back(
         {quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where, deviation.whole.value});
   }
@@ -73,12 +73,12 @@ WorkOutcome record_run(const study::PreparedRun& run, const std::filesystem::pat
   result::RunDirectory recorder(directory, run.scene, run.model,
                                 {.command_line = limits.command_line, .pictures = false});
   Deadline deadline(limits, &recorder);
-  return deadline.outcome(run.keep(recorder, deadline).certified.report);
+  return deadline.outcome(run.run_to_disk(recorder, deadline).certified.report);
 }
 
 WorkOutcome time_run(const study::PreparedRun& run, const WorkLimits& limits) {
   Deadline deadline(limits);
-  return deadline.outcome(run.ends(deadline));
+  return deadline.outcome(run.run_in_memory(deadline));
 }
 
 }  // namespace signorini::speed

@@ -35,7 +35,7 @@ struct WorkRow {
   std::optional<double> t;                          ///< time reached
   bool whole = false;                               ///< true: reached the end of the reference
   std::optional<long> events, events_of_reference;  ///< within the compared time
-  std::size_t alike = 0;                            ///< number of events with a partner in the reference
+  std::size_t matched_events = 0;                   ///< number of events with a partner in the reference
   std::string split;                                ///< first difference of the sequences; empty if they are
                                                     ///< equal
   std::optional<double> t_split;                    ///< time of the first difference

@@ -48,7 +48,7 @@ std::vector<Override> capture_velocities(const Scene& scene, const Model& model)
   const double velocity = engine::tolerance_of(model, scene.run).capture_velocity();
   for (const Contact& contact : model.contacts)
     if (contact.takes_impulses() && !contact.capture_velocity)
-      list.push_back({"contacts." + contact.name + ".capture_velocity", base::shortest(velocity)});
+      list.push_back({"contacts." + contact.name + ".capture_velocity", base::format_number(velocity)});
   return list;
 }
 
@@ -107,24 +107,25 @@ WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
   const auto [scene, model] = study::prepare_run(request_.scene, request_.settings(""));
   reduction_ = scene.reduction;
   fingerprint_ = base::fingerprint_of(scene.resolved);
-  held_ = capture_velocities(scene, model);
+  capture_velocities_ = capture_velocities(scene, model);
   report_.scene = request_.scene;
   report_.title = scene.title;
   report_.units = scene.units;
-  report_.machine = base::this_machine();
+  report_.machine = base::host_info();
   report_.t_end = report_.compared_until = scene.run.t_end;
   report_.repeats = request_.repeats;
   report_.unknowns = model.dofs.size();
   report_.contacts = model.contacts.size();
-  if (!held_.empty())
+  if (!capture_velocities_.empty())
     report_.notes.push_back(fmt::format("rigid contacts without a capture_velocity have {} {}/{} in all runs",
-                                        held_.front().value, scene.units.length, scene.units.time));
+                                        capture_velocities_.front().value, scene.units.length,
+                                        scene.units.time));
 }
 
 study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   if (base::fingerprint_of(read_scene(request_.scene, request_.settings("")).resolved) != fingerprint_)
     throw FileError(request_.scene, "has changed while the study ran; its runs cannot be compared");
-  std::vector<Override> changes = held_;
+  std::vector<Override> changes = capture_velocities_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
   for (Override& change : changes)
@@ -136,7 +137,7 @@ study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
 double WorkStudy::seconds_of(const WorkPoint& point) const {
   if (recorded_.contains(point.name())) return 0.0;
   const study::PreparedRun run = prepare(point);
-  return run::expected(run.model, run.scene.run).effort.seconds;
+  return run::expected_cost(run.model, run.scene.run).estimate.seconds;
 }
 
 /// Records each run once. Errors: SceneError, UsageError for a varied key, FileError.
@@ -179,7 +180,7 @@ bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
 }
 
 /// Measures the error of `exact` itself: the same run with all masses changed in their last digits.
-void WorkStudy::doubt_reference(const WorkPoint& point) {
+void WorkStudy::measure_reference_error(const WorkPoint& point) {
   const fs::path folder = request_.directory / "runs" / "again";
   study::PreparedRun run = prepare(point);
   run.model.mass *= 1.0 + last_digits;
@@ -187,17 +188,18 @@ void WorkStudy::doubt_reference(const WorkPoint& point) {
   limits.seconds *= patience;
   const WorkOutcome outcome = record_run(run, folder, limits);
   report_.interrupted = report_.interrupted || outcome.interrupted;
-  again_ = compare::read_compared_run(folder, point.name() + " again");
-  doubted_ = true;
+  perturbed_reference_ = compare::read_compared_run(folder, point.name() + " again");
+  reference_error_measured_ = true;
   report_.notes.push_back(fmt::format(
       "the reference is known to what a change of all masses by {:g} does; smaller errors are not told apart",
       last_digits));
   double& until = report_.compared_until;
   const double whole = until;
   double decided = whole;
-  while (const auto split = compare::align(reference_.events, again_.events, {until, 0.0}).split) {
+  while (const auto split =
+             compare::align(reference_.events, perturbed_reference_.events, {until, 0.0}).split) {
     decided = split->t;
-    until = quiet_before(split->t, reference_.events, again_.events);
+    until = quiet_before(split->t, reference_.events, perturbed_reference_.events);
   }
   if (until < whole)
     report_.notes.push_back(
@@ -221,11 +223,11 @@ std::optional<WorkPoint> WorkStudy::series_of_exact() {
     const study::PreparedRun run = prepare(series);
     if (!run::choose_flow(run.model, run.scene.run).modal) return std::nullopt;
     series.varied = {{flow_key, "taylor"}};
-    const double seconds = run::expected(run.model, run.scene.run).effort.by_series;
+    const double seconds = run::expected_cost(run.model, run.scene.run).estimate.by_series;
     if (seconds <= request_.limits.seconds) return series;
     report_.notes.push_back(
         fmt::format("{} is left out: it would take {} s, more than the time limit of {:g} s", series.name(),
-                    run::about_seconds(seconds), request_.limits.seconds));
+                    run::seconds_text(seconds), request_.limits.seconds));
   } catch (const SceneError&) {  // reported when `exact` itself runs
   }
   return std::nullopt;
@@ -250,7 +252,7 @@ bool WorkStudy::choose_reference() {
   const double least = rtol.empty() ? tightest_rtol : *std::min_element(rtol.begin(), rtol.end());
   // A tolerance below the rounding of the scene's forces cannot be met; the next decades can.
   for (int tries = 0; tries < 3 && !report_.interrupted; ++tries) {
-    tight.accuracy = tidy(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
+    tight.accuracy = rounded_decimal(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
     if (!try_reference(tight, why_not)) continue;
     report_.notes.push_back(fmt::format(
         "the reference is the tightest run, {}: errors near its own tolerance say little", tight.name()));
@@ -263,8 +265,8 @@ bool WorkStudy::choose_reference() {
 void WorkStudy::take_ranges() {
   compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
-  if (doubted_) {
-    const compare::Comparison doubt = compare::compare_runs(reference_, again_, settings);
+  if (reference_error_measured_) {
+    const compare::Comparison doubt = compare::compare_runs(reference_, perturbed_reference_, settings);
     for (const compare::Quantity& quantity : compare::quantities(doubt, report_.units))
       if (quantity.deviation->count > 0) report_.range[quantity.name].floor = quantity.deviation->whole.value;
   }
@@ -292,7 +294,7 @@ void WorkStudy::find_reference() {
   WorkPoint exact;
   exact.engine = to_string(references[0]);
   const WorkPoint& reference = series_.value_or(exact);
-  if (report_.reference == reference.name() && !report_.interrupted) doubt_reference(reference);
+  if (report_.reference == reference.name() && !report_.interrupted) measure_reference_error(reference);
   take_ranges();
 }
 
@@ -302,10 +304,10 @@ void WorkStudy::compare(WorkRow& row, const compare::ComparedRun& run) const {
   row.events_of_reference = changes_until(reference_.events, report_.compared_until);
   row.reference = row.point.name() == report_.reference;
   row.whole = run.figures.t >= std::min(report_.compared_until, reference_.figures.t);
-  if (row.reference && !doubted_) return;  // no error relative to itself
+  if (row.reference && !reference_error_measured_) return;  // no error relative to itself
   compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
-  const compare::ComparedRun& other = row.reference ? again_ : run;
+  const compare::ComparedRun& other = row.reference ? perturbed_reference_ : run;
   take_comparison(row, reference_, other, compare::compare_runs(reference_, other, settings));
 }
 
@@ -315,7 +317,7 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
   try {
     if (const double seconds = seconds_of(point); seconds > hopeless * request_.limits.seconds) {
       row.outcome = "too slow";
-      row.reason = fmt::format("not tried: it would take {} s", run::about_seconds(seconds));
+      row.reason = fmt::format("not tried: it would take {} s", run::seconds_text(seconds));
       report_.rows.push_back(std::move(row));
       return report_.rows.back();
     }

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-#include "base/machine.hpp"
+#include "base/host_info.hpp"
 #include "study/speed/pareto_front.hpp"
 #include "study/speed/work_run.hpp"
 
@@ -41,7 +41,7 @@ struct WorkRequest {
 struct WorkReport {
   std::string scene, title;
   Units units;
-  base::Machine machine;
+  base::HostInfo machine;
   double t_end = 0.0;
   std::size_t repeats = 0, unknowns = 0, contacts = 0;
   std::string reference;                    ///< name of the reference's run; empty if there is none
@@ -84,18 +84,19 @@ class WorkStudy {
   bool choose_reference();
   [[nodiscard]] std::optional<WorkPoint> series_of_exact();
   bool try_reference(const WorkPoint& point, std::string& why_not);
-  void doubt_reference(const WorkPoint& point);
+  void measure_reference_error(const WorkPoint& point);
   void take_ranges();
   void compare(WorkRow& row, const compare::ComparedRun& run) const;
 
   WorkRequest request_;
   WorkReport report_;
-  std::string fingerprint_;                 // fingerprint of the scene as first read
-  std::vector<Override> held_;              // capture velocities, the same in all runs
-  std::optional<ReductionSpec> reduction_;  // contains the cutoff of all runs
+  std::string fingerprint_;                   // fingerprint of the scene as first read
+  std::vector<Override> capture_velocities_;  // capture velocities, the same in all runs
+  std::optional<ReductionSpec> reduction_;    // contains the cutoff of all runs
   std::map<std::string, Recorded> recorded_;
-  compare::ComparedRun reference_, again_;  // again_: `exact` with masses changed in their last digits
-  bool doubted_ = false;
+  compare::ComparedRun reference_,
+      perturbed_reference_;  // again_: `exact` with masses changed in their last digits
+  bool reference_error_measured_ = false;
   std::optional<WorkPoint> series_;
 };
 

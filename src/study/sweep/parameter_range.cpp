@@ -84,7 +84,8 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   std::vector<std::string> values;
   for (double k = 0.0; k <= steps; ++k) {
     const double value = stepped(start, step, k, digits);
-    values.push_back(integers ? fmt::format("{:.0f}", value) : base::shortest(value == 0.0 ? 0.0 : value));
+    values.push_back(integers ? fmt::format("{:.0f}", value)
+                              : base::format_number(value == 0.0 ? 0.0 : value));
   }
   return values;
 }
@@ -158,7 +159,7 @@ std::vector<std::size_t> in_step(const std::vector<ParameterRange>& varied, std:
     members.push_back(j);
     if (varied[j].values.size() != varied[i].values.size())
       throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected as many", varied[i].path,
-                                   base::count_of(varied[i].values.size(), "value"), varied[j].path,
+                                   base::count_text(varied[i].values.size(), "value"), varied[j].path,
                                    varied[j].values.size()));
   }
   return members;
@@ -180,7 +181,7 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
     for (std::size_t j = 0; j + 1 < places.size(); ++j)
       for (const std::string& a : places.back())
         for (const std::string& b : places[j])
-          if (scene::lies_in(a, b) || scene::lies_in(b, a))
+          if (scene::is_within_path(a, b) || scene::is_within_path(b, a))
             throw UsageError(fmt::format("--{} {}={}: --{} {} varies {} already", option_of(vary), vary.path,
                                          vary.text, option_of(varied[j]), varied[j].path,
                                          a == b ? "this key" : "what belongs to it"));
@@ -192,14 +193,14 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
     for (const std::string& a : set)
       for (std::size_t j = 0; j < places.size(); ++j)
         if (std::any_of(places[j].begin(), places[j].end(),
-                        [&](const std::string& b) { return scene::lies_in(a, b); })) {
+                        [&](const std::string& b) { return scene::is_within_path(a, b); })) {
           ++lost;
           by = &varied[j];
           break;
         }
     if (by && lost == set.size())
       throw UsageError(fmt::format("{}: has no effect, --{} {} sets it anew in every run",
-                                   scene::text_of(setting), option_of(*by), by->path));
+                                   scene::override_text(setting), option_of(*by), by->path));
   }
 }
 
@@ -234,7 +235,7 @@ std::vector<std::vector<Override>> points(const std::vector<ParameterRange>& var
 namespace {
 
 constexpr int sample_group = 1'000'000;  // group of all sampled keys: larger than any number of --together
-constexpr std::size_t most_samples = 1'000'000, most_sobol_keys = 40;
+constexpr std::size_t max_samples = 1'000'000, max_sobol_keys = 40;
 
 /// The value at the probability u, 0 < u < 1.
 using Inverse = std::function<double(double u)>;
@@ -346,11 +347,11 @@ std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, 
     draw_of.resize(varied.size(), inverses.size() - 1);
   }
   if (varied.empty()) return varied;
-  if (spec.count < 1 || spec.count > most_samples)
-    throw UsageError(fmt::format("--samples {}: expected 1 to {}", spec.count, most_samples));
-  if (spec.sequence == Sequence::sobol && inverses.size() > most_sobol_keys)
+  if (spec.count < 1 || spec.count > max_samples)
+    throw UsageError(fmt::format("--samples {}: expected 1 to {}", spec.count, max_samples));
+  if (spec.sequence == Sequence::sobol && inverses.size() > max_sobol_keys)
     throw UsageError(fmt::format("--sequence sobol: found {} sampled values, expected at most {}",
-                                 inverses.size(), most_sobol_keys));
+                                 inverses.size(), max_sobol_keys));
   const Generator random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
   gsl_rng_set(random.get(), spec.seed);
   const std::size_t draws = inverses.size();
@@ -374,7 +375,7 @@ std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, 
             fmt::format("--sample {}={}: draw {} is no finite number, expected a distribution "
                         "within the range of numbers",
                         varied[k].path, varied[k].text, i + 1));
-      varied[k].values.push_back(base::shortest(value));
+      varied[k].values.push_back(base::format_number(value));
     }
   }
   return varied;

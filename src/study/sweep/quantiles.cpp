@@ -13,7 +13,7 @@ namespace signorini::sweep {
 namespace {
 
 constexpr double tail = 0.5 * (1.0 - confidence);
-constexpr std::size_t most_steps = 200, even_steps = 100;
+constexpr std::size_t max_steps = 200, even_steps = 100;
 
 /// P(B <= k) for n draws.
 double below_or_at(std::size_t k, double p, std::size_t n) {
@@ -37,7 +37,7 @@ std::size_t least_count(double q, double p, std::size_t n) {
 /// additional ones towards both ends, each a third farther out than the one before, because rare values matter most.
 std::set<std::size_t> shown_of(std::size_t n) {
   std::set<std::size_t> places;
-  const std::size_t even = n <= most_steps ? n : even_steps;
+  const std::size_t even = n <= max_steps ? n : even_steps;
   for (std::size_t i = 0; i < even; ++i) places.insert(even == 1 ? 0 : i * (n - 1) / (even - 1));
   if (even == n) return places;
   for (std::size_t m = 1; m < n / even_steps; m += 1 + m / 3) {
@@ -64,7 +64,7 @@ double clopper_pearson(std::size_t m, std::size_t n, bool lower) {
 /// A row with the name of its query.
 template <class Figures>
 struct AnswerRow {
-  const Sampled& of;
+  const SampledResults& of;
   Figures figures;
 };
 
@@ -119,8 +119,8 @@ std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool is_in
   return list;
 }
 
-std::vector<Sampled> sampled_answers(const SweepSpec& spec, const SweepRows& rows) {
-  std::vector<Sampled> list;
+std::vector<SampledResults> sampled_results(const SweepSpec& spec, const SweepRows& rows) {
+  std::vector<SampledResults> list;
   if (spec.sampling.empty()) return list;
   for (std::size_t query = 0; query < spec.responses.size(); ++query) {
     std::map<std::vector<std::string>, std::size_t> known;
@@ -130,18 +130,18 @@ std::vector<Sampled> sampled_answers(const SweepSpec& spec, const SweepRows& row
         if (!spec.vary[i].sampled) values.push_back(row.values[i]);
       const auto [found, is_new] = known.emplace(values, list.size());
       if (is_new) list.push_back({query, values, {}, 0});
-      Sampled& s = list[found->second];
+      SampledResults& s = list[found->second];
       if (query < row.responses.size() && std::isfinite(row.responses[query]))
         s.sorted.push_back(row.responses[query]);
       else
         ++s.missing;
     }
   }
-  for (Sampled& s : list) std::sort(s.sorted.begin(), s.sorted.end());
+  for (SampledResults& s : list) std::sort(s.sorted.begin(), s.sorted.end());
   return list;
 }
 
-std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
+std::string quantile_table(const SweepSpec& spec, const std::vector<SampledResults>& answers) {
   using R = AnswerRow<Quantile>;
   result::CsvTable<R> table = answer_table<Quantile>(spec);
   table.add("n", [](const R& r) { return r.of.sorted.size(); });
@@ -151,7 +151,7 @@ std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& an
   table.add("low", [](const R& r) { return r.figures.low; });
   table.add("high", [](const R& r) { return r.figures.high; });
   std::vector<R> rows;
-  for (const Sampled& s : answers)
+  for (const SampledResults& s : answers)
     if (!s.sorted.empty())
       for (const double p : quantile_levels) rows.push_back({s, quantile(s.sorted, p, independent(spec))});
   return table.text(rows);
@@ -164,14 +164,14 @@ const result::CsvTable<Exceedance>& exceedance_columns() {
   return table;
 }
 
-std::string exceedance_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
+std::string exceedance_table(const SweepSpec& spec, const std::vector<SampledResults>& answers) {
   using R = AnswerRow<Exceedance>;
   result::CsvTable<R> table = answer_table<Exceedance>(spec);
   for (const auto& column : exceedance_columns().columns())
     table.add_put(column.name,
                   [&column](result::CsvBlock& block, const R& r) { column.put(block, r.figures); });
   std::vector<R> rows;
-  for (const Sampled& s : answers)
+  for (const SampledResults& s : answers)
     for (const Exceedance& e : exceedance(s.sorted, independent(spec))) rows.push_back({s, e});
   return table.text(rows);
 }

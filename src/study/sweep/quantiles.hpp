@@ -40,19 +40,19 @@ struct Exceedance {
 [[nodiscard]] std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool independent);
 
 /// The results of one query for one combination of the keys that are not sampled.
-struct Sampled {
+struct SampledResults {
   std::size_t query = 0;
   std::vector<std::string> values;  ///< values of those keys
   std::vector<double> sorted;
   std::size_t missing = 0;  ///< rows without a result
 };
 /// Results query by query; empty if no key is sampled.
-[[nodiscard]] std::vector<Sampled> sampled_answers(const SweepSpec& spec, const SweepRows& rows);
+[[nodiscard]] std::vector<SampledResults> sampled_results(const SweepSpec& spec, const SweepRows& rows);
 
 /// quantiles.csv: quantity,unit,PATH,...,n,missing,probability,value,low,high
-[[nodiscard]] std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& answers);
+[[nodiscard]] std::string quantile_table(const SweepSpec& spec, const std::vector<SampledResults>& answers);
 /// exceedance.csv: quantity,unit,PATH,...,value,probability,low,high
-[[nodiscard]] std::string exceedance_table(const SweepSpec& spec, const std::vector<Sampled>& answers);
+[[nodiscard]] std::string exceedance_table(const SweepSpec& spec, const std::vector<SampledResults>& answers);
 /// True if the samples of a sweep are independent draws.
 [[nodiscard]] bool independent(const SweepSpec& spec);
 

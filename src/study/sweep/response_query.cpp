@@ -105,7 +105,7 @@ QueryRecorder::QueryRecorder(const std::vector<ResponseQuery>& queries, const Mo
 void QueryRecorder::event(const Event& event) {
   for (std::size_t i = 0; i < queries_.size(); ++i) {
     const ResponseQuery& query = queries_[i];
-    if (query.kind == Kind::count && query.event.meets(event, model_)) counts_[i] += 1.0;
+    if (query.kind == Kind::count && query.event.matches(event, model_)) counts_[i] += 1.0;
   }
   for (const int part : {event.contact, static_cast<int>(event.type), static_cast<int>(event.to)})
     sequence_ = (sequence_ ^ static_cast<std::uint64_t>(part + 1)) * 1099511628211U;

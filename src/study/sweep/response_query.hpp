@@ -24,7 +24,7 @@ struct EventQuery {
   EventType type{};
   std::string contact;  ///< empty: all
 
-  [[nodiscard]] bool meets(const Event& event, const Model& model) const {
+  [[nodiscard]] bool matches(const Event& event, const Model& model) const {
     if (event.type != type || contact.empty()) return event.type == type;
     return event.contact >= 0 && model.contacts[static_cast<std::size_t>(event.contact)].name == contact;
   }

@@ -21,7 +21,7 @@ namespace {
 
 void check_kind(const fs::path& file) {
   std::error_code ignored;
-  std::string why = base::why_no_input_file(file);
+  std::string why = base::input_file_error(file);
   if (fs::is_symlink(fs::symlink_status(file, ignored))) why = "is a link";
   if (!why.empty()) throw FileError(file.string(), why + ", expected the rows of a sweep");
 }
@@ -34,7 +34,7 @@ std::uintmax_t whole_lines(const fs::path& file, const Take& take) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code ignored;
   if (!stream && fs::exists(file, ignored))
-    throw FileError(file.string(), "cannot be read" + base::because(errno));
+    throw FileError(file.string(), "cannot be read" + base::system_error_text(errno));
   std::uintmax_t bytes = 0;
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line) && !stream.eof(); ++number) {
@@ -67,11 +67,11 @@ std::map<std::size_t, NumberedRow> read_rows(const fs::path& file) {
 RowFile::RowFile(fs::path path)
     : path_(std::move(path)), good_(whole_lines(path_, [](const std::string&, std::size_t) {})) {
   file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (file_ < 0) throw FileError(path_.string(), "cannot be opened" + base::because(errno));
+  if (file_ < 0) throw FileError(path_.string(), "cannot be opened" + base::system_error_text(errno));
   if (ftruncate(file_, static_cast<off_t>(good_)) == 0) return;
   const int error = errno;
   close(file_);
-  throw FileError(path_.string(), "cannot be cut to whole lines" + base::because(error));
+  throw FileError(path_.string(), "cannot be cut to whole lines" + base::system_error_text(error));
 }
 
 RowFile::~RowFile() { close(file_); }
@@ -92,18 +92,18 @@ void RowFile::append(const std::string& lines) {
   const int error = errno;
   // If truncation fails, too, the next sweep truncates.
   [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(good_));
-  throw FileError(path_.string(), "cannot be written" + base::because(error));
+  throw FileError(path_.string(), "cannot be written" + base::system_error_text(error));
 }
 
 namespace {
 
-constexpr long long most_shares = 1000000000;
+constexpr long long max_shares = 1000000000;
 
 std::optional<long long> integer(const Environment& environment, const char* name) {
   const std::optional<std::string> text = environment(name);
   if (!text || text->empty()) return std::nullopt;
   const std::optional<long long> value = base::parse_integer(*text);
-  if (!value || *value < 0 || *value > most_shares)
+  if (!value || *value < 0 || *value > max_shares)
     throw UsageError(fmt::format("--share auto: {} is \"{}\", expected a number >= 0", name, *text));
   return value;
 }
@@ -168,7 +168,7 @@ Share parse_share(const std::string& text, const Environment& environment) {
   const std::size_t slash = text.find('/');
   const auto number = base::parse_integer(text.substr(0, slash));
   const auto count = slash == std::string::npos ? std::nullopt : base::parse_integer(text.substr(slash + 1));
-  if (!number || !count || *number < 1 || *count < *number || *count > most_shares)
+  if (!number || !count || *number < 1 || *count < *number || *count > max_shares)
     throw UsageError("--share " + text + ": expected K/N with K from 1 to N, such as 3/16, or auto");
   return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*count)};
 }

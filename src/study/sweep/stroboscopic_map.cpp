@@ -56,7 +56,7 @@ StroboscopicMap parse_strobe(const std::string& text, const Scene& scene, const 
   return strobe;
 }
 
-std::string strobe_doubt(const StroboscopicMap& strobe, const Scene& scene) {
+std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene) {
   if (strobe.period == 0.0 || strobe.of_loads) return {};
   std::optional<double> period;
   try {
@@ -70,7 +70,7 @@ std::string strobe_doubt(const StroboscopicMap& strobe, const Scene& scene) {
   return fmt::format(
       "--strobe {}: the loads repeat themselves after {}, so the points of one run are states at different "
       "phases of the loads; --strobe loads takes the period of each run's loads",
-      strobe.text, base::shortest(*period));
+      strobe.text, base::format_number(*period));
 }
 
 std::vector<StroboscopicColumn> strobe_columns(const Model& model) {
@@ -83,7 +83,7 @@ std::vector<StroboscopicColumn> strobe_columns(const Model& model) {
 
 void StroboscopicRecorder::event(const Event& event) {
   run::ForwardingRecorder::event(event);
-  if (strobe_.period == 0.0 && strobe_.event.meets(event, model_)) event_ = event.t;
+  if (strobe_.period == 0.0 && strobe_.event.matches(event, model_)) event_ = event.t;
 }
 
 void StroboscopicRecorder::sample(const Sample& sample) {
@@ -115,7 +115,7 @@ void StroboscopicRecorder::response(double t, const std::vector<double>& values)
 void StroboscopicRecorder::add(const Sample& now) {
   if (now.t < settle_) return;
   StroboscopicPoint point{now.t, {}};
-  for (const Column& column : model_.columns) point.values.push_back(column.of(*now.u, *now.v));
+  for (const Column& column : model_.columns) point.values.push_back(column.value(*now.u, *now.v));
   point.values.resize(model_.columns.size() + model_.outputs.size(),
                       std::numeric_limits<double>::quiet_NaN());
   if (t_outputs_ == now.t) fill_outputs(point);
@@ -127,7 +127,7 @@ void StroboscopicRecorder::fill_outputs(StroboscopicPoint& point) const {
             point.values.begin() + static_cast<std::ptrdiff_t>(model_.columns.size()));
 }
 
-RunSpec strobed(RunSpec run, const StroboscopicMap& strobe) {
+RunSpec with_strobe_rows(RunSpec run, const StroboscopicMap& strobe) {
   run = study::without_rows(std::move(run));
   if (strobe.period == 0.0) return run;
   run.output_times.reset();

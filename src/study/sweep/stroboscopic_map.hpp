@@ -28,7 +28,7 @@ struct StroboscopicMap {
 /// Errors: UsageError that lists the model's names; SceneError for loads without a common period.
 [[nodiscard]] StroboscopicMap parse_strobe(const std::string& text, const Scene& scene, const Model& model);
 /// Warning if the points are at varying phases of the loads; empty if not, or if the loads have no period.
-[[nodiscard]] std::string strobe_doubt(const StroboscopicMap& strobe, const Scene& scene);
+[[nodiscard]] std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene);
 
 /// Names and units of the values of a point.
 struct StroboscopicColumn {
@@ -73,6 +73,6 @@ class StroboscopicRecorder : public run::ForwardingRecorder {
 };
 
 /// The same run with output rows at the points, and an integer number of load periods.
-[[nodiscard]] RunSpec strobed(RunSpec run, const StroboscopicMap& strobe);
+[[nodiscard]] RunSpec with_strobe_rows(RunSpec run, const StroboscopicMap& strobe);
 
 }  // namespace signorini::sweep

@@ -242,7 +242,7 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
     return differ("--response", text_of(was.responses), text_of(is.responses));
   const auto strobe = [](const SweepSpec& s) {
     return (s.strobe.text.empty() ? "(none)" : s.strobe.text) +
-           (s.strobe.settle ? " --settle " + base::shortest(*s.strobe.settle) : "");
+           (s.strobe.settle ? " --settle " + base::format_number(*s.strobe.settle) : "");
   };
   if (strobe(was) != strobe(is)) return differ("--strobe", strobe(was), strobe(is));
   const auto carry = [](const SweepSpec& s) {

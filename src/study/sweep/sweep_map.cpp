@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 
 namespace signorini::sweep {
 namespace {
 
-constexpr std::size_t fewest_values = 3;
+constexpr std::size_t min_values = 3;
 
 std::vector<double> values_of(const ParameterRange& vary) {
   std::vector<double> values;
@@ -23,9 +23,9 @@ std::vector<double> values_of(const ParameterRange& vary) {
   return values;
 }
 
-constexpr double decades = 50.0;       // ratio of the largest to the smallest value from which an axis is
-                                       // logarithmic
-constexpr std::size_t most_ticks = 8;  // with more values, not every value has its own tick
+constexpr double decades = 50.0;      // ratio of the largest to the smallest value from which an axis is
+                                      // logarithmic
+constexpr std::size_t max_ticks = 8;  // with more values, not every value has its own tick
 
 bool logarithmic(const std::vector<double>& values) {
   return values.front() > 0.0 && values.back() >= decades * values.front();
@@ -47,11 +47,11 @@ std::pair<double, double> cell(const std::vector<double>& values, double at) {
 /// Range, scale and ticks of axis "x" or "y".
 std::string axis(const char* name, const std::vector<double>& values) {
   std::string s = fmt::format(
-      "set {}range [{}:{}]\n{} logscale {}\n", name, base::shortest(cell(values, values.front()).first),
-      base::shortest(cell(values, values.back()).second), logarithmic(values) ? "set" : "unset", name);
-  if (values.size() > most_ticks) return s + fmt::format("set {}tics autofreq\n", name);
+      "set {}range [{}:{}]\n{} logscale {}\n", name, base::format_number(cell(values, values.front()).first),
+      base::format_number(cell(values, values.back()).second), logarithmic(values) ? "set" : "unset", name);
+  if (values.size() > max_ticks) return s + fmt::format("set {}tics autofreq\n", name);
   s += fmt::format("set {}tics (", name);
-  for (std::size_t i = 0; i < values.size(); ++i) s += (i > 0 ? ", " : "") + base::shortest(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) s += (i > 0 ? ", " : "") + base::format_number(values[i]);
   return s + ")\n";
 }
 
@@ -66,7 +66,7 @@ std::optional<MapAxes> map_axes(const SweepSpec& spec) {
     const bool numbers = std::all_of(values.begin(), values.end(), [](const std::string& text) {
       return base::parse_number(text).has_value();
     });
-    if (!numbers || values.size() < fewest_values) return std::nullopt;
+    if (!numbers || values.size() < min_values) return std::nullopt;
     const std::vector<double> sorted = values_of(spec.vary[i]);
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
     several.push_back(i);
@@ -136,7 +136,7 @@ Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& 
 
 result::Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
                             const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders,
-                            const result::PictureLook& look) {
+                            const result::PictureStyle& look) {
   const result::CsvTable<MapCell> cells = map_table(spec);
   const result::CsvTable<Border>& sides = border_table();
   const std::size_t count = panels.size();
@@ -147,7 +147,7 @@ result::Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const st
       "set palette defined (0 '#f7fbff', 0.35 '#6baed6', 0.7 '#08519c', 1 '#08203f')\nset grid front\n";
   const result::Canvas& canvas = picture.canvas;
   const std::vector<result::PanelEdges> edges =
-      result::stacked(std::vector<double>(count, 1.0), canvas, picture.space);
+      result::panel_edges(std::vector<double>(count, 1.0), canvas, picture.space);
   for (std::size_t i = 0; i < count; ++i) {
     result::Panel panel{study::key_with_unit(spec.vary[axes.y].path, spec.units), {}};
     if (i + 1 == count)

@@ -54,6 +54,6 @@ struct MapPanel {
 };
 [[nodiscard]] result::Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
                                           const std::string& subtitle, const std::vector<MapPanel>& panels,
-                                          bool borders, const result::PictureLook& look);
+                                          bool borders, const result::PictureStyle& look);
 
 }  // namespace signorini::sweep

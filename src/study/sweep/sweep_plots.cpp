@@ -11,7 +11,7 @@
 #include "result/picture.hpp"
 #include "result/picture_files.hpp"
 #include "result/table.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 #include "study/sweep/quantiles.hpp"
 #include "study/sweep/sweep_map.hpp"
 #include "study/sweep/sweep_table.hpp"
@@ -27,7 +27,7 @@ bool moves_with(const SweepSpec& spec, const SweepAxis& axis, std::size_t key) {
 }  // namespace
 
 std::string SweepAxis::x(const SweepRow& row) const {
-  if (numbers) return base::shortest(*base::parse_number(row.values[key]));
+  if (numbers) return base::format_number(*base::parse_number(row.values[key]));
   const auto& values = vary->values;
   return std::to_string(std::find(values.begin(), values.end(), row.values[key]) - values.begin());
 }
@@ -95,8 +95,8 @@ namespace {
 constexpr std::array<const char*, 12> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                  "#e7298a", "#666666", "#a6761d", "#17becf",
                                                  "#c0182b", "#7f7f00", "#5e4fa2", "#1a1a1a"};
-constexpr std::size_t most_panels = 6;
-constexpr std::size_t most_curves = 24;  // limit of names in a legend beside the panel
+constexpr std::size_t max_panels = 6;
+constexpr std::size_t max_curves = 24;  // limit of names in a legend beside the panel
 
 /// Columns of curve-N.csv: a row of the sweep, its x, and figures of contacts.
 result::CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweepAxis& axis,
@@ -143,7 +143,7 @@ class SweepCurves {
 
   [[nodiscard]] result::Picture picture(const std::string& name, const std::string& subtitle,
                                         const std::vector<Shown>& panels,
-                                        const result::PictureLook& look) const {
+                                        const result::PictureStyle& look) const {
     const std::size_t count = panels.size();
     result::Picture picture{
         name, subtitle, result::canvas_of(look, 148.0 + 320.0 * static_cast<double>(count), false), false};
@@ -162,7 +162,7 @@ class SweepCurves {
 
   /// Adds the tables of the pictures.
   void add_tables(result::PictureFiles& files) const {
-    for (std::size_t i = 0; i < std::min(combinations_.size(), most_curves); ++i)
+    for (std::size_t i = 0; i < std::min(combinations_.size(), max_curves); ++i)
       files.add_table(fmt::format("curve-{}", i + 1), table_.text(from_left(combinations_[i], axis_)));
   }
 
@@ -177,7 +177,7 @@ class SweepCurves {
     std::vector<result::Curve> list;
     const bool of_contacts = panel.kind == Shown::Kind::contacts;
     for (std::size_t k = 0; k < (of_contacts ? contacts_.size() : 1); ++k) {
-      for (std::size_t c = 0; c < combinations_.size() && list.size() < most_curves; ++c) {
+      for (std::size_t c = 0; c < combinations_.size() && list.size() < max_curves; ++c) {
         const std::size_t column = table_.number((of_contacts ? contacts_[k] + "." : "") + panel.column);
         const bool alone = !of_contacts || (contacts_.size() == 1 && combinations_.size() > 1);
         std::string title = panel.kind == Shown::Kind::events ? (combinations_.size() == 1 ? "events" : "")
@@ -224,11 +224,11 @@ std::string labelled(const SweepSpec& spec, std::size_t query) {
 /// Probability that a result is exceeded, over its value, with confidence interval; one panel per query.
 void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const result::PlottedRun& run,
                      result::PictureFiles& files) {
-  const std::vector<Sampled> answers = sampled_answers(spec, rows);
-  const auto drawn = [](const Sampled& s) { return s.sorted.size() > 1; };
+  const std::vector<SampledResults> answers = sampled_results(spec, rows);
+  const auto drawn = [](const SampledResults& s) { return s.sorted.size() > 1; };
   if (std::none_of(answers.begin(), answers.end(), drawn)) return;
   const result::CsvTable<Exceedance>& table = exceedance_columns();
-  const std::size_t panels = std::min(spec.responses.size(), most_panels);
+  const std::size_t panels = std::min(spec.responses.size(), max_panels);
   result::Picture picture{"exceedance", "Probability of more; " + spec.sampling,
                           result::canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false),
                           false};
@@ -238,7 +238,7 @@ void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const result:
     result::Panel panel{
         "P(greater)", {}, "set xlabel " + result::quoted(labelled(spec, i)) + "\nset yrange [*:1]\n"};
     panel.own_axis = true;
-    for (std::size_t k = 0; k < answers.size() && panel.curves.size() < most_curves; ++k) {
+    for (std::size_t k = 0; k < answers.size() && panel.curves.size() < max_curves; ++k) {
       if (answers[k].query != i || !drawn(answers[k])) continue;
       const std::string name = fmt::format("exceedance-{}", k + 1);
       files.add_table(name, table.text(exceedance(answers[k].sorted, independent(spec))));
@@ -269,7 +269,7 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
   std::vector<SweepPicture> list;
   if (!spec.responses.empty()) {
     std::vector<Shown> panels;
-    for (std::size_t i = 0; i < std::min(spec.responses.size(), most_panels); ++i)
+    for (std::size_t i = 0; i < std::min(spec.responses.size(), max_panels); ++i)
       panels.push_back({labelled(spec, i), Shown::Kind::answer, spec.responses[i]});
     list.push_back({"responses", "What was asked for", panels});
   }
@@ -317,9 +317,9 @@ void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
 }  // namespace
 
 result::PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows,
-                                    const result::PictureLook& look) {
+                                    const result::PictureStyle& look) {
   result::PictureFiles files(is_picture_of_sweep);
-  const result::PlottedRun run = result::unreported_run(spec.title, spec.units, look);
+  const result::PlottedRun run = result::empty_plotted_run(spec.title, spec.units, look);
   if (!spec.sampling.empty()) {
     add_exceedances(spec, rows, run, files);
     return files;

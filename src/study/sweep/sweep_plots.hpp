@@ -50,7 +50,7 @@ struct SweepCurve {
 
 /// Empty if fewer than two rows ran.
 [[nodiscard]] result::PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows,
-                                                  const result::PictureLook& look = {});
+                                                  const result::PictureStyle& look = {});
 
 /// Removes the files of these pictures and scripts from DIR/plots. Errors: FileError.
 void remove_sweep_plots(const std::filesystem::path& directory);

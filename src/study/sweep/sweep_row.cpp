@@ -67,7 +67,7 @@ Report run(const RowTask& task, const study::PreparedRun& prepared, Recorder& he
     result::remove_run(task.keep);  // remains of an interrupted sweep
     result::RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
     run::ForwardingRecorder all(&directory);
-    prepared.keep(directory, all);
+    prepared.run_to_disk(directory, all);
   }
   return simulate(prepared.model, spec, heard);
 }
@@ -89,7 +89,7 @@ double number(const base::Json& json, const char* key) { return number_or_none(j
 
 }  // namespace
 
-long SweepRow::changes() const { return changes_in(events); }
+long SweepRow::changes() const { return count_state_changes(events); }
 
 std::optional<double> SweepRow::response(std::size_t i) const {
   const bool known = i < responses.size() && std::isfinite(responses[i]);
@@ -126,7 +126,7 @@ SweepRow computed(const RowTask& task, std::optional<SavedState>* carried) {
     } else {
       const StroboscopicMap strobe = parse_strobe(task.strobe, prepared.scene, model);
       StroboscopicRecorder points(strobe, task.settle.value_or(0.5 * prepared.scene.run.t_end), model, heard);
-      report = run(task, prepared, points, strobed(prepared.scene.run, strobe));
+      report = run(task, prepared, points, with_strobe_rows(prepared.scene.run, strobe));
       row.points = points.points();
     }
     take_report(row, model, report);

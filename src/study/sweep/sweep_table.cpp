@@ -11,7 +11,7 @@
 #include "result/summary_parts.hpp"
 #include "result/table.hpp"
 #include "signorini/event.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 #include "study/sweep/sweep_plots.hpp"
 
 namespace signorini::sweep {

@@ -11,9 +11,9 @@ std::vector<ObservedColumn> observed_columns(const Model& model) {
   const Units& units = model.units;
   std::vector<ObservedColumn> list;
   for (const Column& column : model.columns) {
-    const char* kind = model.turns(column) ? column.velocity ? "angular_velocity" : "rotation"
-                       : column.velocity   ? "velocity"
-                                           : "displacement";
+    const char* kind = model.is_rotation(column) ? column.velocity ? "angular_velocity" : "rotation"
+                       : column.velocity         ? "velocity"
+                                                 : "displacement";
     list.push_back({column.name, kind, model.unit_of(column)});
   }
   for (const Contact& contact : model.contacts)
@@ -25,19 +25,19 @@ std::vector<ObservedColumn> observed_columns(const Model& model) {
   return list;
 }
 
-Observed observed(certify::CompanionTracker&& tracker, Report report) {
-  Observed result;
+ObservedRun observed_run(certify::CompanionTracker&& tracker, Report report) {
+  ObservedRun result;
   result.track = {std::move(tracker.events), report.outcome.t, report.outcome.reason};
   result.rows = std::move(tracker.rows);
   result.report = std::move(report);
   return result;
 }
 
-Observed observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on) {
+ObservedRun observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on) {
   ObservingRecorder patient(go_on);
   certify::CompanionTracker tracker(model, true, &patient);
   Report report = simulate(model, run, tracker);
-  return observed(std::move(tracker), std::move(report));
+  return observed_run(std::move(tracker), std::move(report));
 }
 
 namespace {
@@ -64,36 +64,37 @@ std::vector<double> greatest_so_far(const std::vector<double>& values) {
 
 }  // namespace
 
-void ObservedOrder::add(const std::vector<Thrice>& series, double negligible) {
-  for (const Thrice& x : series) {
+void ConvergenceOrder::add(const std::vector<StepTriple>& series, double negligible) {
+  for (const StepTriple& x : series) {
     coarse_ += square(x[0] - x[1]);
     fine_ += square(x[1] - x[2]);
-    rounding_ += square(std::max(rounding::of_many * std::abs(x[2]), negligible));
+    rounding_ += square(std::max(rounding::many_operations * std::abs(x[2]), negligible));
   }
 }
 
-std::optional<double> ObservedOrder::value() const {
+std::optional<double> ConvergenceOrder::value() const {
   if (!(fine_ > 4.0 * rounding_) || !(coarse_ > 0.0)) return std::nullopt;
   return 0.5 * std::log2(coarse_ / fine_);
 }
 
-bool settled(const std::optional<double>& order) {
+bool is_second_order(const std::optional<double>& order) {
   return !order || std::abs(*order - 2.0) <= settled_within;
 }
 
 bool usable(const std::optional<double>& order) { return !order || std::abs(*order - 2.0) <= usable_within; }
 
-Extrapolated extrapolate(const std::vector<Thrice>& series, const KindOfSeries& kind) {
-  Extrapolated result;
+Extrapolation extrapolate(const std::vector<StepTriple>& series, const SeriesKind& kind) {
+  Extrapolation result;
   std::vector<double> off;
-  for (const Thrice& x : series) {
+  for (const StepTriple& x : series) {
     const double fine = x[2] + (x[2] - x[1]) / second_order, coarse = x[1] + (x[1] - x[0]) / second_order;
     result.value.push_back(fine);
     const double last = std::abs(x[2] - x[1]);
-    off.push_back(settled(kind.order) ? 2.0 * std::abs(fine - coarse) + by_chance * last : last);
+    off.push_back(is_second_order(kind.order) ? 2.0 * std::abs(fine - coarse) + by_chance * last : last);
   }
-  result.bar = greatest_so_far(off);
-  for (double& bar : result.bar) bar += rounding::of_many * std::sqrt(std::max(1.0, kind.steps)) * kind.scale;
+  result.error_bound = greatest_so_far(off);
+  for (double& bar : result.error_bound)
+    bar += rounding::many_operations * std::sqrt(std::max(1.0, kind.steps)) * kind.scale;
   return result;
 }
 

@@ -27,9 +27,9 @@ namespace signorini::verify {
 
 // Observations of a run: its events, and at output times the columns of history.csv, N, T and outputs.
 
-struct Observed {
-  certify::Track track;
-  certify::KeptRows rows;
+struct ObservedRun {
+  certify::EventSequence track;
+  certify::RecordedRows rows;
   Report report;
 
   [[nodiscard]] double at(std::size_t row, std::size_t column) const {
@@ -37,7 +37,7 @@ struct Observed {
   }
 };
 
-/// A column of Observed::rows.
+/// A column of ObservedRun::rows.
 struct ObservedColumn {
   std::string name;  ///< "A.ux", "first.N", an output's
   std::string
@@ -59,24 +59,24 @@ class ObservingRecorder : public Recorder {
 };
 
 /// Errors: SceneError for scenes that the engine refuses.
-[[nodiscard]] Observed observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on);
+[[nodiscard]] ObservedRun observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on);
 
 /// Observations of a run that has ended.
-[[nodiscard]] Observed observed(certify::CompanionTracker&& tracker, Report report);
+[[nodiscard]] ObservedRun observed_run(certify::CompanionTracker&& tracker, Report report);
 
 /// A quantity at one instant, computed with the steps h, h/2, h/4.
-using Thrice = std::array<double, 3>;
+using StepTriple = std::array<double, 3>;
 
 /// The limit of the values, and its error bound.
-struct Extrapolated {
-  std::vector<double> value, bar;
+struct Extrapolation {
+  std::vector<double> value, error_bound;
 };
 
 /// Sums of squares of the differences between steps, over series of one unit.
-class ObservedOrder {
+class ConvergenceOrder {
  public:
   /// negligible: smaller differences are ignored, for instance if IDA's own error is far larger.
-  void add(const std::vector<Thrice>& series, double negligible = 0.0);
+  void add(const std::vector<StepTriple>& series, double negligible = 0.0);
   /// nullopt if the differences are rounding or negligible, for instance if the method is exact.
   [[nodiscard]] std::optional<double> value() const;
 
@@ -85,18 +85,18 @@ class ObservedOrder {
 };
 
 /// True if the order is that of the method, within a tenth.
-[[nodiscard]] bool settled(const std::optional<double>& order);
+[[nodiscard]] bool is_second_order(const std::optional<double>& order);
 /// True if the order is near enough to two for differences to bound errors.
 [[nodiscard]] bool usable(const std::optional<double>& order);
 
 /// Properties of a kind of quantities, which share a unit.
-struct KindOfSeries {
+struct SeriesKind {
   std::optional<double> order;
   double scale = 0.0;  ///< largest magnitude
   double steps = 1.0;  ///< number of steps of the finest run
 };
 
 /// `series` must be in the order of time.
-[[nodiscard]] Extrapolated extrapolate(const std::vector<Thrice>& series, const KindOfSeries& kind);
+[[nodiscard]] Extrapolation extrapolate(const std::vector<StepTriple>& series, const SeriesKind& kind);
 
 }  // namespace signorini::verify

@@ -12,7 +12,7 @@
 #include "run/cost_estimate.hpp"
 #include "run/engines.hpp"
 #include "study/verify/richardson.hpp"
-#include "study/verify/witnesses.hpp"
+#include "study/verify/verification_runs.hpp"
 
 namespace signorini::verify {
 namespace {
@@ -31,19 +31,19 @@ class Study {
     run_.output_times.emplace();
     for (int k = 1; k <= request.rows; ++k) run_.output_times->push_back(run_.t_end * k / request.rows);
     const double capture = engine::tolerance_of(own, run_).capture_velocity();
-    for (Model* m : {&model_, &own_}) certify::hold_capture(*m, capture);
+    for (Model* m : {&model_, &own_}) certify::set_capture_velocities(*m, capture);
   }
 
   Verification verification() {
     check_newmark();
-    Witnesses witnesses(model_, run_.t_end);
+    VerificationRuns witnesses(model_, run_.t_end);
     watch_ida(witnesses);
     if (!result_.interrupted) watch_exact(witnesses);
     refine(witnesses);
     if (result_.interrupted) {
       result_.sentence = "interrupted";
     } else {
-      witnesses.judge(result_);
+      witnesses.evaluate(result_);
     }
     find_paper_dt();
     return std::move(result_);
@@ -75,8 +75,8 @@ class Study {
   }
 
   /// Runs newmark with a step, with the rows of the other runs.
-  [[nodiscard]] Observed watch_newmark(double dt) const {
-    Observed run = observe(model_, newmark(dt), request_.go_on);
+  [[nodiscard]] ObservedRun watch_newmark(double dt) const {
+    ObservedRun run = observe(model_, newmark(dt), request_.go_on);
     const auto width = static_cast<std::ptrdiff_t>(run.rows.width);
     for (std::size_t row = run.rows.t.size(); row-- > 0;) {
       if (!std::binary_search(peaks_.begin(), peaks_.end(), run.rows.t[row])) continue;
@@ -92,16 +92,16 @@ class Study {
   void check_newmark() const {
     try {
       run::engine_row(run::engine_for(run::EngineRole::fixed_steps)).refuse(model_, newmark(run_.t_end));
-    } catch (const run::UnfitEngine& unfit) {
+    } catch (const run::UnsupportedSceneError& unfit) {
       throw SceneError(
           run_.place, "verify",
           fmt::format("newmark is the witness beside ida, and it {}; signorini run --certify sets a "
                       "finer ida beside ida",
-                      unfit.why));
+                      unfit.reason));
     }
   }
 
-  void watch_ida(Witnesses& witnesses) {
+  void watch_ida(VerificationRuns& witnesses) {
     ObservingRecorder patient(request_.go_on);
     certify::CompanionTracker tracker(own_, true, &patient);
     CertifyOptions options;
@@ -110,12 +110,12 @@ class Study {
     result_.ida = simulate_certified(own_, run_, tracker, options);
     note(result_.ida.report);
     find_peaks();
-    witnesses.ida = observed(std::move(tracker), result_.ida.report);
+    witnesses.ida = observed_run(std::move(tracker), result_.ida.report);
     witnesses.certificate = &*result_.ida.certificate;
   }
 
-  void watch_exact(Witnesses& witnesses) {
-    if (!run::exact_takes(model_, run_)) return;
+  void watch_exact(VerificationRuns& witnesses) {
+    if (!run::exact_accepts(model_, run_)) return;
     RunSpec run = run_;
     run.engine = run::engine_for(run::EngineRole::closed_form);
     witnesses.exact = observe(model_, run, request_.go_on);
@@ -123,30 +123,30 @@ class Study {
   }
 
   /// Runs newmark with successively halved steps, until everything has settled or the next run would cost too much.
-  void refine(Witnesses& witnesses) {
+  void refine(VerificationRuns& witnesses) {
     double dt = request_.dt.value_or(run_.t_end / steps_at_first);
     while (!result_.interrupted) {
       witnesses.add(dt, watch_newmark(dt));
       note(witnesses.newmark.back().report);
       test_step(witnesses);
       result_.dt = witnesses.dt;
-      const bool three = witnesses.newmark.size() == Witnesses::runs;
+      const bool three = witnesses.newmark.size() == VerificationRuns::runs;
       if (three && (request_.dt || (changes_little() && witnesses.settled()))) return;
-      if (three && expected_seconds(0.5 * dt) > request_.most_seconds) return;
+      if (three && expected_seconds(0.5 * dt) > request_.max_seconds) return;
       dt *= 0.5;
     }
   }
 
   [[nodiscard]] double expected_seconds(double dt) const {
-    return std::max(run::expected(model_, newmark(dt)).effort.seconds,
+    return std::max(run::expected_cost(model_, newmark(dt)).estimate.seconds,
                     least_seconds_of_step * run_.t_end / dt);
   }
 
   /// Effect of doubling the step on the last step size.
-  void test_step(const Witnesses& witnesses) {
+  void test_step(const VerificationRuns& witnesses) {
     if (witnesses.newmark.size() < 2) return;
-    const Observed& fine = witnesses.newmark.back();
-    const Observed& coarse = witnesses.newmark[witnesses.newmark.size() - 2];
+    const ObservedRun& fine = witnesses.newmark.back();
+    const ObservedRun& coarse = witnesses.newmark[witnesses.newmark.size() - 2];
     double change = 0.0, greatest = 0.0;
     const std::vector<ObservedColumn> columns = observed_columns(model_);
     for (std::size_t row = 0; row < std::min(fine.rows.t.size(), coarse.rows.t.size()); ++row)
@@ -186,7 +186,7 @@ class Study {
 
 double Observation::difference() const { return std::abs(ida - richardson); }
 
-bool Observation::witnessed() const {
+bool Observation::exact_agrees() const {
   return exact && !agrees() && std::abs(ida - *exact) <= ida_error && std::abs(richardson - *exact) > bar;
 }
 

@@ -32,7 +32,7 @@ struct VerifyRequest {
   RunSpec run;
   std::optional<double> dt;                           ///< the largest of three; absent: found automatically
   int rows = 200;                                     ///< number of output times
-  double most_seconds = 30.0;                         ///< expected limit for the finest run of newmark
+  double max_seconds = 30.0;                          ///< expected limit for the finest run of newmark
   std::function<bool()> go_on = [] { return true; };  ///< false: the user asks for a stop
 };
 
@@ -47,7 +47,7 @@ struct Observation {
   [[nodiscard]] double allowed() const { return bar + ida_error; }
   [[nodiscard]] bool agrees() const { return difference() <= allowed(); }
   /// True if the third witness agrees with IDA, and not with newmark.
-  [[nodiscard]] bool witnessed() const;
+  [[nodiscard]] bool exact_agrees() const;
 };
 
 struct VerifiedEvent {
@@ -62,7 +62,7 @@ struct VerifiedEvent {
 struct VerifiedKind {
   std::string name, unit;
   std::optional<double> order;  ///< nullopt: differences are rounding
-  std::size_t compared = 0, disagreeing = 0, witnessed = 0;
+  std::size_t compared = 0, disagreeing = 0, exact_agreements = 0;
   Observation worst;                 ///< largest difference relative to the allowed one
   std::string where;                 ///< its column; empty for events
   std::optional<Observation> first;  ///< first one that disagrees
@@ -86,7 +86,7 @@ struct Verification {
   std::vector<VerifiedEvent> events;
   std::vector<StepTest> step_tests;
   std::optional<double> paper_dt;  ///< largest dt whose doubling changes less than `paper_change`
-  std::string witness;             ///< result of the third witness, exact
+  std::string exact_result;        ///< result of the third witness, exact
   CertifiedReport ida;
   bool interrupted = false;
 };

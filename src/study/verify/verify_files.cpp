@@ -9,7 +9,7 @@
 #include "result/picture_files.hpp"
 #include "result/summary_parts.hpp"
 #include "result/table.hpp"
-#include "study/figures.hpp"
+#include "study/optional_values.hpp"
 
 namespace signorini::verify {
 namespace {
@@ -33,7 +33,7 @@ base::Json kind_json(const VerifiedKind& kind) {
                      {"order", study::json_of(kind.order)},
                      {"compared", kind.compared},
                      {"disagreeing", kind.disagreeing},
-                     {"witnessed", kind.witnessed}};
+                     {"witnessed", kind.exact_agreements}};
   if (kind.compared > 0) json["worst"] = observation_json(kind.worst, kind.where);
   if (kind.first) json["first"] = observation_json(*kind.first, kind.first_where);
   return json;
@@ -101,7 +101,7 @@ std::string verify_json(const Model& model, const Verification& result) {
     row.update(observation_json(event.time, ""));
     json["richardson"]["events"].push_back(std::move(row));
   }
-  json["witness"] = result.witness;
+  json["witness"] = result.exact_result;
   json["step_test"] = {
       {"tolerance", paper_change}, {"dt", study::json_of(result.paper_dt)}, {"steps", base::Json::array()}};
   for (const StepTest& test : result.step_tests)
@@ -127,7 +127,7 @@ std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& 
   if (result.events.size() < 2) return {};
   result::PictureFiles files(is_ours);
   files.add_table("verify", plot_table().text(result.events));
-  result::PlottedRun run = result::unreported_run(model.title, model.units);
+  result::PlottedRun run = result::empty_plotted_run(model.title, model.units);
   run.to = result.events.back().time.t * 1.02;
   if (result.until < run.to) run.facts.certain_until = result.until;
   const auto curve = [](const char* column, const char* look, const char* name) -> result::Curve {

@@ -57,7 +57,7 @@ void check_splits_at_events(const char* name, const char* engine, double t_end) 
     const Result rest = simulate(build_model(second), second.run);
     INFO(rest.report.outcome.reason);
     CHECK(rest.report.outcome.kind == Outcome::Kind::done);
-    CHECK(rest.report.witness.violations.empty());
+    CHECK(rest.report.law_checks.violations.empty());
     EventCount found;
     count_events(kept.events, found);
     count_events(rest.events, found);

@@ -30,7 +30,8 @@ TEST_CASE("directions of the least singular values, of matrices that are singula
       Eigen::VectorXd s(n);
       for (Eigen::Index i = 0; i < n; ++i)
         s[i] = i < count ? least : (i % 2 == 0 ? 1.0 : 1e-3) * (1.0 + static_cast<double>(i));
-      const Eigen::MatrixXd found = base::least_stretched(u * s.asDiagonal() * v.transpose(), count);
+      const Eigen::MatrixXd found =
+          base::smallest_singular_vectors(u * s.asDiagonal() * v.transpose(), count);
       REQUIRE(found.cols() == count);
       CHECK((found.transpose() * found - Eigen::MatrixXd::Identity(count, count)).norm() <= 1e-14);
       CHECK((found - v.leftCols(count) * (v.leftCols(count).transpose() * found)).norm() <= 1e-11);

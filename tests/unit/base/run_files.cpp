@@ -72,7 +72,7 @@ TEST_CASE("run files: a manifest lists results only, in their order, and can tak
   CHECK(manifest.files[0].file == "events.csv");
   CHECK(manifest.files[2].file == "run.toml");
   run.write("motion.csv", "t\n");
-  manifest.take(run.path, "motion.csv");
+  manifest.add(run.path, "motion.csv");
   REQUIRE(manifest.files.size() == 4);
   CHECK(manifest.files[1].file == "motion.csv");
   CHECK(manifest.files[1].size == 2);
@@ -82,7 +82,7 @@ TEST_CASE("run files: a manifest lists results only, in their order, and can tak
   CHECK(again->outcome == "stopped");
   CHECK(again->text() == manifest.text());
   CHECK(run.refusal().empty());
-  manifest.drop("motion.csv");
+  manifest.remove("motion.csv");
   run.write(base::manifest_file, manifest.text());
   CHECK(run.refuses("motion.csv: found a file that manifest.json does not list"));
   fs::remove(run.path / "motion.csv");
@@ -92,8 +92,8 @@ TEST_CASE("run files: a manifest lists results only, in their order, and can tak
   base::remove_manifest(run.path);
   base::remove_manifest(run.path);
   CHECK(run.refusal().empty());
-  CHECK(base::why_unchecked(run.path).starts_with(run.path.string() +
-                                                  ": no manifest.json: the run may not have finished"));
+  CHECK(base::unchecked_reason(run.path).starts_with(run.path.string() +
+                                                     ": no manifest.json: the run may not have finished"));
 }
 
 TEST_CASE("run files: what is no manifest is refused") {
@@ -107,7 +107,7 @@ TEST_CASE("run files: what is no manifest is refused") {
     CAPTURE(text);
     run.write(base::manifest_file, text);
     CHECK(run.refuses("manifest.json: is no manifest of a run: "));
-    CHECK(base::why_unchecked(run.path).empty());
+    CHECK(base::unchecked_reason(run.path).empty());
   }
 }
 

@@ -38,7 +38,7 @@ std::vector<Row> rows_of(std::size_t count, const std::function<Row(double)>& at
 }
 
 Record record(const std::vector<Row>& rows, std::size_t most, bool crowded) {
-  Record r(1.0, {.most = most, .crowded = crowded});
+  Record r(1.0, {.max_rows = most, .crowded = crowded});
   for (const Row& row : rows) r.add(row);
   r.close({0.0, 0.0});
   return r;

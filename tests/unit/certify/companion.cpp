@@ -69,10 +69,10 @@ TEST_CASE(
   const certify::CompanionPlan steps = plan_of(scene_of("engine = \"newmark\"\ndt = 1e-3"));
   CHECK(steps.name == "exact");
   CHECK(steps.choice == "auto: half the step may err alike");
-  CHECK(steps.doubt.empty());
+  CHECK(steps.limitation.empty());
   // sqrt(1e4) = 100 rad/s
   const auto half_of = [](const std::string& dt) {
-    return plan_of(scene_of("engine = \"newmark\"\ncompanion = \"finer\"\ndt = " + dt)).doubt;
+    return plan_of(scene_of("engine = \"newmark\"\ncompanion = \"finer\"\ndt = " + dt)).limitation;
   };
   CHECK(half_of("0.0099").empty());
   CHECK(half_of("0.0101") ==

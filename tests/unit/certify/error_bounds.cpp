@@ -16,8 +16,8 @@ Model one_mass() {
   return model;
 }
 
-certify::KeptRows kept_rows(std::size_t count, double off) {
-  certify::KeptRows kept;
+certify::RecordedRows kept_rows(std::size_t count, double off) {
+  certify::RecordedRows kept;
   kept.width = 4;
   for (std::size_t i = 0; i < count; ++i) {
     const auto t = static_cast<double>(i);
@@ -36,7 +36,8 @@ TEST_SUITE_BEGIN("unit/certify/error_bounds");
 TEST_CASE(
     "bounds: the greatest difference of the last five rows, one tolerance, and what jumps at an event") {
   const Model model = one_mass();
-  const certify::KeptRows own = kept_rows(10, 0.0), near = kept_rows(10, 1e-3), far = kept_rows(12, -2e-3);
+  const certify::RecordedRows own = kept_rows(10, 0.0), near = kept_rows(10, 1e-3),
+                              far = kept_rows(12, -2e-3);
   const Report report;
   certify::BoundSettings settings;
   settings.factor = 2.0;
@@ -45,7 +46,7 @@ TEST_CASE(
   event.t = 6.0;
   event.contact = 0;
   event.type = EventType::slip;
-  certify::Verdict verdict;
+  certify::MatchResult verdict;
   verdict.t_errors = {0.5};
   const HistoryErrors errors = certify::bound_history(
       model, {&own, &report}, {{&near, &report}, {&far, &report}}, settings, {event}, verdict);
@@ -63,9 +64,9 @@ TEST_CASE(
 
 TEST_CASE("bounds: none from where nothing is certain, and roundings alone where steps have no tolerance") {
   const Model model = one_mass();
-  const certify::KeptRows own = kept_rows(10, 0.0), other = kept_rows(7, 0.0);
+  const certify::RecordedRows own = kept_rows(10, 0.0), other = kept_rows(7, 0.0);
   const Report report;
-  certify::Verdict verdict;
+  certify::MatchResult verdict;
   verdict.until = 4.5;
   verdict.reason = "a partner is missing";
   const HistoryErrors errors =

@@ -38,12 +38,12 @@ TEST_CASE("massless_slip_rate(): beyond what friction reaches only a dashpot tel
   const Contact c = rising_beside_spring();
   CHECK_FALSE(contact::massless_slip_rate(c.friction, 88.0, 0.0, 800.0));
   CHECK_FALSE(contact::massless_slip_rate(c.friction, 90.0, 0.0, 800.0));
-  const double nearly = 88.0 - 0.07 * 800.0 * contact::saturated;
+  const double nearly = 88.0 - 0.07 * 800.0 * contact::saturation_tolerance;
   CHECK_FALSE(contact::massless_slip_rate(c.friction, nearly + 1e-9, 0.0, 800.0));
   const auto last = contact::massless_slip_rate(c.friction, nearly - 1e-9, 0.0, 800.0);
   REQUIRE(last);
-  CHECK(*last == doctest::Approx(contact::rate_of_saturation(c.friction)).epsilon(1e-3));
-  CHECK(contact::rate_of_saturation(c.friction) == doctest::Approx(0.05 * 18.420680743952367).epsilon(1e-14));
+  CHECK(*last == doctest::Approx(contact::saturation_rate(c.friction)).epsilon(1e-3));
+  CHECK(contact::saturation_rate(c.friction) == doctest::Approx(0.05 * 18.420680743952367).epsilon(1e-14));
   const auto damped = contact::massless_slip_rate(c.friction, 1088.0, 100.0, 800.0);
   REQUIRE(damped);
   CHECK(*damped == doctest::Approx(10.0).epsilon(1e-12));

@@ -25,7 +25,7 @@ TEST_SUITE_BEGIN("unit/contact/work");
 
 TEST_CASE("what forces do along a path, state by state") {
   const Contact c = element();
-  const ContactPath path{0.3, 0.2, -0.1, -0.5, 0.25};
+  const ContactIncrement path{0.3, 0.2, -0.1, -0.5, 0.25};
   const ContactWork slip = contact::work_on(c, State::slip_minus, -8.0, 3.0, path);
   CHECK(slip.friction == doctest::Approx(0.9));
   CHECK(slip.surface == doctest::Approx(-0.6));

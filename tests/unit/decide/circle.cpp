@@ -20,14 +20,14 @@ struct Circle {
     course.instant.u = model.u0;
     course.instant.v = model.v0;
     course.instant.resolution = 1e-15;
-    course.mode = course.instant.mode = {{State::open, 0.0}};
-    course.seen = {course.mode, course.mode};
+    course.states = course.instant.states = {{State::open, 0.0}};
+    course.tried_states = {course.states, course.states};
     course.failed = {{0, Guard::closing}};
-    course.found.known[0].touches = true;
-    course.found.known[0].closing.zeros = 2;
+    course.impact_result.known[0].touches = true;
+    course.impact_result.known[0].closing.zeros = 2;
     course.decision.visited = {true};
   }
-  [[nodiscard]] Refusal leave() { return decide::CycleFallback(systems, jets, blocks).leave(course); }
+  [[nodiscard]] Refusal leave() { return decide::CycleFallback(systems, jets, blocks).next_step(course); }
 
   Model model;
   linear::SystemMatrices structure;
@@ -56,19 +56,19 @@ TEST_CASE(
                    "amplitude = -10.0\n"));
   decide::SolverState& course = circle.course;
   CHECK_FALSE(circle.leave());
-  CHECK(course.blurred);
-  CHECK(course.instant.blur == decide::unlucky);
-  CHECK(course.instant.resolution == decide::unlucky * 1e-15);
-  CHECK(course.seen.empty());  // blurred, the same mode may hold
-  CHECK_FALSE(course.found.sliders);
-  CHECK_FALSE(course.make_blurred());
-  CHECK(course.instant.blur == decide::unlucky);
+  CHECK(course.noise_increased);
+  CHECK(course.instant.noise_factor == decide::retry_noise_factor);
+  CHECK(course.instant.resolution == decide::retry_noise_factor * 1e-15);
+  CHECK(course.tried_states.empty());  // blurred, the same mode may hold
+  CHECK_FALSE(course.impact_result.sliders);
+  CHECK_FALSE(course.increase_noise());
+  CHECK(course.instant.noise_factor == decide::retry_noise_factor);
   CHECK_FALSE(circle.leave());
-  CHECK(course.found.sliders);
+  CHECK(course.impact_result.sliders);
   decide::Participant who{0};
   who.slipping = true;
   who.sign = 1;
-  course.found.participants = {who};
+  course.impact_result.participants = {who};
   const Refusal why = circle.leave();
   REQUIRE(why);
   CHECK(why.kind == Refusal::Kind::ambiguous);
@@ -83,15 +83,15 @@ TEST_CASE("a combination that holds is taken, and its block stays as it is") {
                              "law = \"rigid\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\nfriction = 0.5",
                              "[[loads]]\ndirection = { d0 = 4.0, d1 = -10.0 }\namplitude = 1.0\n"));
   decide::SolverState& course = circle.course;
-  course.blurred = course.found.sliders = true;
-  course.found.known[0].slip_plus.zeros = 1;
-  course.found.participants = {decide::Participant{0}};
+  course.noise_increased = course.impact_result.sliders = true;
+  course.impact_result.known[0].slip_plus.zeros = 1;
+  course.impact_result.participants = {decide::Participant{0}};
   CHECK_FALSE(circle.leave());
-  CHECK(course.mode[0].state == State::stick);  // 4 N below 5
+  CHECK(course.states[0].state == State::stick);  // 4 N below 5
   CHECK(course.undecided == std::vector<std::size_t>{0});
   CHECK(course.decision.undecided);
-  CHECK(course.found.known[0].slip_plus.zeros == 0);  // of the motion only
-  CHECK(course.found.known[0].closing.zeros == 2);
+  CHECK(course.impact_result.known[0].slip_plus.zeros == 0);  // of the motion only
+  CHECK(course.impact_result.known[0].closing.zeros == 2);
 }
 
 TEST_SUITE_END();

@@ -67,7 +67,7 @@ decide::Decision fallen(const Model& model, decide::Instant instant) {
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   const motion::Forcing forcing(model, instant.t, motion::Side::after);
-  instant.mode.assign(model.contacts.size(), {State::open, 0.0});
+  instant.states.assign(model.contacts.size(), {State::open, 0.0});
   instant.triggered = {{0, Guard::closing}};
   return decide::ContactStateSolver(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
 }
@@ -79,7 +79,7 @@ decide::Decision start(const Model& model) {
   decide::Instant instant;
   instant.u = model.u0;
   instant.v = model.v0;
-  instant.mode = decide::first_mode(model, forcing, 0.0, model.u0, model.v0);
+  instant.states = decide::initial_states(model, forcing, 0.0, model.u0, model.v0);
   return decide::ContactStateSolver(systems, 100, 1e-9).decide(instant, forcing, forcing);
 }
 
@@ -88,33 +88,33 @@ decide::Decision start(const Model& model) {
 TEST_SUITE_BEGIN("unit/decide/decide");
 
 TEST_CASE("a block sticks below the limit and slips towards the load above it") {
-  CHECK(start(blocks({{2.0}}, {0.3}, 0.4)).mode[0].state == State::stick);
-  CHECK(start(blocks({{2.0}}, {0.5}, 0.4)).mode[0].state == State::slip_plus);
-  CHECK(start(blocks({{2.0}}, {-0.5}, 0.4)).mode[0].state == State::slip_minus);
+  CHECK(start(blocks({{2.0}}, {0.3}, 0.4)).states[0].state == State::stick);
+  CHECK(start(blocks({{2.0}}, {0.5}, 0.4)).states[0].state == State::slip_plus);
+  CHECK(start(blocks({{2.0}}, {-0.5}, 0.4)).states[0].state == State::slip_minus);
   const decide::Decision d = start(blocks({{2.0}}, {0.5}, 0.4));
   CHECK(d.jet.a()[0] == doctest::Approx(0.05));  // (0.5 - 0.4) / 2
 }
 
 TEST_CASE("exactly at the limit with a constant load the block stays") {
-  CHECK(start(blocks({{2.0}}, {0.4}, 0.4)).mode[0].state == State::stick);
+  CHECK(start(blocks({{2.0}}, {0.4}, 0.4)).states[0].state == State::stick);
 }
 
 TEST_CASE("exactly at the limit with a growing load the next derivative decides") {
   Model model = blocks({{2.0}}, {0.0}, 0.4);
   model.loads[0].history = History(Piece{0.0, {0.4, 1.0}, 0.0, 0.0, 0.0});
-  CHECK(start(model).mode[0].state == State::slip_plus);
+  CHECK(start(model).states[0].state == State::slip_plus);
   model.loads[0].history = History(Piece{0.0, {0.4, -1.0}, 0.0, 0.0, 0.0});
-  CHECK(start(model).mode[0].state == State::stick);
+  CHECK(start(model).states[0].state == State::stick);
   model.loads[0].history = History(Piece{0.0, {0.4, 0.0, 0.0, 1.0}, 0.0, 0.0, 0.0});
-  CHECK(start(model).mode[0].state == State::slip_plus);
+  CHECK(start(model).states[0].state == State::slip_plus);
 }
 
 TEST_CASE("inertially coupled blocks are decided together") {
   // M = [[2,1],[1,2]]: pulling the first with 3 drags the second backwards, and its friction reacts.
   const decide::Decision d = start(blocks({{2.0, 1.0}, {1.0, 2.0}}, {3.0, 0.0}, 0.4));
   REQUIRE(d.consistent);
-  CHECK(d.mode[0].state == State::slip_plus);
-  CHECK(d.mode[1].state == State::slip_minus);
+  CHECK(d.states[0].state == State::slip_plus);
+  CHECK(d.states[1].state == State::slip_minus);
   CHECK(d.after[1].T == doctest::Approx(-0.4));
   // a1 = 2 (T_1 = 0.4) ... stuck second block would need T = -1.3: it must slip, so the guess is right
   CHECK(d.jet.a()[1] < 0.0);
@@ -132,14 +132,14 @@ TEST_CASE("two sliders without stiffness on one degree of freedom share its forc
   model.loads[0].history = History::constant(0.3);
   const decide::Decision rest = start(model);
   REQUIRE(rest.consistent);
-  CHECK(rest.mode[0].state == State::stick);
+  CHECK(rest.states[0].state == State::stick);
   CHECK(rest.after[0].T == doctest::Approx(0.2).epsilon(1e-14));
   CHECK(rest.after[1].T == doctest::Approx(0.1).epsilon(1e-14));
   model.loads[0].history = History::constant(-0.6);
   const decide::Decision slips = start(model);
   REQUIRE(slips.consistent);
-  CHECK(slips.mode[0].state == State::slip_minus);
-  CHECK(slips.mode[1].state == State::slip_minus);
+  CHECK(slips.states[0].state == State::slip_minus);
+  CHECK(slips.states[1].state == State::slip_minus);
   CHECK(slips.jet.a()[0] == doctest::Approx(-0.05).epsilon(1e-13));
 }
 
@@ -165,25 +165,25 @@ TEST_CASE("a trace hears of every mode that is tried, and the last one holds") {
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   decide::ContactStateSolver decider(systems, 100, 1e-9);
-  std::vector<Round> rounds;
-  decider.trace([&](const Round& round) { rounds.push_back(round); });
+  std::vector<DecisionRound> rounds;
+  decider.trace([&](const DecisionRound& round) { rounds.push_back(round); });
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
   decide::Instant instant;
   instant.t = 0.25;
   instant.u = model.u0;
   instant.v = model.v0;
-  instant.mode = decide::first_mode(model, forcing, 0.0, model.u0, model.v0);
+  instant.states = decide::initial_states(model, forcing, 0.0, model.u0, model.v0);
   REQUIRE(decider.decide(instant, forcing, forcing).consistent);
   REQUIRE(rounds.size() == 2);
   CHECK(rounds[0].t == 0.25);
   CHECK(rounds[0].number == 0);
-  CHECK(rounds[0].tried[0].state == State::stick);
+  CHECK(rounds[0].states[0].state == State::stick);
   REQUIRE(rounds[0].failed.size() == 1);
   CHECK(rounds[0].failed[0].guard == "friction limit (+)");
   CHECK(rounds[0].failed[0].order == 0);
   CHECK(rounds[0].failed[0].excess > 1.0);
   CHECK(rounds[1].number == 1);
-  CHECK(rounds[1].tried[0].state == State::slip_plus);
+  CHECK(rounds[1].states[0].state == State::slip_plus);
   CHECK(rounds[1].failed.empty());
 }
 
@@ -206,7 +206,7 @@ TEST_CASE("what a decision took for rest at the limit of friction is rounding to
     REQUIRE(d.consistent);
     for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
       const decide::GuardStart& guard = d.guards[slot];
-      if (guard.kind != Guard::slip_plus || !guard.at_zero || guard.leading >= 0) continue;
+      if (guard.kind != Guard::slip_plus || !guard.at_zero || guard.leading_order >= 0) continue;
       ++resting;
       CHECK(d.form(slot).value(d.after[contact::contact_of_guard(slot)]) >= -guard.noise);
     }
@@ -224,21 +224,21 @@ TEST_CASE("a limit that has rested: what the way has left of it is rounding to a
     instant.t = 1.0;
     instant.resolution = 1e-14;
     instant.u = instant.v = Vector::Zero(1);
-    instant.mode = {{State::stick, 0.0}};
+    instant.states = {{State::stick, 0.0}};
     instant.jump = true;
-    instant.rested = std::move(rested);
+    instant.resting_limits = std::move(rested);
     return decide::ContactStateSolver(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
   };
-  CHECK(decided({}).mode[0].state == State::slip_plus);
+  CHECK(decided({}).states[0].state == State::slip_plus);
   const decide::Decision d = decided({{0, Guard::slip_plus}});
   REQUIRE(d.consistent);
-  CHECK(d.mode[0].state == State::stick);
+  CHECK(d.states[0].state == State::stick);
   const auto limit = std::find_if(d.guards.begin(), d.guards.end(), [](const decide::GuardStart& guard) {
     return guard.kind == Guard::slip_plus;
   });
   REQUIRE(limit != d.guards.end());
   CHECK(limit->at_zero);
-  CHECK(limit->leading < 0);
+  CHECK(limit->leading_order < 0);
   const double below = d.form(static_cast<std::size_t>(limit - d.guards.begin())).value(d.after[0]);
   CHECK(below < -3e-10);
   CHECK(limit->noise >= -below);
@@ -252,7 +252,7 @@ TEST_CASE("what an engine saw fall does not rise, whatever rounding has left of 
   instant.v = Vector::Constant(1, 1e-20);
   const decide::Decision d = fallen(model, instant);
   REQUIRE(d.consistent);
-  CHECK(d.mode[0].state == State::closed);
+  CHECK(d.states[0].state == State::closed);
   CHECK(d.v[0] == 0.0);
 }
 
@@ -267,12 +267,12 @@ TEST_CASE("contacts that land within what rounding has carried into their gaps h
   const auto hits = [](const decide::Decision& d, std::size_t c) {
     return !d.impulses.empty() && d.impulses[c].hit;
   };
-  instant.touched = {0.0, 1.0 - 1e-12};
+  instant.last_touch = {0.0, 1.0 - 1e-12};
   const decide::Decision apart = fallen(model, instant);  // it has not flown for long enough
   CHECK(hits(apart, 0));
   CHECK_FALSE(hits(apart, 1));
   instant.t = 100.0;
-  instant.touched = {0.0, 0.0};
+  instant.last_touch = {0.0, 0.0};
   const decide::Decision together = fallen(model, instant);
   CHECK(hits(together, 0));
   CHECK(hits(together, 1));
@@ -290,10 +290,10 @@ TEST_CASE(
     motion::StateSystems systems(model, structure);
     const motion::Forcing forcing(model, 0.0, motion::Side::after);
     decide::Instant instant;
-    instant.start = instant.knows_low_flights = true;
+    instant.start = instant.resolves_low_flights = true;
     instant.u = Vector::Zero(1);
     instant.v = Vector::Constant(1, speed);
-    instant.mode = {{State::open, 0.0}};
+    instant.states = {{State::open, 0.0}};
     return decide::ContactStateSolver(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
   };
   for (const double factor : {0x1p-30, 1.0, 0x1p20}) {
@@ -301,12 +301,12 @@ TEST_CASE(
     const decide::Decision fast = left(factor, 0.3, 0.2), slow = left(factor, 0.1, 0.2),
                            free = left(factor, 0.3, 0.0);
     REQUIRE(fast.departures.size() == 1);
-    CHECK(fast.mode[0].is_open());
+    CHECK(fast.states[0].is_open());
     CHECK(fast.departures[0] == doctest::Approx(1.5).epsilon(1e-12));
-    CHECK_FALSE(slow.mode[0].is_open());
+    CHECK_FALSE(slow.states[0].is_open());
     CHECK(slow.departures[0] == doctest::Approx(0.5).epsilon(1e-12));
     // Without a captured speed rounding alone decides: a speed is 1e15 of its own rounding, or so.
-    CHECK(free.mode[0].is_open());
+    CHECK(free.states[0].is_open());
     CHECK(free.departures[0] > 1e12);
     CHECK(free.departures[0] < 1e17);
     CHECK(free.departures[0] == doctest::Approx(left(1.0, 0.3, 0.0).departures[0]).epsilon(1e-9));
@@ -321,7 +321,7 @@ TEST_CASE("a fast landing after a long time on a stiff structure is a hit") {
   instant.resolution = 1e-8;
   instant.u = Vector::Zero(1);
   instant.v = Vector::Constant(1, -1.0);
-  instant.touched = {0.0};
+  instant.last_touch = {0.0};
   const decide::Decision d = fallen(model, instant);
   REQUIRE(d.consistent);
   REQUIRE(!d.impulses.empty());

@@ -35,7 +35,7 @@ TEST_CASE("forces at contacts move all of them by H^T M^-1 H, and parts without 
   const Model model = on_slopes();
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
-  const motion::StateSystemPtr open = systems.of({{State::open, 0.0}, {State::open, 0.0}});
+  const motion::StateSystemPtr open = systems.system_of({{State::open, 0.0}, {State::open, 0.0}});
   REQUIRE(open);
   const decide::Delassus d = decide::delassus(model, *open, {0, 1});
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, 4);
@@ -62,7 +62,7 @@ TEST_CASE("impulses and what a contact that sticks gives against them make the w
   H.col(2) << 0.0, 0.0, 1.0;
   H.col(3) << 0.0, 0.3, 0.1;
   for (const State second : {State::open, State::stick}) {
-    const motion::StateSystemPtr system = systems.of({{State::open, 0.0}, {second, 0.0}});
+    const motion::StateSystemPtr system = systems.system_of({{State::open, 0.0}, {second, 0.0}});
     REQUIRE(system);
     const Eigen::Vector2d impulses(0.7, -1.9);
     const Eigen::VectorXd all = decide::with_reactions(model, *system, {0}, impulses);
@@ -82,7 +82,7 @@ TEST_CASE("velocities are set to the last digit, by the least change of kinetic 
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   const decide::Delassus d =
-      decide::delassus(model, *systems.of({{State::open, 0.0}, {State::open, 0.0}}), {0, 1});
+      decide::delassus(model, *systems.system_of({{State::open, 0.0}, {State::open, 0.0}}), {0, 1});
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const Eigen::MatrixXd mass(model.mass);
@@ -92,20 +92,20 @@ TEST_CASE("velocities are set to the last digit, by the least change of kinetic 
     for (int i = 0; i < 4; ++i) v[i] = uniform(random);
     const Vector before = v;
     const double slide = uniform(random);
-    const std::vector<decide::Fixed> fixed{{0, &model.contacts[0].normal, 0.0},
-                                           {1, &model.contacts[0].tangent, 0.0},
-                                           {2, &model.contacts[1].normal, slide}};
-    CHECK_FALSE(decide::settled(fixed, v));
-    decide::settle(d, fixed, v);
+    const std::vector<decide::FixedVelocity> fixed{{0, &model.contacts[0].normal, 0.0},
+                                                   {1, &model.contacts[0].tangent, 0.0},
+                                                   {2, &model.contacts[1].normal, slide}};
+    CHECK_FALSE(decide::has_velocities(fixed, v));
+    decide::impose_velocities(d, fixed, v);
     // n and t of the first are of the same two entries, n of the second of one: exact, not to rounding
     CHECK(v[0] == 0.0);
     CHECK(v[1] == 0.0);
     CHECK(v[2] == slide);
     CHECK(v[3] == before[3]);
-    CHECK(decide::settled(fixed, v));
+    CHECK(decide::has_velocities(fixed, v));
     // One held alone: the change is M^-1 n, so M (v - before) has no part but along n.
     Vector one = before;
-    decide::settle(d, {{0, &model.contacts[0].normal, 0.0}}, one);
+    decide::impose_velocities(d, {{0, &model.contacts[0].normal, 0.0}}, one);
     const Vector impulse = mass * (one - before);
     CHECK(std::abs(0.8 * one[0] - 0.6 * one[1]) < 1e-15);
     CHECK(std::abs(0.6 * impulse[0] + 0.8 * impulse[1]) < 1e-14);

@@ -19,7 +19,7 @@ State first_state(const std::string& tangent, const std::string& v, const std::s
                   v, tangent, surface_velocity),
       "test.toml"));
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
-  return decide::first_mode(model, forcing, 0.0, model.u0, model.v0)[0].state;
+  return decide::initial_states(model, forcing, 0.0, model.u0, model.v0)[0].state;
 }
 
 }  // namespace

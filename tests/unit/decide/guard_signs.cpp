@@ -34,7 +34,7 @@ TEST_CASE(
       jet;  // N = t^2, T = t^2: compression ends and the limit is exceeded, both in the second derivative
   for (std::size_t k = 0; k < jet.motion.size(); ++k) jet.noise[k].N = jet.noise[k].T = 1e-12;
   jet.motion[2].N = jet.motion[2].T = 2.0;
-  const std::vector<decide::Failure> failed = decide::failures(
+  const std::vector<decide::FailedGuard> failed = decide::find_failed_guards(
       model, {jet}, {{State::stick}}, decide::Instant{}, false, std::vector<decide::KnownGuards>(1), {}, {0});
   REQUIRE(failed.size() == 1);
   CHECK(failed[0].guard == Guard::separation);
@@ -54,7 +54,7 @@ TEST_CASE("the first derivative that is not zero decides, and says how clearly")
 TEST_CASE(
     "a guard starts at zero within its noise and what it changes in the resolution of time, on either side") {
   decide::Instant instant;
-  instant.blur = 2.0;
+  instant.noise_factor = 2.0;
   instant.resolution = 1e-3;
   const auto starts = [&](double value, double rate) {
     return decide::starts_at_zero(gap(), gap_of({value, rate, 0.0, 0.0, 0.0}, 0.25), instant);
@@ -101,23 +101,23 @@ TEST_CASE("a guard is told by the first order from which it is asked, though zer
   CHECK(told({0.0, 0.0, 0.0, 0.0, 0.0}, MotionJet::orders, 0));
   // After a limit that has rested differences to another motion count, of that limit and of the slip that left it.
   decide::Instant rested;
-  rested.rested = {{0, Guard::slip_plus}};
+  rested.resting_limits = {{0, Guard::slip_plus}};
   CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested));
   CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested, Guard::slip_plus));
-  rested.rested = {{1, Guard::slip_plus}};
+  rested.resting_limits = {{1, Guard::slip_plus}};
   CHECK(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested));
-  rested.rested = {{0, Guard::slip_minus}};
+  rested.resting_limits = {{0, Guard::slip_minus}};
   CHECK_FALSE(told({17.0, 90.0, 0.0, 0.0, 0.0}, 2, 0, rested));
 }
 
 TEST_CASE("forgiveness is the greatest negative derivative before a positive one, in roundings") {
   const decide::Instant instant;
-  CHECK(decide::forgiveness(gap(), gap_of({3.0, -9.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == 0.0);
-  CHECK(decide::forgiveness(gap(), gap_of({-4.0, 0.0, 8.0, -100.0, 0.0}, 1.0), instant, 0) ==
+  CHECK(decide::relative_violation(gap(), gap_of({3.0, -9.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == 0.0);
+  CHECK(decide::relative_violation(gap(), gap_of({-4.0, 0.0, 8.0, -100.0, 0.0}, 1.0), instant, 0) ==
         doctest::Approx(4.0));
-  CHECK(decide::forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) ==
+  CHECK(decide::relative_violation(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) ==
         doctest::Approx(6.0));
-  CHECK(decide::forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 2) == 0.0);
+  CHECK(decide::relative_violation(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 2) == 0.0);
 }
 
 TEST_SUITE_END();

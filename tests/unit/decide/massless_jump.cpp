@@ -27,8 +27,8 @@ Model point_between_walls() {
   return model;
 }
 
-decide::Failure failing(std::size_t contact, Guard guard, int order = 0) {
-  decide::Failure f{contact, guard};
+decide::FailedGuard failing(std::size_t contact, Guard guard, int order = 0) {
+  decide::FailedGuard f{contact, guard};
   f.sign.order = order;
   return f;
 }
@@ -45,12 +45,12 @@ TEST_CASE("of walls on the way the first is touched, and what comes later is ano
   const Model model = point_between_walls();
   // Gaps go from 0.5, 0.1 and 3 to -0.5, -0.4 and 2.5.
   const Vector from = at(0.0, 0.0), to = at(-1.0, -0.5);
-  std::vector<decide::Failure> failed = {failing(0, Guard::closing), failing(1, Guard::closing),
-                                         failing(2, Guard::sliding), failing(0, Guard::sliding)};
+  std::vector<decide::FailedGuard> failed = {failing(0, Guard::closing), failing(1, Guard::closing),
+                                             failing(2, Guard::sliding), failing(0, Guard::sliding)};
   const auto touch = decide::first_touch(model, {from, to}, failed);
   REQUIRE(touch);
   CHECK(touch->contact == 1);
-  CHECK(touch->part == doctest::Approx(0.1 / 0.5).epsilon(1e-15));  // 0.1 (1 - x) - 0.4 x = 0
+  CHECK(touch->fraction == doctest::Approx(0.1 / 0.5).epsilon(1e-15));  // 0.1 (1 - x) - 0.4 x = 0
   // t . (u(x) - u_to), t = (0.6, 0.8)
   CHECK(touch->ut == doctest::Approx((0.6 * 1.0 + 0.8 * 0.5) * 0.8).epsilon(1e-15));
   CHECK(decide::contacts_of(failed) ==
@@ -61,27 +61,27 @@ TEST_CASE("a wall that is touched already is touched where the way begins; other
   const Model model = point_between_walls();
   const Vector inside = at(-0.5, -0.5), deeper = at(-0.7, -0.6),
                back = at(-0.3, -0.5);  // wall 0: -0.2, -0.4, -0.08
-  std::vector<decide::Failure> failed = {failing(0, Guard::closing)};
+  std::vector<decide::FailedGuard> failed = {failing(0, Guard::closing)};
   const auto touch = decide::first_touch(model, {inside, deeper}, failed);
   REQUIRE(touch);
-  CHECK(touch->part == 0.0);
+  CHECK(touch->fraction == 0.0);
   CHECK_FALSE(decide::first_touch(model, {inside, back}, failed));  // it leaves
-  std::vector<decide::Failure> later = {failing(0, Guard::closing, 1), failing(2, Guard::closing)};
+  std::vector<decide::FailedGuard> later = {failing(0, Guard::closing, 1), failing(2, Guard::closing)};
   CHECK_FALSE(decide::first_touch(model, {at(0.0, 0.0), deeper}, later));  // by its rate; 3 - 0.6 is open
   CHECK(later.size() == 2);
 }
 
 TEST_CASE("slip of what is on its way is told where it arrives") {
   const Model model = point_between_walls();
-  std::vector<decide::Failure> failed = {failing(0, Guard::sliding), failing(1, Guard::separation),
-                                         failing(3, Guard::sliding)};
-  decide::leave_sliding_for_later(model, failed);
+  std::vector<decide::FailedGuard> failed = {failing(0, Guard::sliding), failing(1, Guard::separation),
+                                             failing(3, Guard::sliding)};
+  decide::defer_slip_failures(model, failed);
   CHECK(decide::contacts_of(failed) == Contacts{1, 3});
   // Nothing is on a way: the other fails by its rate only, or has mass, or slides itself.
-  for (const decide::Failure& other :
+  for (const decide::FailedGuard& other :
        {failing(1, Guard::separation, 1), failing(3, Guard::separation), failing(1, Guard::sliding)}) {
-    std::vector<decide::Failure> both = {failing(0, Guard::sliding), other};
-    decide::leave_sliding_for_later(model, both);
+    std::vector<decide::FailedGuard> both = {failing(0, Guard::sliding), other};
+    decide::defer_slip_failures(model, both);
     CHECK(both.size() == 2);
   }
 }
@@ -90,7 +90,7 @@ TEST_CASE("what slid at once along its slip stops on its way") {
   Contact contact = leaning(0.6, 0.8, 0.0);
   const Vector from = at(0.1, 0.2), ahead = at(0.1 - 0.8e-3, 0.2 + 0.6e-3);  // ut by 1e-3
   const auto stops = [&](Guard guard, State slip, double noise) {
-    return decide::stops_on_way(contact, failing(0, guard), slip, {from, ahead}, noise);
+    return decide::stops_on_path(contact, failing(0, guard), slip, {from, ahead}, noise);
   };
   CHECK_FALSE(stops(Guard::sliding, State::slip_plus, 1e-9));  // it does not slide at once
   contact.shear.emplace();

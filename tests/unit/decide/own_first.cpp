@@ -19,8 +19,8 @@ Model sliders() {
   return model;
 }
 
-decide::Failure failing(std::size_t contact, Guard guard, int order = 0) {
-  decide::Failure f{contact, guard};
+decide::FailedGuard failing(std::size_t contact, Guard guard, int order = 0) {
+  decide::FailedGuard f{contact, guard};
   f.sign.order = order;
   return f;
 }
@@ -28,10 +28,10 @@ decide::Failure failing(std::size_t contact, Guard guard, int order = 0) {
 using Contacts = std::vector<std::size_t>;
 
 /// Contacts that are asked now, where `visited` were asked before.
-Contacts asked(std::vector<decide::Failure> failed, const Contacts& visited) {
+Contacts asked(std::vector<decide::FailedGuard> failed, const Contacts& visited) {
   std::vector<bool> before(5, false);
   for (const std::size_t c : visited) before[c] = true;
-  decide::leave_pushed_for_later(sliders(), before, {0, 0, 1, 0, 0}, failed);
+  decide::defer_pushed_failures(sliders(), before, {0, 0, 1, 0, 0}, failed);
   return decide::contacts_of(failed);
 }
 
@@ -41,7 +41,7 @@ TEST_SUITE_BEGIN("unit/decide/own_first");
 
 TEST_CASE("what a slider pushes that does not stick waits for its next state") {
   for (const Guard limit : {Guard::slip_plus, Guard::slip_minus}) {
-    const decide::Failure turns = failing(1, limit);
+    const decide::FailedGuard turns = failing(1, limit);
     for (const std::size_t c : {0U, 3U, 4U}) {
       CHECK(asked({failing(c, Guard::slip_plus), turns}, {1}) == Contacts{1});
       CHECK(asked({turns, failing(c, Guard::separation)}, {1}) == Contacts{1});
@@ -50,7 +50,7 @@ TEST_CASE("what a slider pushes that does not stick waits for its next state") {
 }
 
 TEST_CASE("what has a reason of its own does not wait") {
-  const decide::Failure turns = failing(1, Guard::slip_plus);
+  const decide::FailedGuard turns = failing(1, Guard::slip_plus);
   CHECK(asked({failing(0, Guard::slip_minus), turns}, {0, 1}) == Contacts{0, 1});  // both came to rest
   CHECK(asked({failing(0, Guard::slip_minus, 1), turns}, {1}) == Contacts{0, 1});  // by its rate
   CHECK(asked({failing(2, Guard::slip_minus), turns}, {1}) == Contacts{2, 1});     // nothing couples them

@@ -20,19 +20,19 @@ struct Touch {
         forcing(model, 0.0, motion::Side::after) {
     instant.u = model.u0;
     instant.v = model.v0;
-    instant.mode = {{State::open, 0.0}};
+    instant.states = {{State::open, 0.0}};
     known.touches = true;
     known.closing.zeros = 2;
   }
-  [[nodiscard]] auto least_failing(const std::vector<decide::Enumeration::Choice>& choices) {
-    return enumeration.least_failing(instant, forcing, {0}, choices, {known}, instant.mode);
+  [[nodiscard]] auto least_failing(const std::vector<decide::StateEnumeration::Choice>& choices) {
+    return enumeration.best_combination(instant, forcing, {0}, choices, {known}, instant.states);
   }
 
   Model model;
   linear::SystemMatrices structure;
   motion::StateSystems systems;
   motion::JetMaker jets;
-  decide::Enumeration enumeration;
+  decide::StateEnumeration enumeration;
   motion::Forcing forcing;
   decide::Instant instant;
   decide::KnownGuards known;
@@ -55,11 +55,11 @@ TEST_CASE("two combinations that go on otherwise are rivals, and are named") {
   decide::Participant who{0};
   who.slipping = true;
   who.sign = 1;
-  const std::vector<decide::Enumeration::Choice> choices{rod.enumeration.choice(who)};
+  const std::vector<decide::StateEnumeration::Choice> choices{rod.enumeration.choice(who)};
   const auto best = rod.least_failing(choices);
   REQUIRE(best);
-  CHECK(best->forgiveness == 0.0);
-  REQUIRE(!best->rival.empty());
+  CHECK(best->relative_violation == 0.0);
+  REQUIRE(!best->alternative.empty());
   CHECK_FALSE(best->acceptable());
   CHECK(decide::several_motions(rod.model, choices, *best) ==
         "several motions continue this one, as 'c' open and as 'c' slip+");
@@ -78,13 +78,13 @@ TEST_CASE("between static and kinetic friction a block at rest sticks; slipping 
   };
   const auto between = asked("{ static = 0.5, kinetic = 0.3 }");
   REQUIRE(between);
-  CHECK(between->forgiveness == 0.0);
-  CHECK(between->rival.empty());
-  CHECK(between->mode[0].state == State::stick);
+  CHECK(between->relative_violation == 0.0);
+  CHECK(between->alternative.empty());
+  CHECK(between->contact_states[0].state == State::stick);
   const auto above = asked("{ static = 0.35, kinetic = 0.3 }");
   REQUIRE(above);
-  CHECK(above->rival.empty());
-  CHECK(above->mode[0].state == State::slip_plus);
+  CHECK(above->alternative.empty());
+  CHECK(above->contact_states[0].state == State::slip_plus);
 }
 
 TEST_CASE("the condition is that of the forces that contacts can bear") {
@@ -101,12 +101,12 @@ TEST_CASE("the condition is that of the forces that contacts can bear") {
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   motion::JetMaker jets(systems);
-  decide::Enumeration enumeration(systems, jets);
-  const contact::ContactStates mode{{State::open, 0.0}, {State::stick, 0.0}};
+  decide::StateEnumeration enumeration(systems, jets);
+  const contact::ContactStates states{{State::open, 0.0}, {State::stick, 0.0}};
   // M^-1 = [[2, -1], [-1, 2]] / 3: scaled by its diagonal [[1, -1/2], [-1/2, 1]].
-  CHECK(enumeration.condition({0, 1}, mode) == doctest::Approx(3.0));
-  CHECK(enumeration.condition({0}, mode) == doctest::Approx(1.0));
-  CHECK(enumeration.condition({1}, mode) == doctest::Approx(1.0));
+  CHECK(enumeration.condition({0, 1}, states) == doctest::Approx(3.0));
+  CHECK(enumeration.condition({0}, states) == doctest::Approx(1.0));
+  CHECK(enumeration.condition({1}, states) == doctest::Approx(1.0));
 }
 
 TEST_SUITE_END();

@@ -17,7 +17,7 @@ Vector law_forces(const Stretch& s, double t, const motion::Point& p) {
     const Contact& contact = s.model.contacts[c];
     const ContactMotion m = motion::motion_of(contact, c, s.forcing, t, p);
     const auto n = static_cast<Eigen::Index>(2 * c);
-    const ContactState& state = s.decision.mode[c];
+    const ContactState& state = s.decision.states[c];
     if (state.is_open()) continue;
     forces[n] = contact.normal_stiffness * m.gap + contact.normal_damping * m.vn;
     if (state.state == State::slip_plus) forces[n + 1] = -contact.friction.kinetic * forces[n];
@@ -36,7 +36,7 @@ void check_points(Stretch& s, bool smooth, double off) {
       const motion::Point p = s.at(t);
       REQUIRE(p.a.size() == 6);
       CHECK((p.forces - law_forces(s, t, p)).cwiseAbs().maxCoeff() < off);
-      CHECK(motion::imbalance(s.model, s.structure, s.forcing, t, p) < off);
+      CHECK(motion::equilibrium_residual(s.model, s.structure, s.forcing, t, p) < off);
       motion::Point inside = p;
       inside.u.setConstant(std::numeric_limits<double>::infinity());
       inside.a.resize(0);
@@ -93,7 +93,7 @@ TEST_CASE(
                  {"contacts.c.gap", more}},
                 std::vector{0, 1, 2, 3, 4});
       REQUIRE(s.decision.consistent);
-      CHECK(s.decision.mode[2].is_open() == (more == "5.0"));
+      CHECK(s.decision.states[2].is_open() == (more == "5.0"));
       check_points(s, std::string(engine) == "exact", off);
     }
 }

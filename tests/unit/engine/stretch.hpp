@@ -79,7 +79,7 @@ class Stretch {
       for (std::size_t i = 0; i < x.size(); ++i)
         for (const double side : {-1.0, 1.0}) {
           const double t = from + half * (2 * part + 1 + side * x[i]);
-          powers.at(forcing, t, decision.mode, at(t), now.data());
+          powers.at(forcing, t, decision.states, at(t), now.data());
           powers.add(now.data(), half * w[i], works);
         }
   }
@@ -90,11 +90,11 @@ class Stretch {
     const motion::Point point = at(event.end);
     now.u = point.u;
     now.v = point.v;
-    now.mode = decision.mode;
+    now.states = decision.states;
     now.triggered = event.triggered;
-    now.rested = decide::resting(decision);
-    decision =
-        event.adopted ? decider.adopt(now, *event.adopted, forcing) : decider.decide(now, forcing, forcing);
+    now.resting_limits = decide::find_resting_limits(decision);
+    decision = event.engine_states ? decider.adopt(now, *event.engine_states, forcing)
+                                   : decider.decide(now, forcing, forcing);
     if (decision.consistent) engine->start({run.t_end, &decision, &forcing});
     return decision.consistent;
   }
@@ -115,7 +115,7 @@ class Stretch {
     decide::Instant now;
     now.t = t;
     now.resolution = resolution;
-    now.knows_low_flights = engine->knows_low_flights;
+    now.resolves_low_flights = engine->resolves_low_flights;
     return now;
   }
   decide::Decision begun() {
@@ -123,7 +123,7 @@ class Stretch {
     now.u = model.u0;
     now.v = model.v0;
     now.start = true;
-    now.mode = decide::first_mode(model, forcing, 0.0, model.u0, model.v0);
+    now.states = decide::initial_states(model, forcing, 0.0, model.u0, model.v0);
     return decider.decide(std::move(now), forcing, forcing);
   }
 };

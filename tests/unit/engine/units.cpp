@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "unit/engine/stretch.hpp"
 
 namespace signorini::tests::units {
@@ -23,13 +23,13 @@ Way way(const Scene& scene, const Factors& factors, std::size_t most_events) {
   Stretch stretch(model::rescaled(build_model(scene), factors), run);
   Way result;
   if (!stretch.decision.consistent) return result;
-  result.modes.push_back(stretch.decision.mode);
+  result.modes.push_back(stretch.decision.states);
   while (result.modes.size() <= most_events) {
     const engine::Step last =
         stretch.go([&](const engine::Step& step) { result.ends.push_back(step.end / factors.time); });
     result.reason = last.reason;
     if (last.kind != engine::Step::Kind::event || !stretch.pass(last)) break;
-    result.modes.push_back(stretch.decision.mode);
+    result.modes.push_back(stretch.decision.states);
   }
   result.u = stretch.model.physical(stretch.decision.u) / factors.length;
   return result;

@@ -12,8 +12,8 @@ void check_works(const std::string& text, const std::string& engine, const std::
   CAPTURE(flow);
   Stretch stretch(text, {{"run.engine", engine}, {"run.flow", flow}, {"run.rtol", "1e-9"}});
   REQUIRE(stretch.decision.consistent);
-  REQUIRE(stretch.decision.mode[0].state == State::slip_plus);
-  REQUIRE(stretch.decision.mode[1].state == State::stick);
+  REQUIRE(stretch.decision.states[0].state == State::slip_plus);
+  REQUIRE(stretch.decision.states[1].state == State::stick);
   motion::WorkIntegrals found(3), expected(3);
   long steps = 0;
   const engine::Step last = stretch.go([&](const engine::Step& step) {

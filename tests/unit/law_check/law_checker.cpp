@@ -54,7 +54,7 @@ void write_rows(const Model& model, law_check::InstantRecord& record) {
     const Contact& c = model.contacts[event.contact];
     const auto at = static_cast<Eigen::Index>(2 * event.contact);
     const double surface = record.after.driven[event.contact].ds;
-    event.gap = c.gap_if_any(c.gap_at(*record.after.u));
+    event.gap = c.optional_gap(c.gap_at(*record.after.u));
     event.N = (*record.before.forces)[at];
     event.T = (*record.before.forces)[at + 1];
     event.N_after = (*record.after.forces)[at];
@@ -96,7 +96,7 @@ struct Recorded {
     if (before[0].state != after[0].state && record.events.empty())
       record.events.push_back({0, "event", before[0].state, after[0].state});
     if (!untrue) write_rows(model, record);
-    return law_check::LawChecker(model, limits).instant(record);
+    return law_check::LawChecker(model, limits).check_instant(record);
   }
 };
 
@@ -177,7 +177,7 @@ TEST_CASE("hits of one instant come one after the other: each by its own velocit
     record.events.push_back({0, "impact", State::open, State::open});
     record.events.push_back({1, "impact", State::open, State::open});
     write_rows(model, record);
-    return law_check::LawChecker(model, {}).instant(record);
+    return law_check::LawChecker(model, {}).check_instant(record);
   };
   CHECK(found(0.12, 2).empty());
   CHECK(names(found(0.13, 2), "restitution"));  // another e
@@ -204,7 +204,7 @@ TEST_CASE("a contact that is hit twice at one instant: each hit by its own veloc
     record.before = {&u, &before, nullptr, &open, &none, {}, {law_check::Driven{}, law_check::Driven{}}};
     record.after = {&u, &after, &u, &open, &none, {}, {law_check::Driven{}, law_check::Driven{}}};
     record.impulses = {{0, 1, 1.5 * mass, 0.0}, {1, 2, 1.29 * mass, 0.0}, {0, 3, last * mass, 0.0}};
-    return law_check::LawChecker(model, {}).instant(record);
+    return law_check::LawChecker(model, {}).check_instant(record);
   };
   CHECK(found(0.411).empty());
   CHECK(names(found(0.45), "restitution"));
@@ -370,7 +370,7 @@ TEST_CASE(
     record.events[0].N += part * 3e-5 * c;
     law_check::LawLimits limits;
     limits.step = 0.01;
-    CHECK(names(law_check::LawChecker(model, limits).instant(record), "row") == (part > 3.0));
+    CHECK(names(law_check::LawChecker(model, limits).check_instant(record), "row") == (part > 3.0));
   }
 }
 
@@ -430,7 +430,7 @@ TEST_CASE("what a rigid stop holds, too, has no friction force of its own: no re
         &r.u_after, &r.v_after, &r.a, &r.after, &after, {}, {law_check::Driven{}, law_check::Driven{}}};
     r.record.events.push_back({0, "slip", State::stick, State::slip_plus});
     CAPTURE(held);
-    CHECK(names(law_check::LawChecker(model, {}).instant(r.record), "necessity") == !held);
+    CHECK(names(law_check::LawChecker(model, {}).check_instant(r.record), "necessity") == !held);
   }
 }
 
@@ -500,7 +500,7 @@ TEST_CASE(
   model.mass.coeffRef(1, 1) = 5.0;
   const double s = std::sin(angle), c = std::cos(angle);
   const double nn = s * s / mass + c * c / 5.0, tt = c * c / mass + s * s / 5.0;
-  CHECK(law_check::LawChecker(model, {}).lightness(0) ==
+  CHECK(law_check::LawChecker(model, {}).speed_per_energy_root(0) ==
         doctest::Approx(std::sqrt(nn) + std::sqrt(tt)).epsilon(1e-14));
 }
 
@@ -539,14 +539,14 @@ TEST_CASE("between events: what is open has a gap, what presses does not pull") 
   const std::vector<ContactState> open = {{State::open, 0.0}}, closed = {{State::stick, 0.0}};
   law_check::CheckedSide side{&r.u_before, &r.v_before,          nullptr, &open, &r.forces_before,
                               {},          {law_check::Driven{}}};
-  CHECK(names(witness.between(1.0, side), "penetration"));
+  CHECK(names(witness.check_point(1.0, side), "penetration"));
   side.mode = &closed;
   r.forces_before = Eigen::Vector2d(0.5, 0.0);
-  CHECK(names(witness.between(1.0, side), "tension"));
+  CHECK(names(witness.check_point(1.0, side), "tension"));
   r.forces_before = Eigen::Vector2d(-10.0, 4.1);
-  CHECK(names(witness.between(1.0, side), "friction"));
+  CHECK(names(witness.check_point(1.0, side), "friction"));
   r.forces_before = Eigen::Vector2d(-10.0, 3.9);
-  CHECK(witness.between(1.0, side).empty());
+  CHECK(witness.check_point(1.0, side).empty());
 }
 
 TEST_SUITE_END();

@@ -54,7 +54,7 @@ struct Chain {
   }
   [[nodiscard]] std::vector<Violation> between() const {
     law_check::CheckedSide side = sides();
-    return law_check::LawChecker(model, {}).between(1.0, side);
+    return law_check::LawChecker(model, {}).check_point(1.0, side);
   }
   [[nodiscard]] law_check::CheckedSide sides() const {
     law_check::CheckedSide side{&u, &v, &a, &mode, &forces, {}, {law_check::Driven{}}};
@@ -66,7 +66,7 @@ struct Chain {
     record.t = 1.0;
     record.resolution = 1e-15;
     record.before = record.after = sides();
-    return law_check::LawChecker(model, {}).instant(record);
+    return law_check::LawChecker(model, {}).check_instant(record);
   }
 };
 
@@ -159,7 +159,7 @@ TEST_CASE("a contact that parts without mass leave at once was at a limit") {
     record.after = {&gone, &chain.v, &chain.a, &then, &free, {}, {law_check::Driven{}}};
     record.released = {0};
     record.events.push_back({0, "separation", State::stick, after});
-    return tells_of(law_check::LawChecker(chain.model, {}).instant(record), "release");
+    return tells_of(law_check::LawChecker(chain.model, {}).check_instant(record), "release");
   };
   CHECK_FALSE(law_broken(true));
   CHECK(law_broken(false));
@@ -249,7 +249,7 @@ struct LetGo {
     record.after.forces = &forces_after;
     record.after.mode = &after;
     record.events.push_back({0, "slip", State::stick, State::slip_plus, 1.0, 1e-15, N, held, N, slides});
-    return law_check::LawChecker(chain.model, {}).instant(record);
+    return law_check::LawChecker(chain.model, {}).check_instant(record);
   }
 };
 
@@ -274,7 +274,7 @@ TEST_CASE("stiff springs of contacts make forces of the rounding of u, and these
   constexpr double stiff = 1e13, behind = 20.0;
   chain.model.contacts[0].tangential_stiffness = stiff;
   chain.mode[0] = {State::stick, chain.u[2]};
-  const double unsure = rounding::of_elimination * stiff * std::abs(chain.u[2]) / behind;
+  const double unsure = rounding::elimination * stiff * std::abs(chain.u[2]) / behind;
   const auto told_at = [&](double off) {
     Vector moved = chain.u;
     moved[2] += off;
@@ -283,7 +283,7 @@ TEST_CASE("stiff springs of contacts make forces of the rounding of u, and these
     record.resolution = 1e-15;
     record.before = record.after = chain.sides();
     record.after.u = &moved;
-    return tells_of(law_check::LawChecker(chain.model, {}).instant(record), "continuity");
+    return tells_of(law_check::LawChecker(chain.model, {}).check_instant(record), "continuity");
   };
   CHECK_FALSE(told_at(0.5 * unsure));
   CHECK(told_at(50.0 * unsure));
@@ -308,7 +308,7 @@ TEST_CASE("what slid and stopped at once has a row of slip from stick to stick; 
   record.after.mode = &stopped;
   record.after.u = &moved;
   const auto told = [&] {
-    return tells_of(law_check::LawChecker(chain.model, {}).instant(record), "continuity");
+    return tells_of(law_check::LawChecker(chain.model, {}).check_instant(record), "continuity");
   };
   CHECK(told());
   law_check::RecordedEvent slip{0, "slip", State::stick, State::stick, -1.0, 1e-15};

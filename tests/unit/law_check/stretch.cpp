@@ -47,7 +47,7 @@ struct End {
 std::string law_of(const Model& model, const End& from, const End& to,
                    const law_check::LawLimits& limits = {}) {
   const std::vector<Violation> found =
-      law_check::LawChecker(model, limits).stretch(1.0, from.side(), to.side());
+      law_check::LawChecker(model, limits).check_stretch(1.0, from.side(), to.side());
   return found.empty() ? "" : found[0].law;
 }
 
@@ -92,16 +92,16 @@ TEST_CASE("equilibrium: M a + C v + K u + T = P") {
   end.a[0] = -5.0;
   const Vector load = Vector::Constant(1, 2.0 * -5.0 + 3.0 * 2.0 + 50.0 * 0.2 + 4.0);
   const law_check::LawChecker witness(model, {});
-  CHECK(witness.equilibrium(1.0, end.side(), load).empty());
+  CHECK(witness.check_equilibrium(1.0, end.side(), load).empty());
   for (double* part : {&end.a[0], &end.v[0], &end.u[0], &end.forces[1]}) {
     const double kept = *part;
     *part *= 1.0 + 1e-9;
-    const std::vector<Violation> found = witness.equilibrium(1.0, end.side(), load);
+    const std::vector<Violation> found = witness.check_equilibrium(1.0, end.side(), load);
     REQUIRE(found.size() == 1);
     CHECK(found[0].law == std::string("equilibrium"));
     *part = kept;
   }
-  CHECK(witness.equilibrium(1.0, end.side(), 1.000001 * load).size() == 1);
+  CHECK(witness.check_equilibrium(1.0, end.side(), 1.000001 * load).size() == 1);
 }
 
 TEST_SUITE_END();

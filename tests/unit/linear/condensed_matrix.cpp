@@ -66,7 +66,7 @@ TEST_CASE("solutions are those of the whole matrix, in every state, at every len
     const Model row = rubbing_row(33), model = turned ? shuffled(row) : row;
     const linear::SystemMatrices structure(model);
     std::optional<linear::CondensedRows> in_force =
-        linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
+        linear::CondensedRows::create(model, structure, linear::CondensedMatrix::max_width);
     REQUIRE(in_force);
     linear::CondensedMatrix condensed(*in_force);
     for (const int number : {0, 1, 2, 3, 27, 1000})
@@ -78,7 +78,7 @@ TEST_CASE("solutions are those of the whole matrix, in every state, at every len
         const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
         const Eigen::MatrixXd a = dense(model, rows, weights);
         const Vector b = Vector::LinSpaced(a.rows(), -1.0, 2.3), expected = base::solve_dense(a, b);
-        in_force->put(rows);
+        in_force->set_rows(rows);
         REQUIRE(condensed.set(weights));
         Vector x = b;
         condensed.solve(x.data());
@@ -92,23 +92,23 @@ TEST_CASE("solutions are those of the whole matrix, in every state, at every len
 TEST_CASE("rows that hold an acceleration, and wide bands, are left to others") {
   Model model = rubbing_row(9);
   const linear::SystemMatrices structure(model);
-  CHECK_FALSE(linear::CondensedRows::of(model, structure, 1));
+  CHECK_FALSE(linear::CondensedRows::create(model, structure, 1));
   model.contacts[4].law = Law::rigid;
   model.contacts[4].tangential_stiffness.reset();
   std::optional<linear::CondensedRows> rows =
-      linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
+      linear::CondensedRows::create(model, structure, linear::CondensedMatrix::max_width);
   REQUIRE(rows);
   linear::CondensedMatrix condensed(*rows);
   CHECK_FALSE(condensed.set({1.0, 0.1, 0.01}));  // nothing is in force
-  contact::ContactStates mode = rubbing_mode(model, 0);
-  mode[4].state = State::open;
-  rows->put(linear::rows_of(model, mode));
+  contact::ContactStates contact_states = rubbing_mode(model, 0);
+  contact_states[4].state = State::open;
+  rows->set_rows(linear::rows_of(model, contact_states));
   CHECK(condensed.set({1.0, 0.1, 0.01}));
-  mode[4].state = State::stick;
-  rows->put(linear::rows_of(model, mode));
+  contact_states[4].state = State::stick;
+  rows->set_rows(linear::rows_of(model, contact_states));
   CHECK_FALSE(condensed.set({1.0, 0.1, 0.01}));
-  mode[4].state = State::open;
-  rows->put(4, linear::rows_of(model, mode)[4]);
+  contact_states[4].state = State::open;
+  rows->set_rows(4, linear::rows_of(model, contact_states)[4]);
   CHECK(condensed.set({1.0, 0.1, 0.01}));
 }
 
@@ -121,37 +121,38 @@ TEST_CASE("where states change, factors follow in some rows, and are those of al
     const Model model = turned ? shuffled(row) : row;
     const linear::SystemMatrices structure(model);
     std::optional<linear::CondensedRows> rows =
-        linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
+        linear::CondensedRows::create(model, structure, linear::CondensedMatrix::max_width);
     REQUIRE(rows);
     linear::CondensedMatrix condensed(*rows);
-    contact::ContactStates mode = rubbing_mode(model, 5);
-    rows->put(linear::rows_of(model, mode));
+    contact::ContactStates contact_states = rubbing_mode(model, 5);
+    rows->set_rows(linear::rows_of(model, contact_states));
     // K counts for little, as much as M, and alone: over more and more rows.
     for (const double h : {0.01, 0.4, 1e3}) {
       const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
       REQUIRE(condensed.set(weights));
-      const long made = condensed.factorisations, before = condensed.renewed_rows;
+      const long made = condensed.factorisations, before = condensed.refactored_rows;
       constexpr int changes = 30;
       for (int i = 0; i < changes; ++i) {
         CAPTURE(turned);
         CAPTURE(h);
         CAPTURE(i);
         for (const int other : {0, 1}) {  // one, or two of them, close to each other or not
-          const auto k = static_cast<std::size_t>(17 * i + other * (i % 3) * 50) % mode.size();
-          mode[k].state = mode[k].state == State::open ? State::stick : State::open;
-          rows->put(k, signorini::contact::rows(model.contacts[k], mode[k]));
+          const auto k = static_cast<std::size_t>(17 * i + other * (i % 3) * 50) % contact_states.size();
+          contact_states[k].state = contact_states[k].state == State::open ? State::stick : State::open;
+          rows->set_rows(k, signorini::contact::rows(model.contacts[k], contact_states[k]));
         }
         REQUIRE(condensed.set(weights));
         linear::CondensedMatrix whole(*rows);
         REQUIRE(whole.set(weights));
-        Vector x = Vector::LinSpaced(model.size() + 2 * static_cast<Eigen::Index>(mode.size()), -1.0, 2.3),
+        Vector x = Vector::LinSpaced(model.size() + 2 * static_cast<Eigen::Index>(contact_states.size()),
+                                     -1.0, 2.3),
                y = x;
         condensed.solve(x.data());
         whole.solve(y.data());
         CHECK(x == y);
       }
       CHECK(condensed.factorisations == made);
-      if (h < 0.1) CHECK(condensed.renewed_rows - before < changes * 2 * 100);
+      if (h < 0.1) CHECK(condensed.refactored_rows - before < changes * 2 * 100);
     }
   }
 }
@@ -160,16 +161,17 @@ TEST_CASE("changes of states that are too many to be remembered cost factors of 
   const Model model = rubbing_row(40);
   const linear::SystemMatrices structure(model);
   std::optional<linear::CondensedRows> rows =
-      linear::CondensedRows::of(model, structure, linear::CondensedMatrix::widest);
+      linear::CondensedRows::create(model, structure, linear::CondensedMatrix::max_width);
   REQUIRE(rows);
   linear::CondensedMatrix condensed(*rows);
   for (const int number : {3, 9}) {
-    for (int again = 0; again < 2; ++again) rows->put(linear::rows_of(model, rubbing_mode(model, number)));
+    for (int again = 0; again < 2; ++again)
+      rows->set_rows(linear::rows_of(model, rubbing_mode(model, number)));
     REQUIRE(condensed.set({1.0, 0.1, 0.01}));
     REQUIRE(condensed.set({1.0, 0.1, 0.01}));
   }
   CHECK(condensed.factorisations == 2);
-  CHECK(condensed.renewed_rows == 0);
+  CHECK(condensed.refactored_rows == 0);
 }
 
 TEST_CASE(

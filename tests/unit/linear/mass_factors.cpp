@@ -35,7 +35,7 @@ TEST_CASE("one factorisation of M solves the system of every state, as the dense
         a(T, N) = rows[k].tangent.N;
         a(T, T) = rows[k].tangent.T;
       }
-      const std::vector<linear::OwnForces> forces = linear::own_forces(rows);
+      const std::vector<linear::ContactForceBlock> forces = linear::contact_force_blocks(rows);
       REQUIRE(forces.size() == rows.size());
       const Vector b = Vector::LinSpaced(size, -1.0, 2.3);
       Vector x = b, work(size);
@@ -48,14 +48,14 @@ TEST_CASE("one factorisation of M solves the system of every state, as the dense
 
 TEST_CASE("rows that hold an acceleration do not tell their forces") {
   Model model = rubbing_row(3);
-  contact::ContactStates mode = rubbing_mode(model, 0);
-  CHECK(linear::own_forces(linear::rows_of(model, mode)).size() == 3);
+  contact::ContactStates states = rubbing_mode(model, 0);
+  CHECK(linear::contact_force_blocks(linear::rows_of(model, states)).size() == 3);
   model.contacts[1].law = Law::rigid;
   model.contacts[1].tangential_stiffness.reset();
-  mode[1].state = State::stick;
-  CHECK(linear::own_forces(linear::rows_of(model, mode)).empty());
-  mode[1].state = State::open;
-  CHECK(linear::own_forces(linear::rows_of(model, mode)).size() == 3);
+  states[1].state = State::stick;
+  CHECK(linear::contact_force_blocks(linear::rows_of(model, states)).empty());
+  states[1].state = State::open;
+  CHECK(linear::contact_force_blocks(linear::rows_of(model, states)).size() == 3);
 }
 
 TEST_CASE("a mass that is singular has no factors") {

@@ -44,13 +44,13 @@ TEST_CASE("rows that hold a contact along both directions pin both degrees of fr
   model.contacts[0].tangent.terms = {{0, 0.8}, {1, 0.6}};
   std::vector<Rows> held(1);
   held[0].normal.an = 1.0;
-  CHECK(linear::pinned_by(model, held).empty());
+  CHECK(linear::prescribed_dofs(model, held).empty());
   held[0].tangent.at = 1.0;
-  const std::vector<linear::Pinned> both = linear::pinned_by(model, held);
+  const std::vector<linear::PrescribedDof> both = linear::prescribed_dofs(model, held);
   REQUIRE(both.size() == 2);
   const double r = 3.0, q = 5.0;
   double x[2] = {};
-  for (const linear::Pinned& p : both) x[p.dof] = (p.normal * r + p.tangent * q) / p.divisor;
+  for (const linear::PrescribedDof& p : both) x[p.dof] = (p.normal * r + p.tangent * q) / p.divisor;
   CHECK(-0.6 * x[0] + 0.8 * x[1] == doctest::Approx(r));
   CHECK(0.8 * x[0] + 0.6 * x[1] == doctest::Approx(q));
 }

@@ -51,12 +51,12 @@ inline Model rubbing_row(int masses) {
 /// Number i in a count to the base of four states.
 inline contact::ContactStates rubbing_mode(const Model& model, int i) {
   constexpr State states[] = {State::stick, State::slip_plus, State::open, State::slip_minus};
-  contact::ContactStates mode(model.contacts.size());
-  for (ContactState& s : mode) {
+  contact::ContactStates contact_states(model.contacts.size());
+  for (ContactState& s : contact_states) {
     s = {states[i % 4], 0.001 * (i % 7)};
     i = i / 4 + 3;
   }
-  return mode;
+  return contact_states;
 }
 
 }  // namespace signorini

@@ -54,7 +54,7 @@ TEST_CASE(
     CAPTURE(set);
     std::vector<Rows> rows;
     for (unsigned k = 0; k < 3; ++k) rows.push_back(dashpot_row((set >> k & 1U) != 0));
-    const linear::MotionKinds found = linear::kinds_in_mode(own, model, rows);
+    const linear::MotionKinds found = linear::kinds_in_states(own, model, rows);
     const int closed = __builtin_popcount(set), independent = std::min(closed, 2);
     CHECK(std::count(found.kinds.begin(), found.kinds.end(), linear::DofKind::damped) == independent);
     CHECK(found.undamped.size() == (closed == 0 ? 0U : 1U));
@@ -77,7 +77,8 @@ TEST_CASE("dashpots along single degrees of freedom leave all as they are") {
   const Model model = massless_model({form_of({{0, -1.0}}), form_of({{2, 1.0}})});
   const std::vector<linear::DofKind> own{linear::DofKind::algebraic, linear::DofKind::algebraic,
                                          linear::DofKind::damped};
-  const linear::MotionKinds found = linear::kinds_in_mode(own, model, {dashpot_row(true), dashpot_row(true)});
+  const linear::MotionKinds found =
+      linear::kinds_in_states(own, model, {dashpot_row(true), dashpot_row(true)});
   CHECK(found.kinds == std::vector<linear::DofKind>{linear::DofKind::damped, linear::DofKind::algebraic,
                                                     linear::DofKind::damped});
   CHECK(found.undamped.empty());

@@ -43,8 +43,8 @@ TEST_SUITE_BEGIN("unit/linear/updated_factors");
 TEST_CASE("rows change, change again, and go back: solutions are those of the changed matrix") {
   const Eigen::Index n = 61;
   const Eigen::MatrixXd base = band(n);
-  linear::UpdatedFactors updated;
-  updated.start(factors_of(base));
+  linear::WoodburyFactors updated;
+  updated.set_base(factors_of(base));
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, -2.0);
   for (const std::size_t count : {0U, 1U, 3U, 16U, 5U, 0U}) {
     CAPTURE(count);
@@ -69,11 +69,11 @@ TEST_CASE("rows change, change again, and go back: solutions are those of the ch
 TEST_CASE("too many rows, and rows that make the matrix singular, are refused") {
   const Eigen::Index n = 40;
   const Eigen::MatrixXd base = band(n);
-  linear::UpdatedFactors updated;
+  linear::WoodburyFactors updated;
   CHECK_FALSE(updated.set({}));  // no matrix yet
-  updated.start(factors_of(base));
+  updated.set_base(factors_of(base));
   std::vector<linear::ChangedRow> many;
-  for (std::size_t r = 0; r <= linear::UpdatedFactors::most_rows; ++r) many.push_back({r, {{r, 0.1}}});
+  for (std::size_t r = 0; r <= linear::WoodburyFactors::max_rows; ++r) many.push_back({r, {{r, 0.1}}});
   CHECK_FALSE(updated.set(many));
   // Regular, but what the row says would be a difference of numbers ten thousand times as great.
   CHECK_FALSE(updated.set({{5, {{5, 1e5}}}}));

@@ -6,7 +6,7 @@
 
 #include "mesh/grids.hpp"
 #include "mesh/mortar.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shape_functions.hpp"
 
 using namespace signorini;
 

@@ -57,7 +57,7 @@ TEST_CASE("the least damping ratio is that of the highest frequency where both p
   model.omega_max = 10.0;
   model.alpha = 4.0;
   model.beta = 0.01;
-  CHECK(model::least_damping_ratio(model) == doctest::Approx(0.25));  // (0.4 + 0.1) / 2
+  CHECK(model::min_damping_ratio(model) == doctest::Approx(0.25));  // (0.4 + 0.1) / 2
 }
 
 TEST_SUITE_END();

@@ -23,7 +23,7 @@ HistorySpec polynomial(std::vector<double> coefficients) {
 }
 
 double negative(const HistorySpec& spec, double t_end) {
-  return history::negative_at(scene::make_history(spec, "h"), t_end);
+  return history::find_negative_time(scene::make_history(spec, "h"), t_end);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ TEST_CASE("column lanes: two products at once, digit by digit those of a plain l
       std::vector<double> a(rows * columns), b(a.size()), u(columns), w(columns), y(rows + 1, 7.0);
       for (std::vector<double>* list : {&a, &b, &u, &w})
         for (double& value : *list) value = uniform(random);
-      motion::both_products(a.data(), b.data(), rows, columns, u.data(), w.data(), 1.7, y.data());
+      motion::fused_products(a.data(), b.data(), rows, columns, u.data(), w.data(), 1.7, y.data());
       for (std::size_t i = 0; i < rows; ++i) {
         double sum = 0.0;
         for (std::size_t j = 0; j < columns; ++j) {

@@ -27,7 +27,7 @@ TEST_CASE("polynomials of a contact with an origin of their own") {
   motion::ContactSeries series;
   series.reset(3);
   const double N[] = {2.0, -3.0, 0.5, 4.0};
-  std::copy(std::begin(N), std::end(N), series.place(motion::ContactSeries::N));
+  std::copy(std::begin(N), std::end(N), series.mutable_coefficients(motion::ContactSeries::N));
   CHECK(std::isinf(series.rate(motion::ContactSeries::N)));
   series.set_origin(0.25);
   series.bound_rates(0.5);
@@ -44,7 +44,7 @@ TEST_CASE("rates are those of g and ut, in whichever order they are asked for, a
   const Model m = lively_row(40);
   const linear::SystemMatrices structure(m);
   motion::StateSystems systems(m, structure);
-  const motion::StateSystemPtr system = systems.of(rubbing_mode(m, 500));
+  const motion::StateSystemPtr system = systems.system_of(rubbing_mode(m, 500));
   REQUIRE(system);
   motion::Series series;
   motion::ContactSeries seen;
@@ -58,9 +58,9 @@ TEST_CASE("rates are those of g and ut, in whichever order they are asked for, a
       const auto along = [&](const Combination& form, std::size_t k) {
         return form.dot(series.u.col(static_cast<Eigen::Index>(k)).data());
       };
-      const double* at = seen.of(motion::ContactSeries::an);
-      const double* vt = seen.of(motion::ContactSeries::vt);
-      const double* vn = seen.of(motion::ContactSeries::vn);
+      const double* at = seen.coefficients(motion::ContactSeries::an);
+      const double* vt = seen.coefficients(motion::ContactSeries::vt);
+      const double* vn = seen.coefficients(motion::ContactSeries::vn);
       for (std::size_t k = 0; k <= 8; ++k) {
         const double rate = static_cast<double>(k + 1) / 0.02;
         const double surface = series.forcing.surface[c * series.forcing.count + k + 1];
@@ -68,8 +68,9 @@ TEST_CASE("rates are those of g and ut, in whichever order they are asked for, a
         CHECK(vt[k] == doctest::Approx(rate * (along(m.contacts[c].tangent, k + 1) - surface)));
         CHECK(at[k] ==
               doctest::Approx(rate * static_cast<double>(k + 2) / 0.02 * along(m.contacts[c].normal, k + 2)));
-        CHECK(seen.of(motion::ContactSeries::applied_normal_force_rate)[k] == 0.0);
-        CHECK(seen.of(motion::ContactSeries::slide)[k] == seen.of(motion::ContactSeries::ut)[k]);
+        CHECK(seen.coefficients(motion::ContactSeries::applied_normal_force_rate)[k] == 0.0);
+        CHECK(seen.coefficients(motion::ContactSeries::slide)[k] ==
+              seen.coefficients(motion::ContactSeries::ut)[k]);
       }
     }
   }

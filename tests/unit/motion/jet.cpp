@@ -54,7 +54,7 @@ std::vector<MotionJet> motions_in(const Model& model, State first, State second)
   motion::StateSystems systems(model, structure);
   motion::JetMaker jets(systems);
   std::vector<MotionJet> motions;
-  const motion::StateSystemPtr system = systems.of({{first, 0.0}, {second, 0.0}});
+  const motion::StateSystemPtr system = systems.system_of({{first, 0.0}, {second, 0.0}});
   REQUIRE(system);
   (void)jets.make(system, motion::Forcing(model, 0.0, motion::Side::after), 0.0, model.u0, model.v0, motions);
   return motions;
@@ -69,7 +69,7 @@ TEST_CASE("orders that contacts are asked for are the same to the last bit, what
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   motion::JetMaker jets(systems);
-  const motion::StateSystemPtr system = systems.of(rubbing_mode(model, 5));
+  const motion::StateSystemPtr system = systems.system_of(rubbing_mode(model, 5));
   REQUIRE(system);
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
   std::vector<MotionJet> all, some;
@@ -102,8 +102,8 @@ TEST_CASE(
     for (const MotionJet& jet : motions) {
       // Exactly 0.
       CHECK(std::abs(jet.motion[0].at) <= jet.noise[0].at);
-      CHECK(jet.noise[0].at >= friction * rounding::of_many);
-      CHECK(jet.noise[0].at <= 50.0 * rounding::of_many);
+      CHECK(jet.noise[0].at >= friction * rounding::many_operations);
+      CHECK(jet.noise[0].at <= 50.0 * rounding::many_operations);
     }
   }
 }
@@ -116,7 +116,7 @@ TEST_CASE("what a rounding of an acceleration does through a spring is within th
     const MotionJet& jet = motions[1];
     CHECK(std::abs(jet.motion[2].T) <= jet.noise[2].T);
     CHECK(jet.noise[2].T >= stiffness * friction * rounding::eps);
-    CHECK(jet.noise[2].T <= 50.0 * stiffness * rounding::of_many);
+    CHECK(jet.noise[2].T <= 50.0 * stiffness * rounding::many_operations);
   }
 }
 
@@ -128,8 +128,8 @@ TEST_CASE("the noise of places and velocities does not turn with the scene") {
     model.u0 << 2.0 * c, 2.0 * s, 0.0, 0.0;
     model.v0 << 3.0 * s, -3.0 * c, 0.0, 0.0;
     const auto motions = motions_in(model, State::open, State::open);
-    CHECK(motions[0].noise[0].gap == doctest::Approx(4.0 * rounding::of_many).epsilon(1e-9));
-    CHECK(motions[0].noise[0].vn == doctest::Approx(6.0 * rounding::of_many).epsilon(1e-9));
+    CHECK(motions[0].noise[0].gap == doctest::Approx(4.0 * rounding::many_operations).epsilon(1e-9));
+    CHECK(motions[0].noise[0].vn == doctest::Approx(6.0 * rounding::many_operations).epsilon(1e-9));
   }
 }
 

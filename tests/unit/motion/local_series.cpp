@@ -26,20 +26,20 @@ struct Changing {
         taylor(systems),
         motion(model),
         x(at) {
-    contact::ContactStates mode = rubbing_mode(model, 77);
-    const motion::StateSystemPtr before = systems.of(mode);
+    contact::ContactStates states = rubbing_mode(model, 77);
+    const motion::StateSystemPtr before = systems.system_of(states);
     taylor.expand(before, forcing(), begin, model.u0, model.v0, levels, scale, motion.whole);
-    motion.taken(levels);
+    motion.set_complete(levels);
     motion.evaluate_at(x, there);
-    mode[contact].state = mode[contact].state == State::open ? State::stick : State::open;
-    after = systems.of(mode);
+    states[contact].state = states[contact].state == State::open ? State::stick : State::open;
+    after = systems.system_of(states);
     taylor.expand(after, forcing(), time(), there.u, there.v, levels, scale, whole);
   }
   [[nodiscard]] double time() const { return begin + scale * x; }
   [[nodiscard]] motion::Forcing forcing() const { return {model, begin, motion::Side::after}; }
-  std::optional<motion::LocalSeries::Made> expand(motion::LocalSeries& near,
-                                                  const std::vector<std::size_t>& changed, double reach,
-                                                  double least) {
+  std::optional<motion::LocalSeries::LocalExpansion> expand(motion::LocalSeries& near,
+                                                            const std::vector<std::size_t>& changed,
+                                                            double reach, double least) {
     return near.expand(changed, after, forcing(), time(), there.u, there.v, levels, scale, reach,
                        {weights, least},
                        {[&](int dof, double* out) { motion.displacement(dof, x, out); },
@@ -76,22 +76,22 @@ TEST_CASE("after a change of state the motion put together from pieces is that o
     REQUIRE(made);
     CHECK(std::binary_search(made->where->contacts.begin(), made->where->contacts.end(), contact));
     CHECK(4 * made->where->dofs.size() <= row.weights.size());
-    row.motion.take_over(*made, from, 1.0 - from);
+    row.motion.patch(*made, from, 1.0 - from);
     CHECK(row.motion.contacts()[contact].origin() == from);
     exact::PatchedSeries anew(row.model);
     anew.whole = row.whole;
-    anew.taken(levels);
+    anew.set_complete(levels);
     for (const double x : {from, 0.5, 0.83, 1.0}) {
       CAPTURE(x);
       motion::Point pieces, whole;
       row.motion.evaluate_at(x, pieces);
       anew.evaluate_at(x - from, whole);
-      CHECK(apart(pieces.u, whole.u) <= 4.0 * rounding::of_many);
-      CHECK(apart(pieces.v, whole.v) <= 4.0 * rounding::of_many);
-      CHECK(apart(pieces.a, whole.a) <= 16.0 * rounding::of_many);
-      CHECK(apart(pieces.forces, whole.forces) <= 16.0 * rounding::of_many);
+      CHECK(apart(pieces.u, whole.u) <= 4.0 * rounding::many_operations);
+      CHECK(apart(pieces.v, whole.v) <= 4.0 * rounding::many_operations);
+      CHECK(apart(pieces.a, whole.a) <= 16.0 * rounding::many_operations);
+      CHECK(apart(pieces.forces, whole.forces) <= 16.0 * rounding::many_operations);
       motion::Point one;
-      row.motion.place_at(x, contact, one);
+      row.motion.evaluate_without_accelerations(x, contact, one);
       for (const auto& term : row.model.contacts[contact].normal.terms) {
         CHECK(one.u[term.first] == doctest::Approx(pieces.u[term.first]).epsilon(1e-14));
         CHECK(one.v[term.first] == doctest::Approx(pieces.v[term.first]).epsilon(1e-13));
@@ -111,26 +111,26 @@ TEST_CASE(
   motion::LocalSeries near(row.systems);
   const auto made = row.expand(near, {first}, 1.0 - from, 0.0);
   REQUIRE(made);
-  row.motion.take_over(*made, from, 1.0 - from);
-  contact::ContactStates mode = row.after->mode();
-  mode[second].state = mode[second].state == State::open ? State::stick : State::open;
-  row.after = row.systems.of(mode);
+  row.motion.patch(*made, from, 1.0 - from);
+  contact::ContactStates states = row.after->states();
+  states[second].state = states[second].state == State::open ? State::stick : State::open;
+  row.after = row.systems.system_of(states);
   row.x = later;
   row.motion.evaluate_at(later, row.there);
   const auto then = row.expand(near, {second}, 1.0 - later, 0.0);
   REQUIRE(then);
   CHECK(std::binary_search(then->where->contacts.begin(), then->where->contacts.end(), second));
-  row.motion.take_over(*then, later, 1.0 - later);
+  row.motion.patch(*then, later, 1.0 - later);
   exact::PatchedSeries anew(row.model);
   row.taylor.expand(row.after, row.forcing(), row.time(), row.there.u, row.there.v, levels, scale,
                     anew.whole);
-  anew.taken(levels);
+  anew.set_complete(levels);
   motion::Point pieces, whole;
   row.motion.evaluate_at(1.0, pieces);
   anew.evaluate_at(1.0 - later, whole);
-  CHECK(apart(pieces.u, whole.u) <= 4.0 * rounding::of_many);
-  CHECK(apart(pieces.v, whole.v) <= 4.0 * rounding::of_many);
-  CHECK(apart(pieces.forces, whole.forces) <= 16.0 * rounding::of_many);
+  CHECK(apart(pieces.u, whole.u) <= 4.0 * rounding::many_operations);
+  CHECK(apart(pieces.v, whole.v) <= 4.0 * rounding::many_operations);
+  CHECK(apart(pieces.forces, whole.forces) <= 16.0 * rounding::many_operations);
 }
 
 TEST_CASE("what changes in two places, or is felt beyond the neighbourhood, is made anew of the whole") {
@@ -142,10 +142,10 @@ TEST_CASE("what changes in two places, or is felt beyond the neighbourhood, is m
   motion::LocalSeries beside(other.systems);
   const auto made = other.expand(beside, {150}, 1.0 - from, 0.0);
   REQUIRE(made);
-  contact::ContactStates mode = other.after->mode();
+  contact::ContactStates states = other.after->states();
   const std::size_t edge = made->where->contacts.front() + 1;
-  mode[edge].state = mode[edge].state == State::open ? State::stick : State::open;
-  other.after = other.systems.of(mode);
+  states[edge].state = states[edge].state == State::open ? State::stick : State::open;
+  other.after = other.systems.system_of(states);
   CHECK_FALSE(other.expand(beside, {150}, 1.0 - from, 0.0));
   // Motions so much greater elsewhere that all of this is rounding.
   CHECK(other.expand(beside, {150}, 1.0 - from, 1e20));
@@ -155,11 +155,11 @@ TEST_CASE("a row no longer than its neighbourhoods has none, and is not asked fo
   Model small = lively_row(40);
   const linear::SystemMatrices structure(small);
   motion::StateSystems systems(small, structure);
-  const motion::StateSystemPtr system = systems.of(rubbing_mode(small, 7));
+  const motion::StateSystemPtr system = systems.system_of(rubbing_mode(small, 7));
   motion::Neighbourhoods near(systems, 12);
   for (const std::size_t c : {3U, 11U, 24U, 38U}) {
-    CHECK_FALSE(near.hopeless());
+    CHECK_FALSE(near.has_given_up());
     CHECK(near.around(c, *system) == nullptr);
   }
-  CHECK(near.hopeless());
+  CHECK(near.has_given_up());
 }

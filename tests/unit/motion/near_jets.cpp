@@ -47,7 +47,7 @@ TEST_CASE("what contacts ask for near them is what the whole structure says, wit
   motion::LocalDerivatives jets(bench.systems, 400);
   REQUIRE(jets.possible());
   for (const int seed : {5, 77, 1234}) {
-    const motion::StateSystemPtr system = bench.systems.of(rubbing_mode(bench.model, seed));
+    const motion::StateSystemPtr system = bench.systems.system_of(rubbing_mode(bench.model, seed));
     REQUIRE(system);
     for (const double t : {0.0, 0.37}) {
       const motion::Forcing forcing(bench.model, t, motion::Side::after);
@@ -63,7 +63,7 @@ TEST_CASE("what contacts ask for near them is what the whole structure says, wit
       // Besides: those whose slip rate contains an acceleration, by a dashpot.
       CHECK(std::includes(made->open.begin(), made->open.end(), asking.begin(), asking.end()));
       CHECK((made->jet.u.col(2) - all.u.col(2)).cwiseAbs().maxCoeff() <=
-            rounding::of_many * all.u.col(2).cwiseAbs().maxCoeff());
+            rounding::many_operations * all.u.col(2).cwiseAbs().maxCoeff());
       for (Eigen::Index i = 0; i < made->jet.forces.rows(); ++i)
         for (Eigen::Index k = 0; k < 2; ++k)
           CHECK(made->jet.forces(i, k) == doctest::Approx(all.forces(i, k)).epsilon(1e-12));
@@ -102,30 +102,30 @@ TEST_CASE(
   const auto told = [](std::size_t c, const MotionJet&, std::size_t orders) {
     return orders >= 3 || c != 153;
   };
-  contact::ContactStates mode = rubbing_mode(bench.model, 77);
+  contact::ContactStates contact_states = rubbing_mode(bench.model, 77);
   for (const std::size_t other : {0U, 150U, 153U}) {
     CAPTURE(other);
     motion::LocalDerivatives jets(bench.systems, 400), again(bench.systems, 400);
     std::vector<MotionJet> motions, alone;
-    const auto before =
-        jets.make(bench.systems.of(mode), forcing, t, bench.model.u0, bench.model.v0, motions, told);
+    const auto before = jets.make(bench.systems.system_of(contact_states), forcing, t, bench.model.u0,
+                                  bench.model.v0, motions, told);
     REQUIRE(before);
-    mode[other].state = mode[other].state == State::stick ? State::open : State::stick;
-    mode[other + 2].state = State::slip_plus;
-    const motion::StateSystemPtr system = bench.systems.of(mode);
+    contact_states[other].state = contact_states[other].state == State::stick ? State::open : State::stick;
+    contact_states[other + 2].state = State::slip_plus;
+    const motion::StateSystemPtr system = bench.systems.system_of(contact_states);
     const auto beside = jets.make(system, forcing, t, bench.model.u0, bench.model.v0, motions, told,
-                                  motion::LocalDerivatives::Beside{before->jet, before->open});
+                                  motion::LocalDerivatives::PreviousJet{before->jet, before->open});
     const auto made = again.make(system, forcing, t, bench.model.u0, bench.model.v0, alone, told);
     REQUIRE(beside);
     REQUIRE(made);
     const Vector was = before->jet.u.col(2), now = beside->jet.u.col(2), whole = made->jet.u.col(2);
     CHECK((now - was).cwiseAbs().maxCoeff() > 1e-3 * whole.cwiseAbs().maxCoeff());
-    CHECK((now - whole).cwiseAbs().maxCoeff() <= rounding::of_many * whole.cwiseAbs().maxCoeff());
+    CHECK((now - whole).cwiseAbs().maxCoeff() <= rounding::many_operations * whole.cwiseAbs().maxCoeff());
     CHECK((now.array() == was.array()).count() > long_row);  // more than half of them
     CHECK(beside->jet.system == system);
     CHECK(beside->open == made->open);
     const double force = made->jet.forces.cwiseAbs().maxCoeff();
-    CHECK((beside->jet.forces - made->jet.forces).cwiseAbs().maxCoeff() <= rounding::of_many * force);
+    CHECK((beside->jet.forces - made->jet.forces).cwiseAbs().maxCoeff() <= rounding::many_operations * force);
     for (std::size_t c = 0; c < motions.size(); ++c) {
       CAPTURE(c);
       ContactMotion m = motions[c].motion[0];
@@ -145,12 +145,12 @@ TEST_CASE(
   const auto one_asks = [](std::size_t c, const MotionJet&, std::size_t orders) {
     return c != 3 || orders > 2;
   };
-  const auto made = [](Bench& bench, const motion::JetMaker::Enough& told) {
+  const auto made = [](Bench& bench, const motion::JetMaker::StopCriterion& told) {
     motion::LocalDerivatives jets(bench.systems, 20);
     REQUIRE(jets.possible());
     std::vector<MotionJet> motions;
     return jets
-        .make(bench.systems.of(rubbing_mode(bench.model, 7)),
+        .make(bench.systems.system_of(rubbing_mode(bench.model, 7)),
               motion::Forcing(bench.model, 0.0, motion::Side::after), 0.0, bench.model.u0, bench.model.v0,
               motions, told)
         .has_value();
@@ -168,7 +168,7 @@ TEST_CASE("who is told by nothing but the last order takes the whole structure")
   const auto never = [](std::size_t c, const MotionJet&, std::size_t orders) {
     return c != 40 || orders == MotionJet::orders;
   };
-  CHECK_FALSE(jets.make(bench.systems.of(rubbing_mode(bench.model, 7)),
+  CHECK_FALSE(jets.make(bench.systems.system_of(rubbing_mode(bench.model, 7)),
                         motion::Forcing(bench.model, 0.0, motion::Side::after), 0.0, bench.model.u0,
                         bench.model.v0, motions, never));
 }

@@ -11,7 +11,7 @@ TEST_CASE("between two points all of the state lies on a straight line") {
     return motion::Point{Vector::Constant(2, 1.0 + x), Vector::Constant(2, 2.0 - x),
                          Vector::Constant(4, 3.0 * x), Vector::Constant(2, 4.0 + 2.0 * x)};
   };
-  const motion::Point p = motion::between(at(0.0), at(1.0), 0.25), q = at(0.25);
+  const motion::Point p = motion::interpolate(at(0.0), at(1.0), 0.25), q = at(0.25);
   CHECK(p.u.isApprox(q.u));
   CHECK(p.v.isApprox(q.v));
   CHECK(p.forces.isApprox(q.forces));

@@ -43,17 +43,17 @@ Model row_of_masses(int n) {
 /// Mode number i in a count to the base of stick and slip in both directions.
 contact::ContactStates mode_number(std::size_t contacts, int i) {
   constexpr State states[] = {State::stick, State::slip_plus, State::slip_minus};
-  contact::ContactStates mode(contacts);
-  for (ContactState& s : mode) {
+  contact::ContactStates contact_states(contacts);
+  for (ContactState& s : contact_states) {
     s = {states[i % 3], 0.01 * i};
     i /= 3;
   }
-  return mode;
+  return contact_states;
 }
 
-motion::Series series_in(motion::StateSystems& systems, const contact::ContactStates& mode) {
+motion::Series series_in(motion::StateSystems& systems, const contact::ContactStates& contact_states) {
   const Model& model = systems.model();
-  const motion::StateSystemPtr system = systems.of(mode);
+  const motion::StateSystemPtr system = systems.system_of(contact_states);
   REQUIRE(system);
   motion::Series series;
   motion::Taylor(systems).expand(system, motion::Forcing(model, 0.0, motion::Side::after), 0.0, model.u0,
@@ -69,16 +69,17 @@ TEST_CASE("what is known is not factorised again; another anchor is the same mat
   const Model model = row_of_masses(3);
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
-  const contact::ContactStates mode = mode_number(3, 5);
-  contact::ContactStates moved = mode;
+  const contact::ContactStates contact_states = mode_number(3, 5);
+  contact::ContactStates moved = contact_states;
   for (ContactState& s : moved) s.anchor += 1.0;
-  const motion::StateSystemPtr first = systems.of(mode), second = systems.of(moved);
-  CHECK(systems.made() == 1);
+  const motion::StateSystemPtr first = systems.system_of(contact_states), second = systems.system_of(moved);
+  CHECK(systems.created_count() == 1);
   CHECK(&first->factorised() == &second->factorised());
-  const auto stuck = static_cast<std::size_t>(
-      std::find_if(mode.begin(), mode.end(), [](const ContactState& s) { return s.state == State::stick; }) -
-      mode.begin());
-  REQUIRE(stuck < mode.size());
+  const auto stuck =
+      static_cast<std::size_t>(std::find_if(contact_states.begin(), contact_states.end(),
+                                            [](const ContactState& s) { return s.state == State::stick; }) -
+                               contact_states.begin());
+  REQUIRE(stuck < contact_states.size());
   CHECK(second->rows()[stuck].tangent.constant == 50.0 * moved[stuck].anchor);
 }
 
@@ -88,19 +89,19 @@ TEST_CASE("count and bytes are bounded, whatever number of modes a run visits") 
     const Model model = row_of_masses(masses);
     const linear::SystemMatrices structure(model);
     motion::StateSystems one(model, structure);
-    (void)one.of(mode_number(model.contacts.size(), 0));
+    (void)one.system_of(mode_number(model.contacts.size(), 0));
     const std::size_t each = one.bytes();
     CHECK(each > 0);
     motion::StateSystems by_count(model, structure, {4, 100 * each});
     motion::StateSystems by_bytes(model, structure, {100, 4 * each + each / 2});
     for (int i = 0; i < 27; ++i)
       for (motion::StateSystems* systems : {&by_count, &by_bytes}) {
-        (void)systems->of(mode_number(model.contacts.size(), i));
-        CHECK(systems->held() <= 4 + (systems == &by_bytes ? 1 : 0));
+        (void)systems->system_of(mode_number(model.contacts.size(), i));
+        CHECK(systems->cached_count() <= 4 + (systems == &by_bytes ? 1 : 0));
         CHECK(systems->bytes() <= 5 * each);
       }
-    CHECK(by_count.held() == 4);
-    CHECK(by_count.made() == 27);
+    CHECK(by_count.cached_count() == 4);
+    CHECK(by_count.created_count() == 27);
   }
 }
 
@@ -111,25 +112,25 @@ TEST_CASE("states whose forces follow from places and velocities are not held, a
   motion::StateSystems systems(model, structure);
   const auto mode = [&](int i) { return mode_number(model.contacts.size(), i); };
   const motion::Series first = series_in(systems, mode(7));
-  REQUIRE(systems.of(mode(7))->factorised().by_mass);
-  (void)systems.of(mode(12));
+  REQUIRE(systems.system_of(mode(7))->factorised().by_mass);
+  (void)systems.system_of(mode(12));
   const motion::Series again = series_in(systems, mode(7));
   CHECK((first.u.array() == again.u.array()).all());
   CHECK((first.forces.array() == again.forces.array()).all());
-  CHECK(systems.made() == 3);
-  CHECK(systems.held() == 0);
+  CHECK(systems.created_count() == 3);
+  CHECK(systems.cached_count() == 0);
 }
 
 TEST_CASE("a system greater than all bounds is held until the next one comes") {
   const Model model = row_of_masses(3);
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure, {10, 1});
-  const motion::StateSystemPtr first = systems.of(mode_number(3, 0));
-  CHECK(systems.held() == 1);
-  (void)systems.of(mode_number(3, 0));
-  CHECK(systems.made() == 1);
-  (void)systems.of(mode_number(3, 1));
-  CHECK(systems.held() == 1);
+  const motion::StateSystemPtr first = systems.system_of(mode_number(3, 0));
+  CHECK(systems.cached_count() == 1);
+  (void)systems.system_of(mode_number(3, 0));
+  CHECK(systems.created_count() == 1);
+  (void)systems.system_of(mode_number(3, 1));
+  CHECK(systems.cached_count() == 1);
   CHECK(first->rows().size() == 3);  // who carries one keeps it
 }
 
@@ -138,9 +139,9 @@ TEST_CASE("what was used least recently goes") {
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure, {2, std::size_t{1} << 20});
   const auto visit = [&](int i) {
-    const long before = systems.made();
-    (void)systems.of(mode_number(3, i));
-    return systems.made() > before;
+    const long before = systems.created_count();
+    (void)systems.system_of(mode_number(3, i));
+    return systems.created_count() > before;
   };
   CHECK(visit(0));
   CHECK(visit(1));
@@ -157,13 +158,13 @@ TEST_CASE("a series is the same to the last bit after its mode was dropped and m
     const linear::SystemMatrices structure(model);
     motion::StateSystems large(model, structure), tiny(model, structure, {1, 1});
     for (const int i : {0, 7, 12, 7, 0}) {
-      const contact::ContactStates mode = mode_number(model.contacts.size(), i);
-      const motion::Series a = series_in(large, mode), b = series_in(tiny, mode);
+      const contact::ContactStates contact_states = mode_number(model.contacts.size(), i);
+      const motion::Series a = series_in(large, contact_states), b = series_in(tiny, contact_states);
       CHECK((a.u.array() == b.u.array()).all());
       CHECK((a.forces.array() == b.forces.array()).all());
     }
-    CHECK(large.made() == 3);
-    CHECK(tiny.made() == 5);
+    CHECK(large.created_count() == 3);
+    CHECK(tiny.created_count() == 5);
   }
 }
 
@@ -179,9 +180,10 @@ TEST_CASE("dependent rows are no system, and that is remembered too") {
   model.contacts.push_back(twin);
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
-  for (int i = 0; i < 2; ++i) CHECK(systems.of({{State::closed, 0.0}, {State::closed, 0.0}}) == nullptr);
-  CHECK(systems.made() == 1);
-  CHECK(systems.of({{State::closed, 0.0}, {State::open, 0.0}}) != nullptr);
+  for (int i = 0; i < 2; ++i)
+    CHECK(systems.system_of({{State::closed, 0.0}, {State::closed, 0.0}}) == nullptr);
+  CHECK(systems.created_count() == 1);
+  CHECK(systems.system_of({{State::closed, 0.0}, {State::open, 0.0}}) != nullptr);
 }
 
 TEST_SUITE_END();

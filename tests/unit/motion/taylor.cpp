@@ -35,12 +35,12 @@ TEST_SUITE_BEGIN("unit/motion/taylor");
 TEST_CASE("disturbances are irregular, of both signs, and between half of the most and the most") {
   int positive = 0;
   for (std::size_t i = 0; i < 1000; ++i) {
-    const double part = motion::DataPerturbation::part(i),
-                 size = std::abs(part) / (motion::DataPerturbation::most * 0x1p-52);
+    const double part = motion::DataPerturbation::fraction(i),
+                 size = std::abs(part) / (motion::DataPerturbation::max_roundings * 0x1p-52);
     CHECK(size >= 0.5);
     CHECK(size <= 1.0);
-    CHECK(part == motion::DataPerturbation::part(i));
-    CHECK(part != motion::DataPerturbation::part(i + 1));
+    CHECK(part == motion::DataPerturbation::fraction(i));
+    CHECK(part != motion::DataPerturbation::fraction(i + 1));
     positive += part > 0.0;
   }
   CHECK(positive > 430);
@@ -57,7 +57,7 @@ TEST_CASE("what sticks to a surface follows it to the last digit, beside a part 
       const linear::SystemMatrices structure(model);
       motion::StateSystems systems(model, structure);
       const double t = 0.2;
-      const motion::StateSystemPtr system = systems.of({{State::stick, 0.0}});
+      const motion::StateSystemPtr system = systems.system_of({{State::stick, 0.0}});
       REQUIRE(system);
       const motion::Forcing forcing(model, t, motion::Side::after);
       Vector v = model.v0;
@@ -109,7 +109,7 @@ TEST_CASE("what is held on a slope does not move at all, whatever pulls at it th
         "test.toml"));
     const linear::SystemMatrices structure(model);
     motion::StateSystems systems(model, structure);
-    const motion::StateSystemPtr system = systems.of({{State::stick, 0.0}});
+    const motion::StateSystemPtr system = systems.system_of({{State::stick, 0.0}});
     REQUIRE(system);
     motion::Taylor taylor(systems);
     motion::Series series;
@@ -153,7 +153,7 @@ TEST_CASE(
         "test.toml"));
     const linear::SystemMatrices structure(model);
     motion::StateSystems systems(model, structure);
-    const motion::StateSystemPtr system = systems.of({{State::stick, 0.0}});
+    const motion::StateSystemPtr system = systems.system_of({{State::stick, 0.0}});
     REQUIRE(system);
     motion::Taylor taylor(systems);
     motion::Series series;

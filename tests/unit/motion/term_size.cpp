@@ -16,10 +16,10 @@ TEST_CASE("in the plane the size of form . x is |form| |x|, whatever the angle b
   for (int degrees = 4; degrees < 360; degrees += 7) {
     CAPTURE(degrees);
     const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
-    CHECK(motion::size_of(model, {{{0, 2.0 * c}, {1, 2.0 * s}}}, x) ==
+    CHECK(motion::form_magnitude(model, {{{0, 2.0 * c}, {1, 2.0 * s}}}, x) ==
           doctest::Approx(2.0 * 5.0).epsilon(1e-14));
     // Of two nodes: what moves apart counts with both.
-    CHECK(motion::size_of(model, {{{0, c}, {1, s}, {2, -3.0}}}, x) ==
+    CHECK(motion::form_magnitude(model, {{{0, c}, {1, s}, {2, -3.0}}}, x) ==
           doctest::Approx(std::sqrt(10.0) * 13.0).epsilon(1e-14));
   }
 }
@@ -31,10 +31,10 @@ TEST_CASE(
   model.dofs[2].rotation = true;
   Vector x(6);
   x << 3.0, -4.0, -0.5, 2.0, 1.0, 7.0;
-  CHECK(motion::size_of(model, {{{0, -0.5}, {1, 0.0}}}, x) == 1.5);
-  CHECK(motion::size_of(model, {{{0, 3.0}, {1, 4.0}, {2, 6.0}}}, x) ==
+  CHECK(motion::form_magnitude(model, {{{0, -0.5}, {1, 0.0}}}, x) == 1.5);
+  CHECK(motion::form_magnitude(model, {{{0, 3.0}, {1, 4.0}, {2, 6.0}}}, x) ==
         doctest::Approx(25.0 + 3.0).epsilon(1e-15));
-  CHECK(motion::size_of(model, {{{0, 1.0}, {1, 2.0}, {3, -3.0}, {4, 4.0}, {5, -1.0}}}, x) ==
+  CHECK(motion::form_magnitude(model, {{{0, 1.0}, {1, 2.0}, {3, -3.0}, {4, 4.0}, {5, -1.0}}}, x) ==
         3.0 + 8.0 + 6.0 + 4.0 + 7.0);
 }
 

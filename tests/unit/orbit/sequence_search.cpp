@@ -23,7 +23,7 @@ int places(const std::function<double(double)>& d, double x_star, bool before, d
     const double x = search.next();
     REQUIRE(x > search.low());
     REQUIRE(x < search.high());
-    search.see(x, x < x_star, stretches(x));
+    search.update(x, x < x_star, stretches(x));
   }
   CHECK(search.low() <= x_star);
   CHECK(search.high() >= x_star);
@@ -67,7 +67,7 @@ TEST_CASE("a stretch that jumps, or that nobody knows, is halved") {
   int count = 0;
   for (; !search.done(); ++count) {
     const double x = search.next();
-    search.see(x, x < 0.7, {});
+    search.update(x, x < 0.7, {});
   }
   CHECK(count == 10);
 }

@@ -32,7 +32,7 @@ TEST_SUITE_BEGIN("unit/report/mesh_motion");
 TEST_CASE("mesh motion: few shapes give every displacement back within a thousandth of the greatest") {
   const Eigen::MatrixXd u = wavy(40, 33);
   report::MeshMotion motion;
-  report::split_motion(u, 100000, motion);
+  report::decompose_motion(u, 100000, motion);
   CHECK(motion.greatest == u.cwiseAbs().maxCoeff());
   CHECK(motion.shapes.cols() <= 3);
   CHECK((put_together(motion) - u).cwiseAbs().maxCoeff() <= 1e-3 * motion.greatest);
@@ -43,13 +43,13 @@ TEST_CASE("mesh motion: few shapes give every displacement back within a thousan
 TEST_CASE("mesh motion: a full page has one shape, the one that leaves least; nothing moves without any") {
   const Eigen::MatrixXd u = wavy(40, 33);
   report::MeshMotion motion;
-  report::split_motion(u, 1, motion);
+  report::decompose_motion(u, 1, motion);
   REQUIRE(motion.shapes.cols() == 1);
   // No sum of one shape leaves less: the rest is at right angles to it.
   const Eigen::MatrixXd rest = u - put_together(motion);
   CHECK((motion.shapes.col(0).transpose() * rest).cwiseAbs().maxCoeff() <= 1e-9 * u.norm());
   CHECK(rest.norm() < 0.5 * u.norm());
-  report::split_motion(Eigen::MatrixXd::Zero(6, 4), 1000, motion);
+  report::decompose_motion(Eigen::MatrixXd::Zero(6, 4), 1000, motion);
   CHECK(motion.greatest == 0.0);
   CHECK(motion.shapes.cols() == 0);
   CHECK(report::mesh_motion_json({}).is_null());

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "report/html.hpp"
-#include "report/picture.hpp"
+#include "report/svg_figures.hpp"
 #include "signorini/error.hpp"
 
 using namespace signorini;
@@ -43,8 +43,8 @@ TEST_SUITE("unit/report/page") {
   }
 
   TEST_CASE("html: what is filled in is not looked through again") {
-    CHECK(report::fill_in("a@x@b@y@c@z@", {{"x", "@y@"}, {"y", "2"}}) == "a@y@b2c@z@");
-    CHECK(report::fill_in("@media", {{"m", "1"}}) == "@media");
+    CHECK(report::fill_template("a@x@b@y@c@z@", {{"x", "@y@"}, {"y", "2"}}) == "a@y@b2c@z@");
+    CHECK(report::fill_template("@media", {{"m", "1"}}) == "@media");
   }
 
   TEST_CASE("html: tables have short numbers, escaped names, and say what they leave out") {
@@ -68,21 +68,21 @@ TEST_SUITE("unit/report/page") {
   }
 
   TEST_CASE("pictures: paths become steps of a tenth, points on the one before are left out") {
-    CHECK(report::slim_svg(
+    CHECK(report::compress_svg(
               "<path d='M112.00,61.99 L115.21,60.02 L115.22,60.03 L114.00,60.00 M1.00,2.00 L1.50,2.00'/>") ==
           "<path d='M112 62l3.2-2-1.2 0M1 2l.5 0'/>");
     // A path of one point is drawn where its ends are round.
-    CHECK(report::slim_svg("<path d='M1.00,1.00 L1.01,1.01'/>") == "<path d='M1 1l0 0'/>");
+    CHECK(report::compress_svg("<path d='M1.00,1.00 L1.01,1.01'/>") == "<path d='M1 1l0 0'/>");
     // What is not as gnuplot writes it stays.
     for (const std::string other :
          {"<path d='M-1,0 h2 M0,-1 v2'/>", "<path d='M1 1 L2 2'/>", "<path id='gpPt0' d='M0,0"})
-      CHECK(report::slim_svg(other) == other);
+      CHECK(report::compress_svg(other) == other);
   }
 
   TEST_CASE("pictures: steps do not drift away from the points") {
     std::string path = "M0.04,0.04";
     for (int i = 1; i <= 1000; ++i) path += " L" + std::to_string(i) + ".04,0.04";
-    const std::string slim = report::slim_svg("<path d='" + path + "'/>");
+    const std::string slim = report::compress_svg("<path d='" + path + "'/>");
     CHECK(slim.starts_with("<path d='M0 0l1 0 1 0"));
     std::size_t steps = 0;
     for (std::size_t at = slim.find("1 0"); at != std::string::npos; at = slim.find("1 0", at + 3)) ++steps;

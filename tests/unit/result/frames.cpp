@@ -91,7 +91,7 @@ TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnif
   frame.points = {{"L", false, {0.0, 0.0, 0.51, 0.0, 0.0}}, {"R", false, {10.0, 0.0, 0.49, 0.0, 0.0}}};
   frame.elements = {{"bar", frame.points[0].at, frame.points[1].at}};
   std::vector<result::Frame> frames{frame};
-  result::take_out_slides(frames);
+  result::subtract_translations(frames);
   CHECK(frames[0].slid_x == doctest::Approx(0.5));
   CHECK(frames[0].points[0].at.x == doctest::Approx(0.5));
   CHECK(frames[0].points[0].at.ux == doctest::Approx(0.01));
@@ -99,7 +99,7 @@ TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnif
   CHECK(result::scales_of(frames).magnification == 100.0);
   frame.points[1].at.ux = -0.4;  // a deformation as large as the motion: nothing is taken out
   frames = {frame};
-  result::take_out_slides(frames);
+  result::subtract_translations(frames);
   CHECK(frames[0].slid_x == 0.0);
   CHECK(frames[0].points[0].at.ux == 0.51);
 }

@@ -38,18 +38,19 @@ TEST_CASE("plots: nothing in a name is expanded by gnuplot") {
 }
 
 TEST_CASE("plots: a row a contact is as high as a picture allows, and names do not overlap") {
-  const result::PictureLook screen;
+  const result::PictureStyle screen;
   CHECK(result::row_height(34.0, 3, screen) == 34.0);
   for (const std::size_t count : {800UL, 1000UL, 5000UL}) {
     const double row = result::row_height(34.0, count, screen);
-    const double dots = 1.5 * (row * static_cast<double>(count) + result::room_above + result::room_below);
+    const double dots =
+        1.5 * (row * static_cast<double>(count) + result::margin_above + result::margin_below);
     CHECK(dots <= 32767.0);  // Cairo's limit
     CHECK(dots >= 20000.0);
     const std::string ticks = result::row_tics(std::vector<result::RunFacts::Contact>(count), row);
     CHECK(static_cast<double>(std::count(ticks.begin(), ticks.end(), ',')) * 13.0 <
           row * static_cast<double>(count));
   }
-  result::PictureLook paper;
+  result::PictureStyle paper;
   paper.width = 400.0;
   CHECK(result::row_height(34.0, 1000, paper) < result::row_height(34.0, 1000, screen));
 }
@@ -71,7 +72,7 @@ TEST_CASE("plots: scripts, and bands that are exact to the event") {
 }
 
 TEST_CASE("plots: a curve reads the rows that it draws") {
-  result::PlottedRun run = result::unreported_run("", {"N", "kg", "m", "s"});
+  result::PlottedRun run = result::empty_plotted_run("", {"N", "kg", "m", "s"});
   run.slugs = {"a", "b"};
   run.bands = {{{0.0, 1.0, "stick"}, {1.0, 2.0, "slip+"}, {2.0, 3.0, "stick"}, {3.0, 4.0, "open"}},
                {{0.0, 4.0, "stick"}}};
@@ -129,7 +130,7 @@ TEST_CASE("plots: marks stand by type and contact, whatever the order of events"
 }
 
 TEST_CASE("plots: a picture is its panels, from above, each with its axes and curves") {
-  const result::PlottedRun run = result::unreported_run("A portal", {"N", "kg", "m", "s"});
+  const result::PlottedRun run = result::empty_plotted_run("A portal", {"N", "kg", "m", "s"});
   result::Picture picture{"two", "Twice", result::canvas_of({}, 400.0, false), false};
   picture.panels.push_back(
       {"upper [m]", {{"'a.csv'", "1:2", "with lines", "it's"}, {"'b.csv'", "1:3", "with points"}}});
@@ -151,7 +152,7 @@ TEST_CASE("plots: a picture is its panels, from above, each with its axes and cu
   // Only the lowest one has figures at its horizontal axis.
   CHECK(at("unset xlabel") < at(upper));
   CHECK(at("set xlabel 'time t [s]'") > at(upper));
-  const auto edges = result::stacked({1.0, 2.0}, picture.canvas, picture.space);
+  const auto edges = result::panel_edges({1.0, 2.0}, picture.canvas, picture.space);
   CHECK(2.0 * (edges[0].top - edges[0].bottom) == doctest::Approx(edges[1].top - edges[1].bottom));
   // 400 less 62, 70 and 22 for what is above, below and between, a third of it.
   CHECK(400.0 * (edges[0].top - edges[0].bottom) == doctest::Approx(246.0 / 3.0));
@@ -204,15 +205,15 @@ TEST_CASE("plots: the close-up of one contact is not the picture of another") {
 }
 
 TEST_CASE("plots: a legend has room for its names") {
-  CHECK(result::room_for({"ida", "exact"}) == result::Canvas::usual_legend);
+  CHECK(result::legend_width({"ida", "exact"}) == result::Canvas::usual_legend);
   const std::string name = "friction-iteration:dt=1e-3";
   // 9 points a letter, and the line in front of it.
-  CHECK(result::room_for({"ida", name}) >= 8.5 * static_cast<double>(name.size()) + 50.0);
+  CHECK(result::legend_width({"ida", name}) >= 8.5 * static_cast<double>(name.size()) + 50.0);
   CHECK(result::legend_name(name) == name);
   const std::string longer = std::string(100, 'a') + std::string(100, 'b');
   CHECK(result::legend_name(longer).size() <= 44);
   CHECK(result::legend_name(longer).find("a...b") != std::string::npos);
-  CHECK(result::canvas_of({}, 800.0, true).right(result::room_for({longer})) >= 0.5);
+  CHECK(result::canvas_of({}, 800.0, true).right(result::legend_width({longer})) >= 0.5);
   std::string umlauts;
   for (int i = 0; i < 60; ++i) umlauts += "\u00e4";
   CHECK(result::legend_name(umlauts).find("\u00e4...\u00e4") != std::string::npos);
@@ -227,21 +228,22 @@ TEST_CASE("plots: the axis of a curve that hardly moves is no picture of roundin
     return r;
   };
   // A pipe on its shoes: 7e-5 m with noise in the sixteenth digit. One per cent to each side; by hand.
-  CHECK(result::steady(range(-8e-5, -8e-5 * (1.0 + 1e-15)), 2e-3) == "set yrange [-8.08e-05:-7.92e-05]\n");
-  CHECK(result::steady(range(8.0, 8.0), 8.0) == "set yrange [7.92:8.08]\n");
+  CHECK(result::constant_axis(range(-8e-5, -8e-5 * (1.0 + 1e-15)), 2e-3) ==
+        "set yrange [-8.08e-05:-7.92e-05]\n");
+  CHECK(result::constant_axis(range(8.0, 8.0), 8.0) == "set yrange [7.92:8.08]\n");
   // What is rounding beside its like is zero: a thousandth of that to each side.
-  CHECK(result::steady(range(-1e-19, 1.4e-19), 2.0) == "set yrange [-0.002:0.002]\n");
+  CHECK(result::constant_axis(range(-1e-19, 1.4e-19), 2.0) == "set yrange [-0.002:0.002]\n");
   CHECK(result::is_rounding(range(-1e-19, 1.4e-19), 2e-3));
   CHECK_FALSE(result::is_rounding(range(0.0, 1e-9), 2e-3));
   // A small motion is none, nor what six digits can tell apart.
-  CHECK(result::steady(range(0.0, 1e-9), 2e-3).empty());
-  CHECK(result::steady(range(1.0, 1.001), 2.0).empty());
-  CHECK(result::steady(result::Range{}, 1.0).empty());
-  CHECK(result::steady(range(0.0, 0.0), 0.0).empty());
+  CHECK(result::constant_axis(range(0.0, 1e-9), 2e-3).empty());
+  CHECK(result::constant_axis(range(1.0, 1.001), 2.0).empty());
+  CHECK(result::constant_axis(result::Range{}, 1.0).empty());
+  CHECK(result::constant_axis(range(0.0, 0.0), 0.0).empty());
 }
 
 TEST_CASE("plots: on paper letters stay readable, and take their room") {
-  result::PictureLook look;
+  result::PictureStyle look;
   CHECK(result::canvas_of(look, 800.0, true).width == 1120.0);
   for (const double mm : {85.0, 120.0, 160.0, 240.0}) {
     CAPTURE(mm);
@@ -251,8 +253,8 @@ TEST_CASE("plots: on paper letters stay readable, and take their room") {
     CHECK(canvas.font(13.0) * 72.0 / 96.0 >= 6.0 - 1e-12);                         // points
     CHECK((canvas.right() - canvas.left()) * canvas.width >= 0.5 * canvas.width);  // left for the curves
     CHECK(canvas.height * canvas.pixel >= 800.0 * mm / 1120.0 * 96.0 / 25.4 * 0.25);
-    CHECK(result::stacked({1.0, 1.0}, canvas, 20.0).back().bottom * canvas.height ==
-          doctest::Approx(result::room_below));
+    CHECK(result::panel_edges({1.0, 1.0}, canvas, 20.0).back().bottom * canvas.height ==
+          doctest::Approx(result::margin_below));
   }
   look.width = 160.0;
   look.height = 90.0;

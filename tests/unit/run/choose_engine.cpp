@@ -66,7 +66,7 @@ TEST_CASE("max_order auto: below rtol 1e-4 always 5; above, what is stable for t
     run.rtol = rtol;
     model.alpha = alpha;
     model.beta = beta;
-    return ida::choose_order(model, run).greatest;
+    return ida::choose_order(model, run).max_order;
   };
   CHECK(order(1e-4, 0.0, 0.0) == 5);
   CHECK(order(1e-3, 0.0, 0.0) == 2);
@@ -75,12 +75,12 @@ TEST_CASE("max_order auto: below rtol 1e-4 always 5; above, what is stable for t
   CHECK(order(1e-3, 0.0690, 0.0690) == 2);
   CHECK(order(1e-3, 0.2870, 0.2870) == 4);
   CHECK(order(1e-3, 2.0 * 0.6180 * 1000.0, 0.0) == 5);  // zeta of omega_max, the least
-  CHECK(model::least_damping_ratio(model) == doctest::Approx(0.618));
+  CHECK(model::min_damping_ratio(model) == doctest::Approx(0.618));
   model.alpha = 10.0;
   model.beta = 1e-3;  // least between: sqrt(alpha beta)
-  CHECK(model::least_damping_ratio(model) == doctest::Approx(0.1));
+  CHECK(model::min_damping_ratio(model) == doctest::Approx(0.1));
   Contact spring;
   spring.normal_stiffness = 1.0;
   model.contacts = {spring};  // which beta K does not damp
-  CHECK(model::least_damping_ratio(model) == doctest::Approx(0.005));
+  CHECK(model::min_damping_ratio(model) == doctest::Approx(0.005));
 }

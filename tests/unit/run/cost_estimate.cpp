@@ -24,9 +24,10 @@ TEST_CASE(
     "pace") {
   CHECK(seconds_of_belt("1.0", Engine::ida) > 0.0);
   CHECK(seconds_of_belt("1e6", Engine::ida) > 1.0);
-  CHECK(run::seconds_of_all(10.0, {0.5, 1.0}, {1.0, 1.25}) == 1.25 + 9.0 * 0.25 / 0.5);
-  CHECK(run::seconds_of_all(10.0, {1.0, 1.25}, {1.0, 1.25}) == 12.5);  // no more than the start was seen
-  CHECK(run::seconds_of_all(10.0, {}, {}) == 0.0);
+  CHECK(run::extrapolated_seconds(10.0, {0.5, 1.0}, {1.0, 1.25}) == 1.25 + 9.0 * 0.25 / 0.5);
+  CHECK(run::extrapolated_seconds(10.0, {1.0, 1.25}, {1.0, 1.25}) ==
+        12.5);  // no more than the start was seen
+  CHECK(run::extrapolated_seconds(10.0, {}, {}) == 0.0);
 }
 
 TEST_CASE("a trial that sees no more than the start leaves the estimate to the rule") {
@@ -35,7 +36,8 @@ TEST_CASE("a trial that sees no more than the start leaves the estimate to the r
   for (const Engine engine : {Engine::exact, Engine::ida}) {
     RunSpec run = scene.run;
     run.engine = engine;
-    CHECK(run::seconds_by_trial(model, scene.run, engine, 0.0) == run::expected(model, run).effort.seconds);
+    CHECK(run::seconds_by_trial(model, scene.run, engine, 0.0) ==
+          run::expected_cost(model, run).estimate.seconds);
   }
 }
 
@@ -54,10 +56,10 @@ TEST_CASE("what is quicker is said where it is four times and seconds quicker") 
       {Engine::exact, 0.0, 36.2}, {Engine::ida, 0.0, 4.93}, {Engine::exact, 100.0, 1.5}};
   CHECK(run::trial_text(rack) ==
         "exact 36 s, ida 4.9 s; with [reduction] cutoff_frequency = 100: exact 1.5 s");
-  CHECK(run::quicker(rack, Engine::exact, 36.0).starts_with("exact is expected to take 36 s"));
-  CHECK(run::quicker(rack, Engine::ida, 4.9).empty());  // nobody waits for that
-  CHECK(run::quicker({rack[0]}, Engine::exact, 36.0).empty());
-  CHECK(run::quicker({}, Engine::exact, 36.0).empty());
+  CHECK(run::faster_engine_advice(rack, Engine::exact, 36.0).starts_with("exact is expected to take 36 s"));
+  CHECK(run::faster_engine_advice(rack, Engine::ida, 4.9).empty());  // nobody waits for that
+  CHECK(run::faster_engine_advice({rack[0]}, Engine::exact, 36.0).empty());
+  CHECK(run::faster_engine_advice({}, Engine::exact, 36.0).empty());
 }
 
 TEST_CASE("a cutoff is tried where the highest frequency is far above the lowest") {

@@ -9,23 +9,23 @@ using namespace signorini;
 TEST_SUITE_BEGIN("unit/run/engines");
 
 TEST_CASE("engines: every name has a row, is found by its name, and `auto` is none of them") {
-  for (const EngineName& engine : all_engines) {
+  for (const EngineInfo& engine : all_engines) {
     CHECK(run::engine_row(engine.engine).engine == engine.engine);
-    CHECK(engine_called(engine.name) == engine.engine);
+    CHECK(find_engine(engine.name) == engine.engine);
     CHECK(to_string(engine.engine) == engine.name);
   }
   CHECK(to_string(Engine::automatic) == "auto");
-  CHECK_FALSE(engine_called("auto"));
-  CHECK_FALSE(engine_called("Exact"));
+  CHECK_FALSE(find_engine("auto"));
+  CHECK_FALSE(find_engine("Exact"));
 }
 
 TEST_CASE("engines: keys are whole words") {
-  const EngineName& newmark = name_of(Engine::newmark);
+  const EngineInfo& newmark = engine_info(Engine::newmark);
   CHECK(has_key(newmark, "refine"));
   CHECK(has_key(newmark, "step"));
   CHECK_FALSE(has_key(newmark, "ste"));
   CHECK_FALSE(has_key(newmark, "refine step"));
-  CHECK_FALSE(has_key(name_of(Engine::exact), ""));
+  CHECK_FALSE(has_key(engine_info(Engine::exact), ""));
 }
 
 TEST_SUITE_END();

@@ -46,20 +46,20 @@ TEST_CASE("of pendulums ut beyond a quarter of the radius counts, and amplitudes
   Contact contact;
   contact.name = "p";
   contact.tangent.terms = {{0, 1.0}};
-  contact.bowl = CurvedSurface{};
-  contact.bowl->radius = 2.0;
+  contact.pendulum_surface = CurvedSurface{};
+  contact.pendulum_surface->radius = 2.0;
   model.contacts.push_back(contact);
   model.unit = {1.0, 1.0, 4.0};
   const motion::Forcing forcing = motion::Forcing::none(model);
   const auto told = [&](double u) {
-    run::LargeMotions large(model);
-    large.see(0.5, forcing, {Vector::Constant(1, u), Vector::Zero(1), Vector::Zero(2)});
+    run::LargeMotionDetector large(model);
+    large.examine(0.5, forcing, {Vector::Constant(1, u), Vector::Zero(1), Vector::Zero(2)});
     return large.warning();
   };
   CHECK_FALSE(told(0.49));
   REQUIRE(told(-0.6));
   CHECK(told(-0.6)->find("ut / R of contact 'p' is 0.3 rad at t = 2") == 0);
-  model.contacts[0].bowl.reset();
+  model.contacts[0].pendulum_surface.reset();
   CHECK_FALSE(told(-0.6));
   model.dofs[0].rotation = true;
   CHECK(told(-0.6));

@@ -74,7 +74,7 @@ TEST_CASE("bodies that turn at one time but for its rounding are one moment") {
   turns.push_back(0.75);
   long found = 0;
   record.step(0.0, 1.0, turns);
-  while (const auto moment = record.next()) found += moment->turns ? 1 : 0;
+  while (const auto moment = record.next()) found += moment->is_turning_point ? 1 : 0;
   CHECK(found >= 3);
   CHECK(found <= 10);  // 1e-13 are some few times a hundred roundings
 }
@@ -195,8 +195,8 @@ history = { type = "step", start = 4.5 }
   for (const bool together : {false, true}) {
     CAPTURE(together);
     Keeper run;
-    run.report =
-        together ? simulate(model, scene.run, run, [](const Round&) {}) : simulate(model, scene.run, run);
+    run.report = together ? simulate(model, scene.run, run, [](const DecisionRound&) {})
+                          : simulate(model, scene.run, run);
     const auto at = [&](std::size_t k, double t) {
       return std::count_if(run.tracks[k].begin(), run.tracks[k].end(),
                            [&](const MotionRow& row) { return row.t == t; });

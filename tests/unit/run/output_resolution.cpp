@@ -15,7 +15,7 @@ std::vector<run::Chebyshev::Values> sampled(std::size_t points, const Field& p) 
   std::vector<run::Chebyshev::Values> f(points);
   for (std::size_t i = 0; i < points; ++i)
     for (std::size_t j = 0; j < run::Chebyshev::count; ++j)
-      f[i][j] = p(base::Along::point(points, i), run::Chebyshev::nodes()[j]);
+      f[i][j] = p(base::PolynomialInterpolation::point(points, i), run::Chebyshev::nodes()[j]);
   return f;
 }
 
@@ -34,7 +34,8 @@ TEST_CASE("a hill whose top wanders along the stretch: the time of its highest p
     const std::vector<double> peaks = run::peaks_along(f, 1, sign, sign * 4.9);
     REQUIRE(peaks.size() == 1);
     CHECK(std::abs(peaks[0] - 0.37) < 1e-9);
-    const base::Along::Extremes e = base::Along::extremes(run::values_along(f, 1, peaks[0]), 6);
+    const base::PolynomialInterpolation::Extremes e =
+        base::PolynomialInterpolation::extremes(run::values_along(f, 1, peaks[0]), 6);
     CHECK(std::abs((sign > 0.0 ? e.greatest : -e.least) - 5.0) < 1e-13);
     CHECK(std::abs((sign > 0.0 ? e.at_greatest : e.at_least) - 0.4 - 0.1 * std::sin(0.37)) < 1e-7);
     CHECK(run::peaks_along(f, 1, sign, sign * 6.0).empty());  // nothing that high is there
@@ -61,7 +62,8 @@ TEST_CASE("bounds along a stretch hold everything on it, and of one point they a
     const run::ValueBounds b = run::bounds_along(f, 1, true);
     for (int i = 0; i <= 40; ++i)
       for (int j = 0; j <= 40; ++j) {
-        const double p = base::Along::through(run::values_along(f, 1, j / 20.0 - 1.0), points, i / 40.0);
+        const double p = base::PolynomialInterpolation::interpolate(run::values_along(f, 1, j / 20.0 - 1.0),
+                                                                    points, i / 40.0);
         CHECK(p <= b.greatest + 1e-12);
         CHECK(p >= b.least - 1e-12);
       }

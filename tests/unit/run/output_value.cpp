@@ -1,4 +1,4 @@
-#include "run/response.hpp"
+#include "run/output_monitor.hpp"
 
 #include <doctest/doctest.h>
 

@@ -59,7 +59,7 @@ TEST_CASE("forces, moments and distributed loads may be changed on the way; weig
   const run::EngineRow& engine = run::engine_row(Engine::ida);
   const Method method = engine.method(model, run);
   run::LoadChanges changes(model, run, engine, method);
-  changes.at(0.5);
+  changes.set_time(0.5);
   long given = 0, others = 0;
   for (const std::string name : {"push", "twist", "snow"}) {
     CAPTURE(name);

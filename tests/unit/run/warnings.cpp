@@ -26,17 +26,17 @@ TEST_SUITE_BEGIN("unit/run/warnings");
 TEST_CASE("a balance is off beside what was exchanged, and beside the rounding of what is stored") {
   Method ida, exact;
   exact.engine = Engine::exact;
-  CHECK_FALSE(run::energy_lost(audit(1e-4, 1.0), ida, 0.0, true));
-  CHECK_FALSE(run::energy_lost(audit(2.8, 1e-8), ida, 10.0, true));
-  const auto more = run::energy_lost(audit(2.8, 1e-8), ida, 1.0, true);
+  CHECK_FALSE(run::energy_warning(audit(1e-4, 1.0), ida, 0.0, true));
+  CHECK_FALSE(run::energy_warning(audit(2.8, 1e-8), ida, 10.0, true));
+  const auto more = run::energy_warning(audit(2.8, 1e-8), ida, 1.0, true);
   REQUIRE(more);
   CHECK(has_word(*more, "2.8, more than was exchanged (1e-08)"));
-  const auto lost = run::energy_lost(audit(0.5, 2.0), ida, 0.0, true);
+  const auto lost = run::energy_warning(audit(0.5, 2.0), ida, 0.0, true);
   REQUIRE(lost);
   CHECK(has_word(*lost, "0.25 of what was exchanged"));
   CHECK(has_word(*lost, "engine \"exact\""));
-  CHECK_FALSE(has_word(*run::energy_lost(audit(0.5, 2.0), ida, 0.0, false), "exact"));
-  CHECK_FALSE(has_word(*run::energy_lost(audit(0.5, 2.0), exact, 0.0, true), "engine \"exact\""));
+  CHECK_FALSE(has_word(*run::energy_warning(audit(0.5, 2.0), ida, 0.0, false), "exact"));
+  CHECK_FALSE(has_word(*run::energy_warning(audit(0.5, 2.0), exact, 0.0, true), "engine \"exact\""));
 }
 
 TEST_CASE(
@@ -56,7 +56,7 @@ TEST_CASE(
   const auto told = [&](double asked) {
     c.initial_shear = asked;
     model.contacts = {c};
-    return run::cut_shears(model, start);
+    return run::shear_limit_warnings(model, start);
   };
   // 64 eps 0.3 5e4 (1 + 1 + 2e-4) = 4.3e-10
   CHECK(told(3.0 + 4.2e-10).empty());

@@ -60,7 +60,7 @@ class Dump {
 std::vector<double> numbers_of(const std::shared_ptr<const UserContactLaw>& own) {
   std::vector<double> numbers;
   if (!own) return numbers;
-  static_cast<void>(visited(*own, [&](double& x, const Unit&) { numbers.push_back(x); }));
+  static_cast<void>(visit_law_constants(*own, [&](double& x, const Unit&) { numbers.push_back(x); }));
   return numbers;
 }
 
@@ -102,9 +102,11 @@ std::string dump(const Scene& s) {
   for (const auto& c : s.contacts) {
     dump.line("contact", c.name, static_cast<int>(c.law), c.normal, c.tangent, c.gap, c.normal_stiffness,
               c.tangential_stiffness, c.normal_damping, c.friction.static_, c.friction.kinetic,
-              c.friction.stribeck_velocity, c.friction.velocity, c.bowl ? c.bowl->radius : 0.0,
-              c.bowl ? c.bowl->carried : 0.0, c.normal_force, c.surface_velocity, c.initial_shear,
-              c.tangential_damping, c.restitution, c.capture_velocity, numbers_of(c.own));
+              c.friction.stribeck_velocity, c.friction.velocity,
+              c.pendulum_surface ? c.pendulum_surface->radius : 0.0,
+              c.pendulum_surface ? c.pendulum_surface->nominal_force : 0.0, c.normal_force,
+              c.surface_velocity, c.initial_shear, c.tangential_damping, c.restitution, c.capture_velocity,
+              numbers_of(c.user_law));
   }
   for (const auto& l : s.loads)
     dump.line("load", l.name, static_cast<int>(l.type), l.direction, l.amplitude, l.history, l.pieces,

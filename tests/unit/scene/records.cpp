@@ -215,14 +215,13 @@ TEST_CASE("hold beside a period: the last value holds until the shape begins ane
 TEST_CASE("a saved state: the time asked for, or the last") {
   const std::string file = "t,A.ux,A.vx,c.T\n0.5,1,2,3\n1.5,4,5,6\n";
   std::istringstream first(file), last(file), none(file);
-  CHECK(scene::read_saved_states(first, "file", "key", 0.5).wanted.value().motions.at(1).second == 2.0);
-  CHECK(scene::read_saved_states(last, "file", "key", std::nullopt).wanted.value().shears.at(0).second ==
-        6.0);
+  CHECK(scene::read_saved_states(first, "file", "key", 0.5).state.value().motions.at(1).second == 2.0);
+  CHECK(scene::read_saved_states(last, "file", "key", std::nullopt).state.value().shears.at(0).second == 6.0);
   const scene::SavedStates others = scene::read_saved_states(none, "file", "key", 0.7);
-  CHECK_FALSE(others.wanted);
+  CHECK_FALSE(others.state);
   CHECK(others.times == std::vector<std::string>{"0.5", "1.5"});
   std::istringstream cut(file + "2.5,7,8"), wrong(file + "2.5,7,x,9\n");
-  CHECK(scene::read_saved_states(cut, "file", "key", std::nullopt).wanted.value().shears.at(0).second == 6.0);
+  CHECK(scene::read_saved_states(cut, "file", "key", std::nullopt).state.value().shears.at(0).second == 6.0);
   CHECK_THROWS_WITH_AS((void)scene::read_saved_states(wrong, "file", "key", 0.5),
                        "file:4: key: found \"x\", expected a number", SceneError);
 }

@@ -13,14 +13,14 @@ TEST_CASE("contacts.csv with and without the column ratio") {
   const Folder folder;
   const auto read = [&](const std::string& text) {
     spill(folder / "contacts.csv", text);
-    return scene::read_left_contacts(folder / "contacts.csv", 0.5);
+    return scene::read_final_contacts(folder / "contacts.csv", 0.5);
   };
   for (const char* text :
        {"t,contact,state,gap,ut,vt,slip,N,T\n0,a,open,1,0,0,0,0,0\n0.5,a,stick,,1,2,3,-4,1\n",
         "t,contact,state,gap,ut,vt,slip,N,T,ratio\n0,a,open,1,0,0,0,0,0,\n"
         "0.5,a,stick,,1,2,3,-4,1,0.25\n"}) {
     CAPTURE(text);
-    const std::vector<SavedState::Left> rows = read(text);
+    const std::vector<SavedState::FinalContact> rows = read(text);
     REQUIRE(rows.size() == 1);
     CHECK(rows[0].contact == "a");
     CHECK(rows[0].state == "stick");

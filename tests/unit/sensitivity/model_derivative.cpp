@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "sensitivity/parameter.hpp"
 #include "signorini/error.hpp"
 
@@ -30,7 +30,7 @@ SceneReader beam_reader(const std::string& more = "") {
 
 /// In the units of the machine, those of the scene without changes.
 Model computed(const SceneReader& read, const std::vector<Override>& changes = {}) {
-  return model::rescaled(build_model(read(changes)), scene::inverse(build_model(read({})).machine));
+  return model::rescaled(build_model(read(changes)), scene::inverse(build_model(read({})).internal_units));
 }
 
 sensitivity::ModelDerivative of(const SceneReader& read, const std::string& path) {

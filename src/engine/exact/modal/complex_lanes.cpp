@@ -1,6 +1,6 @@
 #include "engine/exact/modal/complex_lanes.hpp"
 
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::modal {
 namespace {
@@ -42,8 +42,8 @@ SIGNORINI_WIDE_LANES void cauchy_vector(const double* base, const double* tiny, 
                                         const double* side, std::ptrdiff_t rank, double* out) {
   std::ptrdiff_t i = 0;
   for (; i + 4 <= n; i += 4)
-    cauchy_entry<base::Four>(base + i, tiny + i, home_base, home_tiny, own, small, side + i, n, rank,
-                             out + i);
+    cauchy_entry<base::Double4>(base + i, tiny + i, home_base, home_tiny, own, small, side + i, n, rank,
+                                out + i);
   for (; i < n; ++i)
     cauchy_entry<double>(base + i, tiny + i, home_base, home_tiny, own, small, side + i, n, rank, out + i);
 }
@@ -53,7 +53,7 @@ SIGNORINI_WIDE_LANES void inverse_distances(const double* base, const double* ti
                                             double* re, double* im) {
   std::ptrdiff_t i = 0;
   for (; i + 4 <= n; i += 4)
-    inverse_distance<base::Four>(base + i, tiny + i, home_base, home_tiny, own.re, own.im, re + i, im + i);
+    inverse_distance<base::Double4>(base + i, tiny + i, home_base, home_tiny, own.re, own.im, re + i, im + i);
   for (; i < n; ++i)
     inverse_distance<double>(base + i, tiny + i, home_base, home_tiny, own.re, own.im, re + i, im + i);
 }
@@ -61,17 +61,18 @@ SIGNORINI_WIDE_LANES void inverse_distances(const double* base, const double* ti
 SIGNORINI_WIDE_LANES void square_all(const double* re, const double* im, std::ptrdiff_t n, double* square_re,
                                      double* square_im) {
   std::ptrdiff_t i = 0;
-  for (; i + 4 <= n; i += 4) square_one<base::Four>(re + i, im + i, square_re + i, square_im + i);
+  for (; i + 4 <= n; i += 4) square_one<base::Double4>(re + i, im + i, square_re + i, square_im + i);
   for (; i < n; ++i) square_one<double>(re + i, im + i, square_re + i, square_im + i);
 }
 
-SIGNORINI_WIDE_LANES Complex weighted(const double* re, const double* im, const double* w, std::ptrdiff_t n) {
-  base::Four sum_re = {}, sum_im = {};
+SIGNORINI_WIDE_LANES Complex weighted_sum(const double* re, const double* im, const double* w,
+                                          std::ptrdiff_t n) {
+  base::Double4 sum_re = {}, sum_im = {};
   std::ptrdiff_t i = 0;
   for (; i + 4 <= n; i += 4) {
-    const base::Four weight = base::lanes_at<base::Four>(w + i).v;
-    sum_re += base::lanes_at<base::Four>(re + i).v * weight;
-    sum_im += base::lanes_at<base::Four>(im + i).v * weight;
+    const base::Double4 weight = base::lanes_at<base::Double4>(w + i).v;
+    sum_re += base::lanes_at<base::Double4>(re + i).v * weight;
+    sum_im += base::lanes_at<base::Double4>(im + i).v * weight;
   }
   for (int lane = 0; i < n; ++i, ++lane) {
     sum_re[lane] += re[i] * w[i];
@@ -80,12 +81,12 @@ SIGNORINI_WIDE_LANES Complex weighted(const double* re, const double* im, const 
   return {base::sum_of_lanes(sum_re), base::sum_of_lanes(sum_im)};
 }
 
-SIGNORINI_WIDE_LANES Complex sum_of_all(const double* re, const double* im, std::ptrdiff_t n) {
-  base::Four sum_re = {}, sum_im = {};
+SIGNORINI_WIDE_LANES Complex complex_sum(const double* re, const double* im, std::ptrdiff_t n) {
+  base::Double4 sum_re = {}, sum_im = {};
   std::ptrdiff_t i = 0;
   for (; i + 4 <= n; i += 4) {
-    sum_re += base::lanes_at<base::Four>(re + i).v;
-    sum_im += base::lanes_at<base::Four>(im + i).v;
+    sum_re += base::lanes_at<base::Double4>(re + i).v;
+    sum_im += base::lanes_at<base::Double4>(im + i).v;
   }
   for (int lane = 0; i < n; ++i, ++lane) {
     sum_re[lane] += re[i];

@@ -50,9 +50,9 @@ template <class R>
 [[nodiscard]] inline double real_part(double a) { return a; }
 [[nodiscard]] inline double real_part(Complex a) { return a.re; }
 /// Contribution of a mode to a real quantity: itself, or itself and its conjugate.
-[[nodiscard]] inline double whole(double a) { return a; }
-[[nodiscard]] inline double whole(Complex a) { return 2.0 * a.re; }
-[[nodiscard]] inline Complex root_of(Complex a) {
+[[nodiscard]] inline double real_contribution(double a) { return a; }
+[[nodiscard]] inline double real_contribution(Complex a) { return 2.0 * a.re; }
+[[nodiscard]] inline Complex complex_sqrt(Complex a) {
   const double size = std::hypot(a.re, a.im);
   const double re = std::sqrt(0.5 * (size + std::abs(a.re)));
   if (re == 0.0) return {};
@@ -71,11 +71,11 @@ void inverse_distances(const double* base, const double* tiny, std::ptrdiff_t n,
                        double home_tiny, const Complex& own, double* re, double* im);
 void square_all(const double* re, const double* im, std::ptrdiff_t n, double* square_re, double* square_im);
 /// sum_i (re_i + i im_i) w_i
-[[nodiscard]] Complex weighted(const double* re, const double* im, const double* w, std::ptrdiff_t n);
+[[nodiscard]] Complex weighted_sum(const double* re, const double* im, const double* w, std::ptrdiff_t n);
 /// out_i = sum_a small_a side_ia / (D_i - l), side by columns of n.
 void cauchy_vector(const double* base, const double* tiny, std::ptrdiff_t n, double home_base,
                    double home_tiny, double own, const double* small, const double* side, std::ptrdiff_t rank,
                    double* out);
-[[nodiscard]] Complex sum_of_all(const double* re, const double* im, std::ptrdiff_t n);
+[[nodiscard]] Complex complex_sum(const double* re, const double* im, std::ptrdiff_t n);
 
 }  // namespace signorini::modal

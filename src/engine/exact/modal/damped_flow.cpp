@@ -15,12 +15,12 @@ std::string DampedFlow::start(const engine::Segment& segment, const Vector& q, c
   return {};
 }
 
-void DampedFlow::find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                            events::TurningPoints& turning, LastTurns& turns) {
+void DampedFlow::find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
+                                     events::TurningPointDetector& turning, LastTurningTimes& turns) {
   const auto advance = [&](const ModalPoint& at, double step, ModalPoint& to) {
     motion_.advance(at, step, to);
   };
-  find_passage_turns(proof_, advance, from, begin, length, observed, turning, turns);
+  find_turning_points_in_passage(proof_, advance, from, begin, length, observed, turning, turns);
 }
 
 void DampedFlow::forces(const ModalPoint& at, motion::Point& point) const {
@@ -41,7 +41,8 @@ constexpr double worst_loss_of_trip = 1e-12, worst_dependence = 1e4;  // as for 
 void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
   const Eigen::Index n = pencil.size();
   const std::vector<ModalTerm>& terms = pencil.terms();
-  Eigen::VectorXd size = pencil.square().cwiseMax(pencil.square().cwiseAbs().maxCoeff() * 1e-12);
+  Eigen::VectorXd size =
+      pencil.omega_squared().cwiseMax(pencil.omega_squared().cwiseAbs().maxCoeff() * 1e-12);
   for (std::size_t a = 0; a < terms.size(); ++a)
     if (!terms[a].rigid) size += pencil.stiffness(a) * terms[a].u.cwiseProduct(terms[a].v).cwiseAbs();
   size = size.cwiseSqrt().eval();

@@ -13,7 +13,7 @@ namespace signorini::modal {
 class DampedFlow final : public ModalFlow {
  public:
   /// All arguments except t_end must outlive the object. kept: see DampedMotion.
-  DampedFlow(const Model& model, const OpenBasis& basis, double t_end, DampedSystem* kept = nullptr)
+  DampedFlow(const Model& model, const UnconstrainedBasis& basis, double t_end, DampedSystem* kept = nullptr)
       : motion_(model, basis, t_end, kept),
         proof_(motion_),
         works_(motion_),
@@ -39,15 +39,15 @@ class DampedFlow final : public ModalFlow {
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const override {
     return proof_.magnitude(slot, at);
   }
-  void find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                  events::TurningPoints& turning, LastTurns& turns) override;
+  void find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
+                           events::TurningPointDetector& turning, LastTurningTimes& turns) override;
   void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/,
                  motion::WorkIntegrals& works) const override {
     works_.add(from, to, works);
   }
   [[nodiscard]] std::optional<engine::FastModeBound> fast_mode_bound(const ModalPoint& from, double time,
                                                                      double omega) const override {
-    return motion_.ripple(from, time, omega);
+    return motion_.fast_mode_bound(from, time, omega);
   }
   [[nodiscard]] double eigenvector_condition() const override { return motion_.eigenvector_condition(); }
   [[nodiscard]] SumTerms terms(const ModalPoint& at) const override { return motion_.terms(at); }

@@ -55,10 +55,10 @@ class Search {
 };
 
 bool Search::find_roots() {
-  const Eigen::VectorXcd begun = pencil_.begin();
+  const Eigen::VectorXcd begun = pencil_.starting_roots();
   for (Index i = 0; i < begun.size(); ++i) {
     if (begun[i].imag() < 0.0) continue;
-    const std::optional<Wide> l = pencil_.polished(Wide(begun[i].real(), begun[i].imag()));
+    const std::optional<Wide> l = pencil_.refined_root(Wide(begun[i].real(), begun[i].imag()));
     if (!l || l->im < Long(0)) {
       failure_ = "a frequency of the state cannot be told from its neighbours";
       return false;
@@ -167,7 +167,7 @@ void Search::keep(Wide l, const Vectors& v, Wide product, DampedModes& out) {
 
 bool Search::add_seen(const Root& root, DampedModes& out) {
   Local local;
-  if (!pencil_.gather(root.l, local)) return false;
+  if (!pencil_.assemble_at(root.l, local)) return false;
   const SmallLu<Wide> lu(local.t, local.size);
   const std::size_t m = root.members;
   if (m > local.size || lu.pivot(local.size - m) > singular_pencil * std::max(Long(1), lu.pivot(0)))
@@ -210,7 +210,7 @@ bool Search::add_seen(const Root& root, DampedModes& out) {
 
 /// Adds the two roots of a mode that no term sees, and the mode's excitation.
 bool Search::add_unseen(Index j, DampedModes& out) {
-  const Long c = pencil_.decay()[j], d = pencil_.square()[j], inside = c * c / 4 - d;
+  const Long c = pencil_.decay()[j], d = pencil_.omega_squared()[j], inside = c * c / 4 - d;
   std::vector<Wide> roots;
   if (inside < Long(0)) {
     roots.push_back({-c / 2, std::sqrt(-inside)});
@@ -228,7 +228,7 @@ bool Search::add_unseen(Index j, DampedModes& out) {
     v.x[static_cast<std::size_t>(j)] = v.y[static_cast<std::size_t>(j)] = Wide(1);
     if (rank() > 0) {
       Local local;
-      if (!pencil_.gather(l, local)) return false;
+      if (!pencil_.assemble_at(l, local)) return false;
       const SmallLu<Wide> lu(local.t, local.size);
       if (lu.singular() || lu.pivot(local.size - 1) < singular_pencil * std::max(Long(1), lu.pivot(0)))
         return false;
@@ -242,7 +242,7 @@ bool Search::add_unseen(Index j, DampedModes& out) {
 }
 
 void Search::turn_back(DampedModes& out) const {
-  for (const auto& [first, vectors] : pencil_.turns()) {
+  for (const auto& [first, vectors] : pencil_.rotations()) {
     const Index rows = vectors.rows();
     out.shape.middleRows(first, rows) = (vectors * out.shape.middleRows(first, rows)).eval();
     out.from_q.middleCols(first, rows) = (out.from_q.middleCols(first, rows) * vectors.transpose()).eval();
@@ -259,7 +259,7 @@ DampedModes Search::run() {
   }
   Index count = 0;
   for (const Root& root : roots_) count += static_cast<Index>(root.members);
-  count += 2 * static_cast<Index>(pencil_.unseen().size());
+  count += 2 * static_cast<Index>(pencil_.uncoupled_modes().size());
   out.root.setZero(count);
   out.shape.setZero(n_, count);
   out.force.setZero(static_cast<Index>(rank()), count);
@@ -267,7 +267,7 @@ DampedModes Search::run() {
   out.from_rate = out.from_q;
   for (const Root& root : roots_)
     if (!add_seen(root, out)) failure_ = "frequencies of the state that are nearly equal";
-  for (const Index j : pencil_.unseen())
+  for (const Index j : pencil_.uncoupled_modes())
     if (failure_.empty() && !add_unseen(j, out) && failure_.empty())
       failure_ = "a mode resonates with one that it does not drive";
   if (!failure_.empty()) {

@@ -32,7 +32,7 @@ struct ModalTerm {
 };
 
 /// Limit for the columns of T: terms and modes in G.
-inline constexpr std::size_t most_damped_terms = 9;
+inline constexpr std::size_t max_damped_terms = 9;
 
 struct DampedModes {
   std::string failure;                 ///< reason why the modes cannot be used; empty: they can

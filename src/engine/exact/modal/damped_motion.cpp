@@ -11,12 +11,13 @@ namespace {
 
 /// Limit for the amplification of rounding in the response of a slow mode, or one near resonance, to a force: the same
 /// limit as for the closed form of works (modal_works.cpp).
-constexpr double most_loss = 1e3;
+constexpr double max_loss = 1e3;
 
 }  // namespace
 
 /// u_c: the displacement held by constraints, in open modes.
-Eigen::MatrixXd DampedMotion::held(const engine::Segment& segment, const Vector& q) const {
+Eigen::MatrixXd DampedMotion::constraint_displacements(const engine::Segment& segment,
+                                                       const Vector& q) const {
   const auto rigid = static_cast<Eigen::Index>(state_->rigid.size());
   Eigen::MatrixXd asked = Eigen::MatrixXd::Zero(rigid, time_.size());
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -27,7 +28,7 @@ Eigen::MatrixXd DampedMotion::held(const engine::Segment& segment, const Vector&
     if (own.normal.an != 0.0) asked(row_of(own.normal_term), 0) = -model_.contacts[c].gap;
     if (own.tangent.at == 0.0) continue;
     const double t = decision_->jet.t;
-    Course surface = time_.of(model_.contacts[c].surface_motion.piece(t));
+    TimeCoefficients surface = time_.of(model_.contacts[c].surface_motion.piece(t));
     surface[0] += basis_.tangent(c).dot(q) - segment.forcing->surface(c, t, 0);
     asked.row(row_of(own.tangent_term)) = surface.transpose();
   }
@@ -37,21 +38,22 @@ Eigen::MatrixXd DampedMotion::held(const engine::Segment& segment, const Vector&
 /// Forces of loads, and of contacts whose forces follow no term.
 Eigen::MatrixXd DampedMotion::forces() const {
   const double t = decision_->jet.t;
-  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(basis_.square().size(), time_.size());
+  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(basis_.omega_squared().size(), time_.size());
   for (std::size_t i = 0; i < model_.loads.size(); ++i)
     p += basis_.load(i) * time_.of(model_.loads[i].history.piece(t)).transpose();
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactRows& own = state_->contacts[c];
-    const ContactState& state = decision_->mode[c];
-    Course N = time_.constant(-own.normal.constant) -
-               own.normal.applied_normal_force * contacts_[c].applied_normal_force;
+    const ContactState& state = decision_->states[c];
+    TimeCoefficients N = time_.constant(-own.normal.constant) -
+                         own.normal.applied_normal_force * contacts_[c].applied_normal_force;
     if (own.normal.an != 0.0) N.setZero();
     N[0] -= own.normal.gap * contact.gap;
     p -= basis_.normal(c) * N.transpose();
     const Form tangent = contact::rows(contact, state).tangent;
     if (tangent.at != 0.0) continue;
-    Course T = time_.constant(-tangent.constant) - tangent.N * N + tangent.ut * contacts_[c].surface;
+    TimeCoefficients T =
+        time_.constant(-tangent.constant) - tangent.N * N + tangent.ut * contacts_[c].surface;
     p -= basis_.tangent(c) * T.transpose();
   }
   return p;
@@ -60,8 +62,8 @@ Eigen::MatrixXd DampedMotion::forces() const {
 /// u_c'' + C u_c' + K u_c, including springs and dashpots of contacts.
 Eigen::MatrixXd DampedMotion::inertia_of(const Eigen::MatrixXd& held) const {
   const Eigen::MatrixXd rate = time_.derivative(held);
-  Eigen::MatrixXd p =
-      time_.derivative(rate) + system_.decay().asDiagonal() * rate + basis_.square().asDiagonal() * held;
+  Eigen::MatrixXd p = time_.derivative(rate) + system_.decay().asDiagonal() * rate +
+                      basis_.omega_squared().asDiagonal() * held;
   for (const ModalTerm& term : state_->terms)
     if (!term.rigid)
       p += term.u * (term.stiffness * term.v.transpose() * held + term.damping * term.v.transpose() * rate);
@@ -71,41 +73,41 @@ Eigen::MatrixXd DampedMotion::inertia_of(const Eigen::MatrixXd& held) const {
 std::string DampedMotion::start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                 ModalPoint& now) {
   decision_ = segment.decision;
-  state_ = system_.state(decision_->mode);
+  state_ = system_.state(decision_->states);
   const DampedModes& modes = state_->modes;
   if (!modes.failure.empty()) return modes.failure;
   lengths_ = modes.shape.colwise().norm();
-  const Eigen::VectorXd omega = basis_.square().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd omega = basis_.omega_squared().cwiseMax(0.0).cwiseSqrt();
   swings_ = (omega.asDiagonal() * modes.shape).colwise().norm().transpose();
   const double t = decision_->jet.t;
   time_ = TimeBasis(model_, t);
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
-    if (!(time_.loss(modes.root[k], t_end_) < most_loss))
+    if (!(time_.cancellation(modes.root[k], t_end_) < max_loss))
       return "decays that are neither none nor fast beside the run, or resonance";
-  time_.make_room(modes.root, segment.end - t);
+  time_.reserve_slow_roots(modes.root, segment.end - t);
   contacts_.resize(model_.contacts.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].surface = time_.of(model_.contacts[c].surface_motion.piece(t));
     contacts_[c].applied_normal_force = time_.of(model_.contacts[c].normal_force.piece(t));
   }
-  place_ = Eigen::MatrixXd::Zero(q.size(), time_.size());
-  if (!state_->rigid.empty()) place_ = held(segment, q);
+  forced_response_ = Eigen::MatrixXd::Zero(q.size(), time_.size());
+  if (!state_->rigid.empty()) forced_response_ = constraint_displacements(segment, q);
   Eigen::MatrixXd p = forces();
-  if (!state_->rigid.empty()) p -= inertia_of(place_);
+  if (!state_->rigid.empty()) p -= inertia_of(forced_response_);
   const Eigen::MatrixXcd pressed = base::complex_product(modes.from_rate, p.cast<std::complex<double>>());
   Eigen::MatrixXcd answers(modes.root.size(), time_.size());
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
-    answers.row(k) = time_.answer(modes.root[k], pressed.row(k).transpose()).transpose();
+    answers.row(k) = time_.response(modes.root[k], pressed.row(k).transpose()).transpose();
   const Eigen::VectorXd b = time_.at(0.0);
-  now.y =
-      modes.from_q * (q - place_ * b) + modes.from_rate * (rate - time_.derivative(place_) * b) - answers * b;
+  now.y = modes.from_q * (q - forced_response_ * b) +
+          modes.from_rate * (rate - time_.derivative(forced_response_) * b) - answers * b;
   now.time = 0.0;
-  place_ += base::complex_product(modes.shape, answers).real();
-  rate_ = time_.derivative(place_);
-  change_ = time_.derivative(rate_);
-  place_lengths_ = place_.colwise().norm().transpose();
-  rate_lengths_ = rate_.colwise().norm().transpose();
-  place_swings_ = (omega.asDiagonal() * place_).colwise().norm().transpose();
+  forced_response_ += base::complex_product(modes.shape, answers).real();
+  forced_response_rate_ = time_.derivative(forced_response_);
+  change_ = time_.derivative(forced_response_rate_);
+  place_lengths_ = forced_response_.colwise().norm().transpose();
+  rate_lengths_ = forced_response_rate_.colwise().norm().transpose();
+  place_swings_ = (omega.asDiagonal() * forced_response_).colwise().norm().transpose();
   find_contacts(p, answers);
   return {};
 }
@@ -123,30 +125,30 @@ void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::Mat
     const Contact& contact = model_.contacts[c];
     const ContactRows& own = state_->contacts[c];
     ContactQuantities& out = contacts_[c];
-    out.gap = {own.gap, place_.transpose() * basis_.normal(c)};
-    out.ut = {own.slide, place_.transpose() * basis_.tangent(c) - out.surface};
-    out.gap.course[0] += contact.gap;
+    out.gap = {own.gap, forced_response_.transpose() * basis_.normal(c)};
+    out.ut = {own.slide, forced_response_.transpose() * basis_.tangent(c) - out.surface};
+    out.gap.time_coefficients[0] += contact.gap;
     if (own.normal.an != 0.0) {
-      out.gap.course.setZero();
+      out.gap.time_coefficients.setZero();
       out.N = of_constraint(own.normal_term);
     } else {
       out.N = -own.normal.gap * out.gap;
       if (own.normal.vn != 0.0) out.N += -own.normal.vn * derivative(out.gap);
-      out.N.course[0] -= own.normal.constant;
-      out.N.course -= own.normal.applied_normal_force * out.applied_normal_force;
+      out.N.time_coefficients[0] -= own.normal.constant;
+      out.N.time_coefficients -= own.normal.applied_normal_force * out.applied_normal_force;
     }
-    const Form tangent = contact::rows(contact, decision_->mode[c]).tangent;
+    const Form tangent = contact::rows(contact, decision_->states[c]).tangent;
     if (tangent.at != 0.0) {
       out.T = of_constraint(own.tangent_term);
       continue;
     }
     out.T = -tangent.ut * out.ut;
     if (tangent.N != 0.0) out.T += -tangent.N * out.N;
-    out.T.course[0] -= tangent.constant;
+    out.T.time_coefficients[0] -= tangent.constant;
   }
 }
 
-ModalQuantity DampedMotion::of(const Form& form, std::size_t c) const {
+ModalQuantity DampedMotion::quantity_of(const Form& form, std::size_t c) const {
   const ContactQuantities& own = contacts_[c];
   ModalQuantity sum{Eigen::VectorXcd::Zero(root().size()), time_.constant(form.constant)};
   const auto add = [&](double factor, const auto& quantity) {
@@ -160,12 +162,12 @@ ModalQuantity DampedMotion::of(const Form& form, std::size_t c) const {
   add(form.vt, [&] { return derivative(own.ut); });
   add(form.an, [&] { return derivative(derivative(own.gap)); });
   add(form.at, [&] { return derivative(derivative(own.ut)); });
-  sum.course += form.applied_normal_force * own.applied_normal_force +
-                form.applied_normal_force_rate * time_.derivative(own.applied_normal_force);
+  sum.time_coefficients += form.applied_normal_force * own.applied_normal_force +
+                           form.applied_normal_force_rate * time_.derivative(own.applied_normal_force);
   return sum;
 }
 
-engine::FastModeBound DampedMotion::ripple(const ModalPoint& from, double time, double omega) const {
+engine::FastModeBound DampedMotion::fast_mode_bound(const ModalPoint& from, double time, double omega) const {
   const auto count = model_.force_count();
   engine::FastModeBound r{0.0, 0.0, 0.0, Eigen::VectorXd::Zero(count)};
   SumOfModes u(eigenvector_condition()), v(eigenvector_condition()), a(eigenvector_condition());
@@ -208,8 +210,8 @@ void DampedMotion::motion(const ModalPoint& at, Vector& q, Vector& rate, Vector*
   const Eigen::VectorXd b = time_.at(at.time);
   const Eigen::MatrixXcd& shape = state_->modes.shape;
   const Eigen::VectorXcd first = root().cwiseProduct(at.y);
-  q = (shape * at.y).real() + place_ * b;
-  rate = (shape * first).real() + rate_ * b;
+  q = (shape * at.y).real() + forced_response_ * b;
+  rate = (shape * first).real() + forced_response_rate_ * b;
   if (change) *change = (shape * root().cwiseProduct(first)).real() + change_ * b;
 }
 

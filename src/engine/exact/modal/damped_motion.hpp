@@ -19,16 +19,16 @@ namespace signorini::modal {
 
 struct ModalQuantity {
   Eigen::VectorXcd row;
-  Course course;
+  TimeCoefficients time_coefficients;
 
   ModalQuantity& operator+=(const ModalQuantity& b) {
     row += b.row;
-    course += b.course;
+    time_coefficients += b.time_coefficients;
     return *this;
   }
   friend ModalQuantity operator*(double factor, ModalQuantity a) {
     a.row *= factor;
-    a.course *= factor;
+    a.time_coefficients *= factor;
     return a;
   }
 };
@@ -36,7 +36,8 @@ struct ModalQuantity {
 class DampedMotion {
  public:
   /// kept: system of a structure with the same matrices (modal_flow.hpp), or null.
-  DampedMotion(const Model& model, const OpenBasis& basis, double t_end, DampedSystem* kept = nullptr)
+  DampedMotion(const Model& model, const UnconstrainedBasis& basis, double t_end,
+               DampedSystem* kept = nullptr)
       : model_(model),
         basis_(basis),
         t_end_(t_end),
@@ -57,51 +58,54 @@ class DampedMotion {
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const decide::Decision& decision() const { return *decision_; }
   /// Q and its rate, n x b.
-  [[nodiscard]] const Eigen::MatrixXd& place() const { return place_; }
-  [[nodiscard]] const Eigen::MatrixXd& rate() const { return rate_; }
+  [[nodiscard]] const Eigen::MatrixXd& forced_response() const { return forced_response_; }
+  [[nodiscard]] const Eigen::MatrixXd& forced_response_rate() const { return forced_response_rate_; }
 
   struct ContactQuantities {
     ModalQuantity N, T, gap, ut;
-    Course surface, applied_normal_force;
+    TimeCoefficients surface, applied_normal_force;
   };
   [[nodiscard]] const ContactQuantities& contact(std::size_t c) const { return contacts_[c]; }
   [[nodiscard]] ModalQuantity derivative(const ModalQuantity& f) const {
-    return {f.row.cwiseProduct(root()), time_.derivative(f.course)};
+    return {f.row.cwiseProduct(root()), time_.derivative(f.time_coefficients)};
   }
   /// Quantity of a form on a contact.
-  [[nodiscard]] ModalQuantity of(const Form& form, std::size_t contact) const;
+  [[nodiscard]] ModalQuantity quantity_of(const Form& form, std::size_t contact) const;
   /// Quantity of a form on the structure, given in open modes.
-  [[nodiscard]] ModalQuantity of(const Vector& form) const {
-    return {state_->modes.shape.transpose() * form, place_.transpose() * form};
+  [[nodiscard]] ModalQuantity quantity_of(const Vector& form) const {
+    return {state_->modes.shape.transpose() * form, forced_response_.transpose() * form};
   }
-  [[nodiscard]] ModalQuantity of_load(std::size_t load) const { return of(basis_.load(load)); }
+  [[nodiscard]] ModalQuantity load_quantity(std::size_t load) const { return quantity_of(basis_.load(load)); }
   [[nodiscard]] double value(const ModalQuantity& f, const ModalPoint& at) const {
-    return f.row.cwiseProduct(at.y).sum().real() + f.course.dot(time_.at(at.time));
+    return f.row.cwiseProduct(at.y).sum().real() + f.time_coefficients.dot(time_.at(at.time));
   }
   /// Bounds of the modes with |l| > omega, as in ModalFlow.
-  [[nodiscard]] engine::FastModeBound ripple(const ModalPoint& from, double time, double omega) const;
+  [[nodiscard]] engine::FastModeBound fast_mode_bound(const ModalPoint& from, double time,
+                                                      double omega) const;
   /// Sum of the magnitudes of the terms of f.
   [[nodiscard]] double magnitude(const ModalQuantity& f, const ModalPoint& at) const {
-    return f.row.cwiseAbs().dot(at.y.cwiseAbs()) + f.course.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
+    return f.row.cwiseAbs().dot(at.y.cwiseAbs()) +
+           f.time_coefficients.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
   }
   /// Same meaning as ModalFlow::terms.
   [[nodiscard]] SumTerms terms(const ModalPoint& at) const;
 
  private:
-  [[nodiscard]] Eigen::MatrixXd held(const engine::Segment& segment, const Vector& q) const;
+  [[nodiscard]] Eigen::MatrixXd constraint_displacements(const engine::Segment& segment,
+                                                         const Vector& q) const;
   [[nodiscard]] Eigen::MatrixXd forces() const;
   [[nodiscard]] Eigen::MatrixXd inertia_of(const Eigen::MatrixXd& held) const;
   void find_contacts(const Eigen::MatrixXd& forces, const Eigen::MatrixXcd& answers);
 
   const Model& model_;
-  const OpenBasis& basis_;
+  const UnconstrainedBasis& basis_;
   const double t_end_;
   std::unique_ptr<DampedSystem> own_;
   DampedSystem& system_;
   std::shared_ptr<const DampedState> state_;
   const decide::Decision* decision_ = nullptr;
   TimeBasis time_;
-  Eigen::MatrixXd place_, rate_, change_;
+  Eigen::MatrixXd forced_response_, forced_response_rate_, change_;
   Eigen::VectorXd lengths_, swings_;  // lengths of the shapes, and of omega times the shapes
   Eigen::VectorXd place_lengths_, rate_lengths_, place_swings_;
   std::vector<ContactQuantities> contacts_;

@@ -12,16 +12,16 @@ namespace {
 using Long = DampedPencil::Long;
 
 constexpr Long near_pole = 0.03L;      // limit for |P_j| relative to |l|^2 + d_j of the modes in G; chosen
-constexpr std::size_t most_near = 3;   // limit for the modes in G
+constexpr std::size_t max_near = 3;    // limit for the modes in G
 constexpr double equal_poles = 1e-13;  // relative distance at which poles are equal up to rounding
 constexpr double unseen_part = 1e-13;  // equal poles: residual of a mode that no term sees
-constexpr int most_steps = 30;         // limit of Newton steps; 3 to 5 are usual
+constexpr int max_steps = 30;          // limit of Newton steps; 3 to 5 are usual
 
 }  // namespace
 
 DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
                            const std::vector<ModalTerm>& terms)
-    : square_(square), decay_(decay), terms_(terms) {
+    : omega_squared_(square), decay_(decay), terms_(terms) {
   for (ModalTerm& term : terms_) {
     const double most = term.stiffness > 0.0 ? term.stiffness : term.damping;
     const double scale = term.rigid ? 1.0 / std::sqrt(term.u.norm() * term.v.norm()) : std::sqrt(most);
@@ -31,39 +31,41 @@ DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd&
     stiffness_.push_back(term.rigid ? 1.0 : term.stiffness / most);
     damping_.push_back(term.rigid ? 0.0 : term.damping / most);
   }
-  turn_equal_poles();
+  rotate_equal_poles();
   for (Index j = 0; j < size(); ++j) {
     const bool any =
         std::any_of(terms_.begin(), terms_.end(), [&](const ModalTerm& term) { return term.v[j] != 0.0; });
-    (any ? seen_ : unseen_).push_back(j);
+    (any ? coupled_ : uncoupled_).push_back(j);
   }
   double pull = 0.0;  // effect of the terms on free modes
   for (const ModalTerm& term : terms_)
     pull = std::max(pull, term.u.cwiseAbs().maxCoeff() * term.v.cwiseAbs().maxCoeff());
-  const auto stiff = std::find_if(seen_.begin(), seen_.end(), [&](Index j) { return square_[j] > 0.0; });
-  if (stiff != seen_.end())
-    softest_ = std::sqrt(static_cast<Long>(square_[*stiff]));
+  const auto stiff =
+      std::find_if(coupled_.begin(), coupled_.end(), [&](Index j) { return omega_squared_[j] > 0.0; });
+  if (stiff != coupled_.end())
+    reference_omega_ = std::sqrt(static_cast<Long>(omega_squared_[*stiff]));
   else if (pull > 0.0)
-    softest_ = std::sqrt(static_cast<Long>(pull));
+    reference_omega_ = std::sqrt(static_cast<Long>(pull));
 }
 
 /// Rotates v so that it has no more nonzero rows among equal poles than there are terms.
-void DampedPencil::turn_equal_poles() {
+void DampedPencil::rotate_equal_poles() {
   const auto terms = static_cast<Index>(terms_.size());
   for (Index first = 0, last = 0; first < size(); first = last) {
     last = first + 1;
-    while (last < size() && square_[last] - square_[last - 1] <= equal_poles * square_[last] &&
+    while (last < size() &&
+           omega_squared_[last] - omega_squared_[last - 1] <= equal_poles * omega_squared_[last] &&
            std::abs(decay_[last] - decay_[first]) <= equal_poles * std::abs(decay_[first]))
       ++last;
     const Index rows = last - first;
     if (rows == 1 || terms == 0) continue;
-    square_.segment(first, rows).setConstant(square_[first]);
+    omega_squared_.segment(first, rows).setConstant(omega_squared_[first]);
     decay_.segment(first, rows).setConstant(decay_[first]);
     Eigen::MatrixXd seen(rows, terms);
     for (Index a = 0; a < terms; ++a)
       seen.col(a) = terms_[static_cast<std::size_t>(a)].v.segment(first, rows);
     const base::EigenPairs pairs = base::symmetric_eigen(seen * seen.transpose());
-    turns_.emplace_back(first, pairs.vectors);
+    rotations_.emplace_back(first, pairs.vectors);
     const double most = unseen_part * seen.cwiseAbs().maxCoeff();
     const Eigen::MatrixXd turned = pairs.vectors.transpose() * seen;
     for (Index a = 0; a < terms; ++a) {
@@ -76,13 +78,13 @@ void DampedPencil::turn_equal_poles() {
 }
 
 /// Scaled so that stiff and soft modes have comparable entries.
-Eigen::VectorXcd DampedPencil::begin() const {
-  const auto m = static_cast<Index>(seen_.size());
-  Eigen::MatrixXd k = square_(seen_).asDiagonal(), c = decay_(seen_).asDiagonal();
+Eigen::VectorXcd DampedPencil::starting_roots() const {
+  const auto m = static_cast<Index>(coupled_.size());
+  Eigen::MatrixXd k = omega_squared_(coupled_).asDiagonal(), c = decay_(coupled_).asDiagonal();
   Eigen::Index constraints = 0;
   Eigen::MatrixXd forces(m, static_cast<Index>(rank())), forms = forces;
   for (std::size_t a = 0; a < rank(); ++a) {
-    const Eigen::VectorXd u = terms_[a].u(seen_), v = terms_[a].v(seen_);
+    const Eigen::VectorXd u = terms_[a].u(coupled_), v = terms_[a].v(coupled_);
     if (terms_[a].rigid) {
       forces.col(constraints) = u;
       forms.col(constraints++) = v;
@@ -130,32 +132,33 @@ void DampedPencil::add_far(Index j, Wide l, Local& local) const {
   }
 }
 
-bool DampedPencil::gather(Wide l, Local& local) const {
+bool DampedPencil::assemble_at(Wide l, Local& local) const {
   local = Local{};
   const Long own = l.re * l.re + l.im * l.im;
-  local.unit = std::max(std::sqrt(own), softest_);
+  local.unit = std::max(std::sqrt(own), reference_omega_);
   for (std::size_t a = 0; a < rank(); ++a) {
     local.scale.push_back(terms_[a].rigid ? local.unit : Long(1));
     local.kappa.push_back(Wide(stiffness_[a]) + l * Long(damping_[a]));
     if (!terms_[a].rigid) local.t[a][a] = Wide(1);
   }
-  for (const Index j : seen_) {
-    if (size_of(pole(j, l)) < near_pole * (own + static_cast<Long>(square_[j])) ||
+  for (const Index j : coupled_) {
+    if (size_of(pole(j, l)) < near_pole * (own + static_cast<Long>(omega_squared_[j])) ||
         size_of(pole(j, l)) == Long(0)) {
       local.near.push_back(j);
       continue;
     }
     add_far(j, l, local);
   }
-  if (local.near.size() > most_near) {  // division by the farthest ones is safe
+  if (local.near.size() > max_near) {  // division by the farthest ones is safe
     std::sort(local.near.begin(), local.near.end(), [&](Index i, Index j) {
-      return size_of(pole(i, l)) * (own + Long(square_[j])) < size_of(pole(j, l)) * (own + Long(square_[i]));
+      return size_of(pole(i, l)) * (own + Long(omega_squared_[j])) <
+             size_of(pole(j, l)) * (own + Long(omega_squared_[i]));
     });
-    for (std::size_t i = most_near; i < local.near.size(); ++i) {
+    for (std::size_t i = max_near; i < local.near.size(); ++i) {
       if (size_of(pole(local.near[i], l)) < singular_pencil * own) return false;
       add_far(local.near[i], l, local);
     }
-    local.near.resize(most_near);
+    local.near.resize(max_near);
   }
   local.size = rank() + local.near.size();
   const Long unit = local.unit;
@@ -173,11 +176,11 @@ bool DampedPencil::gather(Wide l, Local& local) const {
   return true;
 }
 
-std::optional<DampedPencil::Wide> DampedPencil::polished(Wide l) const {
+std::optional<DampedPencil::Wide> DampedPencil::refined_root(Wide l) const {
   Local local;
   Long last = std::numeric_limits<Long>::infinity();
-  for (int i = 0; i < most_steps; ++i) {
-    if (!gather(l, local)) return std::nullopt;
+  for (int i = 0; i < max_steps; ++i) {
+    if (!assemble_at(l, local)) return std::nullopt;
     const SmallLu<Wide> lu(local.t, local.size);
     SmallVector<Wide> c{}, d{};
     lu.null_vectors(c, d);

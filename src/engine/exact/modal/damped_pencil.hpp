@@ -147,9 +147,9 @@ class DampedPencil {
   DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
                const std::vector<ModalTerm>& terms);
 
-  [[nodiscard]] Index size() const { return square_.size(); }
+  [[nodiscard]] Index size() const { return omega_squared_.size(); }
   [[nodiscard]] std::size_t rank() const { return terms_.size(); }
-  [[nodiscard]] const Eigen::VectorXd& square() const { return square_; }
+  [[nodiscard]] const Eigen::VectorXd& omega_squared() const { return omega_squared_; }
   [[nodiscard]] const Eigen::VectorXd& decay() const { return decay_; }
   /// Rotated and scaled terms; kappa = stiffness + l damping with scaled values, lambda is that of the given term
   /// divided by scale.
@@ -158,29 +158,29 @@ class DampedPencil {
   [[nodiscard]] double damping(std::size_t term) const { return damping_[term]; }
   [[nodiscard]] double scale(std::size_t term) const { return term_scale_[term]; }
   /// Modes that at least one term sees; unseen(): all others.
-  [[nodiscard]] const std::vector<Index>& seen() const { return seen_; }
-  [[nodiscard]] const std::vector<Index>& unseen() const { return unseen_; }
+  [[nodiscard]] const std::vector<Index>& coupled_modes() const { return coupled_; }
+  [[nodiscard]] const std::vector<Index>& uncoupled_modes() const { return uncoupled_; }
   /// First index of each group of equal poles and its rotation: given = vectors x rotated.
-  [[nodiscard]] const std::vector<std::pair<Index, Eigen::MatrixXd>>& turns() const { return turns_; }
+  [[nodiscard]] const std::vector<std::pair<Index, Eigen::MatrixXd>>& rotations() const { return rotations_; }
 
-  [[nodiscard]] Wide pole(Index j, Wide l) const { return l * l + l * decay_[j] + Wide(square_[j]); }
+  [[nodiscard]] Wide pole(Index j, Wide l) const { return l * l + l * decay_[j] + Wide(omega_squared_[j]); }
   /// Roots of the seen modes in doubles, from  x' = (0 1; -K -C) x  in the null space of the constraints.
-  [[nodiscard]] Eigen::VectorXcd begin() const;
+  [[nodiscard]] Eigen::VectorXcd starting_roots() const;
   /// False: too many modes are near.
-  [[nodiscard]] bool gather(Wide l, Local& local) const;
+  [[nodiscard]] bool assemble_at(Wide l, Local& local) const;
   /// Refines a root by Newton steps; nullopt: they do not converge.
-  [[nodiscard]] std::optional<Wide> polished(Wide l) const;
+  [[nodiscard]] std::optional<Wide> refined_root(Wide l) const;
 
  private:
-  void turn_equal_poles();
+  void rotate_equal_poles();
   void add_far(Index j, Wide l, Local& local) const;
 
-  Eigen::VectorXd square_, decay_;
+  Eigen::VectorXd omega_squared_, decay_;
   std::vector<ModalTerm> terms_;
   std::vector<double> term_scale_, stiffness_, damping_;
-  std::vector<std::pair<Index, Eigen::MatrixXd>> turns_;
-  std::vector<Index> seen_, unseen_;
-  Long softest_ = 1;  // reference frequency for slow roots
+  std::vector<std::pair<Index, Eigen::MatrixXd>> rotations_;
+  std::vector<Index> coupled_, uncoupled_;
+  Long reference_omega_ = 1;  // reference frequency for slow roots
 };
 
 }  // namespace signorini::modal

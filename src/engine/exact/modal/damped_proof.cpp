@@ -20,7 +20,7 @@ constexpr double slow_rounding = 1.0 + 1e-12;
 void DampedProof::start() {
   guards_.clear();
   active_guards_.start(motion_.decision().guards);
-  full_ = false;
+  all_slow_ = false;
   size_ = motion_.root().cwiseAbs();
   series_.resize(motion_.model().contacts.size());
   for (std::size_t slot = 0; slot < motion_.decision().guards.size(); ++slot) {
@@ -28,12 +28,12 @@ void DampedProof::start() {
     const decide::Decision& decision = motion_.decision();
     Watched guard{slot,
                   decision.guards[slot].noise,
-                  motion_.of(decision.form(slot), contact::contact_of_guard(slot)),
+                  motion_.quantity_of(decision.form(slot), contact::contact_of_guard(slot)),
                   {},
                   0.0};
-    guard.lead = guard.guard;
+    guard.leading_derivative = guard.guard;
     for (std::size_t i = 0; i < active_guards_.leading(slot); ++i)
-      guard.lead = motion_.derivative(guard.lead);
+      guard.leading_derivative = motion_.derivative(guard.leading_derivative);
     guards_.push_back(std::move(guard));
   }
 }
@@ -57,7 +57,7 @@ double DampedProof::slope(std::size_t slot, const ModalPoint& at) const {
 void DampedProof::rearm(const ModalPoint& at) {
   for (const Watched& guard : guards_)
     if (!active_guards_.armed(guard.slot))
-      active_guards_.see(guard.slot, motion_.value(guard.guard, at), 4.0 * guard.noise);
+      active_guards_.update(guard.slot, motion_.value(guard.guard, at), 4.0 * guard.noise);
 }
 
 void DampedProof::measure(const ModalPoint& at) {
@@ -86,7 +86,7 @@ void DampedProof::set_step(double h, bool all_slow) {
 
 void DampedProof::choose_step(double remaining) {
   const Eigen::Index n = size_.size();
-  Eigen::Index first = full_ ? n : 0;
+  Eigen::Index first = all_slow_ ? n : 0;
   double h = remaining;
   for (const Watched& guard : guards_) {
     if (first == n) break;
@@ -100,7 +100,7 @@ void DampedProof::choose_step(double remaining) {
   auto place = static_cast<Eigen::Index>(motion_.time().degree()) + 1;
   for (const double w : omega) {
     const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
-      const Course& c = watched(guard).course;
+      const TimeCoefficients& c = watched(guard).time_coefficients;
       return std::hypot(c[place], c[place + 1]) * static_cast<double>(omega.size()) >
              0.5 * quarter_of_guard * guard.now;
     });
@@ -127,9 +127,10 @@ void DampedProof::expand(const ModalPoint& at) {
 DampedProof::Part DampedProof::part_of(const ModalQuantity& f, const ModalPoint& at) const {
   Part part;
   part.p.resize(count_);
-  const TimeBasis::Ripple waves = motion_.time().taylor(f.course, at.time, h_, turn_, part.p);
-  part.ripple = waves.value;
-  part.ripple_rate = waves.rate;
+  const TimeBasis::FastWaveBound waves =
+      motion_.time().taylor(f.time_coefficients, at.time, h_, turn_, part.p);
+  part.fast_bound = waves.value;
+  part.fast_rate_bound = waves.rate;
   const auto row = f.row.head(slow_);
   const Eigen::VectorXd modes = (terms_.transpose() * row).real();
   for (std::size_t j = 0; j < count_; ++j) part.p[j] += modes[static_cast<Eigen::Index>(j)];
@@ -138,21 +139,21 @@ DampedProof::Part DampedProof::part_of(const ModalQuantity& f, const ModalPoint&
   for (Eigen::Index k = slow_; k < size_.size(); ++k) {
     const double most =
         std::abs(f.row[k]) * amplitude_[k] * std::exp(std::max(0.0, motion_.root()[k].real() * h_));
-    part.ripple += most;
-    part.ripple_rate += most * size_[k];
+    part.fast_bound += most;
+    part.fast_rate_bound += most * size_[k];
   }
   return part;
 }
 
-bool DampedProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
-                         double& event) {
+bool DampedProof::find_zero(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                            double& event) {
   Part part = part_of(watched(guard), at);
   GuardOnStep on_step;
   on_step.p = std::move(part.p);
-  on_step.slack =
-      part.rest + rounding::of_few * motion_.magnitude(watched(guard), at) + noise_beside_guard * guard.noise;
-  on_step.ripple = part.ripple;
-  on_step.ripple_rate = part.ripple_rate;
+  on_step.slack = part.rest + rounding::few_operations * motion_.magnitude(watched(guard), at) +
+                  noise_beside_guard * guard.noise;
+  on_step.fast_bound = part.fast_bound;
+  on_step.fast_rate_bound = part.fast_rate_bound;
   on_step.noise = guard.noise;
   on_step.leading = active_guards_.leading(guard.slot);
   on_step.armed = active_guards_.armed(guard.slot);
@@ -161,44 +162,48 @@ bool DampedProof::settle(const Watched& guard, const ModalPoint& at, Passage& pa
     motion_.advance(at, h_ * x, point);
     return motion_.value(guard.guard, point);
   };
-  return settle_guard(on_step, guard.slot, h_, value_at, active_guards_, passage, limit, event);
+  return find_guard_zero(on_step, guard.slot, h_, value_at, active_guards_, passage, limit, event);
 }
 
 Passage DampedProof::pass(const ModalPoint& at, double remaining) {
   measure(at);
   for (const Watched& guard : guards_)
-    if (active_guards_.leading(guard.slot) > 0 && !(guard.now > 0.0)) active_guards_.doubt(guard.slot);
+    if (active_guards_.leading(guard.slot) > 0 && !(guard.now > 0.0))
+      active_guards_.discard_leading(guard.slot);
   choose_step(remaining);
   expand(at);
   Passage passage;
   double limit = 1.0, event = 2.0;
   bool doubted = false;
-  for (const Watched& guard : guards_) doubted = !settle(guard, at, passage, limit, event) || doubted;
-  const auto done = end_of_step(std::move(passage), doubted, limit, event, h_, full_);
+  for (const Watched& guard : guards_) doubted = !find_zero(guard, at, passage, limit, event) || doubted;
+  const auto done = end_of_step(std::move(passage), doubted, limit, event, h_, all_slow_);
   return done ? *done : pass(at, remaining);
 }
 
-/// Quantities of a contact in the order of TurningPoints::watched.
-std::array<const ModalQuantity*, 4> DampedProof::shown(std::size_t c) const {
+/// Quantities of a contact in the order of TurningPointDetector::watched.
+std::array<const ModalQuantity*, 4> DampedProof::watched_quantities(std::size_t c) const {
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   return {&own.N, &own.T, &own.gap, &own.ut};
 }
 
-double DampedProof::within(const ModalPoint& at, const events::TurningPoints& known, double x_end) const {
+double DampedProof::length_without_turning(const ModalPoint& at, const events::TurningPointDetector& known,
+                                           double x_end) const {
   std::vector<double> room(count_), rate(count_ - 1);
   double safe = 1.0;
   for (std::size_t c = 0; c < series_.size() && safe > 0.0; ++c)
     for (std::size_t f = 0; f < 4; ++f) {
-      const Part part = part_of(*shown(c)[f], at);
+      const Part part = part_of(*watched_quantities(c)[f], at);
       for (std::size_t j = 0; j < rate.size(); ++j) rate[j] = static_cast<double>(j + 1) * part.p[j + 1];
-      const double off = part.ripple_rate * h_ + part.rest * static_cast<double>(count_ + 1);
+      const double off = part.fast_rate_bound * h_ + part.rest * static_cast<double>(count_ + 1);
       const double forth =
           stays_above(rate.data(), rate.size() - 1, x_end, rate[0] < 0.0 ? -1.0 : 1.0, -off, room);
-      const events::TurningPoints::Range& range = known.range(c, events::TurningPoints::watched[f]);
-      const double off_place = part.ripple + part.rest;
-      if (range.is_left(part.p[0], part.p[1], off_place) &&  // as in ModalProof::within
-          range.is_left(part.p[0], part.p[1],
-                        off_place + rounding::of_elimination * motion_.magnitude(*shown(c)[f], at)))
+      const events::TurningPointDetector::Range& range =
+          known.range(c, events::TurningPointDetector::watched_fields[f]);
+      const double off_place = part.fast_bound + part.rest;
+      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // as in ModalProof::within
+          range.is_exceeded(
+              part.p[0], part.p[1],
+              off_place + rounding::elimination * motion_.magnitude(*watched_quantities(c)[f], at)))
         return 0.0;
       if (forth >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
@@ -210,15 +215,16 @@ double DampedProof::within(const ModalPoint& at, const events::TurningPoints& kn
   return safe * x_end;
 }
 
-double DampedProof::expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
-                                  double remaining) {
+double DampedProof::expand_for_turning(const ModalPoint& at, const events::TurningPointDetector& known,
+                                       double share, double remaining) {
   amplitude_ = at.y.cwiseAbs();
   const Eigen::Index n = size_.size();
   Eigen::Index first = 0;
   for (std::size_t c = 0; c < series_.size(); ++c)
     for (std::size_t f = 0; f < 4; ++f) {
-      const ModalQuantity& quantity = *shown(c)[f];
-      const events::TurningPoints::Range& range = known.range(c, events::TurningPoints::watched[f]);
+      const ModalQuantity& quantity = *watched_quantities(c)[f];
+      const events::TurningPointDetector::Range& range =
+          known.range(c, events::TurningPointDetector::watched_fields[f]);
       first = slow_for(quantity, first, share * range.width(motion_.value(quantity, at)));
     }
   double h = remaining;
@@ -234,24 +240,28 @@ const std::vector<motion::ContactSeries>& DampedProof::series(const ModalPoint& 
   for (std::size_t c = 0; c < series_.size(); ++c) {
     series_[c].reset(count_ - 1);
     for (std::size_t f = 0; f < 4; ++f) {
-      const Part part = part_of(*shown(c)[f], at);
-      std::copy(part.p.begin(), part.p.end(), series_[c].place(events::TurningPoints::watched[f]));
+      const Part part = part_of(*watched_quantities(c)[f], at);
+      std::copy(part.p.begin(), part.p.end(),
+                series_[c].mutable_coefficients(events::TurningPointDetector::watched_fields[f]));
     }
   }
   return series_;
 }
 
 /// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
-void DampedProof::see_begin(const ModalPoint& at, double time, events::TurningPoints& turning,
-                            LastTurns& turns) const {
+void DampedProof::find_turning_at_start(const ModalPoint& at, double time,
+                                        events::TurningPointDetector& turning,
+                                        LastTurningTimes& turns) const {
   for (std::size_t c = 0; c < series_.size(); ++c)
     for (std::size_t f = 0; f < 4; ++f) {
-      const ModalQuantity& quantity = *shown(c)[f];
+      const ModalQuantity& quantity = *watched_quantities(c)[f];
       const double value = motion_.value(quantity, at);
-      const events::TurningPoints::Range& range = turning.range(c, events::TurningPoints::watched[f]);
+      const events::TurningPointDetector::Range& range =
+          turning.range(c, events::TurningPointDetector::watched_fields[f]);
       if (value >= range.least && value <= range.greatest) continue;
       const double rate = motion_.value(motion_.derivative(quantity), at);
-      if (const auto turn = turning.begins(c, events::TurningPoints::watched[f], value, rate, time))
+      if (const auto turn =
+              turning.find_at_start(c, events::TurningPointDetector::watched_fields[f], value, rate, time))
         turns[turn->kind] = turn->time;
     }
 }

@@ -23,26 +23,28 @@ class DampedProof {
   [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at) const;
 
   // Interface required by modal_flow.hpp.
-  [[nodiscard]] double unit() const { return h_; }
-  [[nodiscard]] double within(const ModalPoint& at, const events::TurningPoints& known, double x_end) const;
-  double expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
-                       double remaining);
-  void see_begin(const ModalPoint& at, double time, events::TurningPoints& turning, LastTurns& turns) const;
+  [[nodiscard]] double step_length() const { return h_; }
+  [[nodiscard]] double length_without_turning(const ModalPoint& at, const events::TurningPointDetector& known,
+                                              double x_end) const;
+  double expand_for_turning(const ModalPoint& at, const events::TurningPointDetector& known, double share,
+                            double remaining);
+  void find_turning_at_start(const ModalPoint& at, double time, events::TurningPointDetector& turning,
+                             LastTurningTimes& turns) const;
   [[nodiscard]] const std::vector<motion::ContactSeries>& series(const ModalPoint& at);
 
  private:
   struct Watched {
     std::size_t slot = 0;
     double noise = 0.0;
-    ModalQuantity guard, lead;  // lead: derivative number arming.leading of guard
-    double now = 0.0;           // value of guard or lead
+    ModalQuantity guard, leading_derivative;  // lead: derivative number arming.leading of guard
+    double now = 0.0;                         // value of guard or lead
   };
   struct Part {  // a quantity on a step
     std::vector<double> p;
-    double rest = 0.0, ripple = 0.0, ripple_rate = 0.0;
+    double rest = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;
   };
   [[nodiscard]] const ModalQuantity& watched(const Watched& guard) const {
-    return active_guards_.leading(guard.slot) > 0 ? guard.lead : guard.guard;
+    return active_guards_.leading(guard.slot) > 0 ? guard.leading_derivative : guard.guard;
   }
   [[nodiscard]] bool unknown(const Watched& guard) const {
     return !active_guards_.armed(guard.slot) && active_guards_.leading(guard.slot) == 0;
@@ -54,9 +56,9 @@ class DampedProof {
   void set_step(double h, bool all_slow);
   void expand(const ModalPoint& at);
   [[nodiscard]] Part part_of(const ModalQuantity& f, const ModalPoint& at) const;
-  [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
-                            double& event);
-  [[nodiscard]] std::array<const ModalQuantity*, 4> shown(std::size_t contact) const;
+  [[nodiscard]] bool find_zero(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                               double& event);
+  [[nodiscard]] std::array<const ModalQuantity*, 4> watched_quantities(std::size_t contact) const;
 
   const DampedMotion& motion_;
   events::ActiveGuards active_guards_;
@@ -65,7 +67,7 @@ class DampedProof {
   Eigen::Index slow_ = 0;             // number of slow modes
   std::size_t count_ = 0;             // number of coefficients of the slow modes
   double h_ = 0.0, turn_ = 0.0;       // turn_: angle of slow waves
-  bool full_ = false;                 // the next step treats all modes as slow
+  bool all_slow_ = false;             // the next step treats all modes as slow
   Eigen::MatrixXcd terms_;            // y_k (l_k h)^j / j!, slow modes
   std::vector<motion::ContactSeries> series_;
 };

@@ -15,8 +15,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr Index most_damper_dofs = 24;  // limit for degrees of freedom with discrete dampers
-constexpr double hardly = 1e-3;         // |l_k + l_i| t_end: below, the integral is a series in it
+constexpr Index max_damper_dofs = 24;  // limit for degrees of freedom with discrete dampers
+constexpr double hardly = 1e-3;        // |l_k + l_i| t_end: below, the integral is a series in it
 
 /// C = alpha M + beta K + R, R = sum of stiffness-like terms of a few dampers.
 struct Damping {
@@ -40,12 +40,12 @@ Rest rest_of(const Model& model, double alpha, double beta) {
   Rest rest;
   for (int j = 0; j < more.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(more, j); it; ++it) {
-      if (std::abs(it.value()) <= rounding::of_many * terms(it.row(), it.col())) continue;
+      if (std::abs(it.value()) <= rounding::many_operations * terms(it.row(), it.col())) continue;
       for (const auto dof : {static_cast<int>(it.row()), static_cast<int>(it.col())})
         if (std::find(rest.dofs.begin(), rest.dofs.end(), dof) == rest.dofs.end()) rest.dofs.push_back(dof);
     }
   const auto m = static_cast<Index>(rest.dofs.size());
-  if (m > most_damper_dofs) return rest;
+  if (m > max_damper_dofs) return rest;
   rest.more.resize(m, m);
   rest.terms.resize(m, m);
   for (Index i = 0; i < m; ++i)
@@ -62,14 +62,14 @@ Rest rest_of(const Model& model, double alpha, double beta) {
 /// beside stiff members an inclined damper has spurious eigenvalues of that size and either sign, which are dropped.
 std::optional<Damping> dampers_of(const Model& model, double alpha, double beta) {
   const Rest rest = rest_of(model, alpha, beta);
-  if (static_cast<Index>(rest.dofs.size()) > most_damper_dofs) return std::nullopt;
+  if (static_cast<Index>(rest.dofs.size()) > max_damper_dofs) return std::nullopt;
   Damping result{alpha, beta, {}};
   if (rest.dofs.empty()) return result;
   const Eigen::VectorXd root = rest.terms.diagonal().cwiseSqrt();
   if (!(root.minCoeff() > 0.0)) return std::nullopt;  // a row without a diagonal belongs to no damper
   const Eigen::VectorXd inverse = root.cwiseInverse();
   const double rounded =
-      rounding::of_many * (inverse.asDiagonal() * rest.terms * inverse.asDiagonal()).norm();
+      rounding::many_operations * (inverse.asDiagonal() * rest.terms * inverse.asDiagonal()).norm();
   const base::EigenPairs pairs =
       base::symmetric_eigen(inverse.asDiagonal() * rest.more * inverse.asDiagonal());
   for (Index k = 0; k < pairs.values.size(); ++k) {
@@ -114,7 +114,7 @@ bool holds_twice(const std::vector<ModalTerm>& terms) {
 
 }  // namespace
 
-std::size_t most_state_terms(const Model& model) {
+std::size_t max_state_terms(const Model& model) {
   const auto damping = damping_of(model);
   std::size_t count = damping ? damping->dampers.size() : 0;
   for (const Contact& contact : model.contacts)
@@ -128,7 +128,7 @@ std::string damped_refusal(const Model& model) {
   for (const Contact& contact : model.contacts) {
     if (!contact.obeys_coulomb()) return "laws of one's own";
     if (contact.sliding_point()) return "shear elements";
-    if (contact::friction_varies(contact)) return contact::named_friction(contact);
+    if (contact::friction_varies(contact)) return contact::friction_description(contact);
   }
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
     return "massless degrees of freedom";
@@ -146,10 +146,10 @@ std::size_t DampedState::bytes() const {
   return sizeof(std::complex<double>) * static_cast<std::size_t>(numbers);
 }
 
-DampedSystem::DampedSystem(const Model& model, const OpenBasis& basis, double t_end)
+DampedSystem::DampedSystem(const Model& model, const UnconstrainedBasis& basis, double t_end)
     : model_(model), basis_(basis), t_end_(t_end) {
   const Damping damping = damping_of(model).value_or(Damping{});
-  decay_ = (damping.alpha + damping.beta * basis.square().array()).matrix();
+  decay_ = (damping.alpha + damping.beta * basis.omega_squared().array()).matrix();
   for (const auto& [strength, direction] : damping.dampers) {
     const Vector d = basis.amplitudes_of_form(direction);
     dampers_.push_back({d, d, 0.0, strength, false});
@@ -157,11 +157,11 @@ DampedSystem::DampedSystem(const Model& model, const OpenBasis& basis, double t_
   damped_ = !dampers_.empty() || decay_.cwiseAbs().maxCoeff() > 0.0;
 }
 
-std::shared_ptr<const DampedState> DampedSystem::state(const contact::ContactStates& mode) {
-  const std::vector<State> states = contact::states_of(mode);
+std::shared_ptr<const DampedState> DampedSystem::state(const contact::ContactStates& contact_states) {
+  const std::vector<State> states = contact::states_of(contact_states);
   if (const auto* known = known_.find(states)) return *known;
   ++made_;
-  auto made = std::make_shared<const DampedState>(make(mode));
+  auto made = std::make_shared<const DampedState>(make(contact_states));
   const std::size_t bytes = made->bytes();
   return known_.insert(states, std::move(made), bytes);
 }
@@ -193,7 +193,7 @@ void DampedSystem::add_contact(std::size_t c, const ContactState& state, DampedS
 void DampedSystem::find_constraints(DampedState& out) const {
   for (std::size_t a = 0; a < out.terms.size(); ++a)
     if (out.terms[a].rigid) out.rigid.push_back(static_cast<Index>(a));
-  const Index n = basis_.square().size(), m = static_cast<Index>(out.rigid.size());
+  const Index n = basis_.omega_squared().size(), m = static_cast<Index>(out.rigid.size());
   if (m == 0) return;
   Eigen::MatrixXd u(n, m), v(n, m);
   for (Index i = 0; i < m; ++i) {
@@ -203,7 +203,8 @@ void DampedSystem::find_constraints(DampedState& out) const {
   }
   out.from_forces = base::solve_dense(v.transpose() * u, v.transpose());
   // Soft motions satisfy the constraints, so that stiff modes have small contributions.
-  const Vector soft = (basis_.square().array() + basis_.square()[std::min(n - 1, m + 3)]).inverse().matrix();
+  const Vector soft =
+      (basis_.omega_squared().array() + basis_.omega_squared()[std::min(n - 1, m + 3)]).inverse().matrix();
   const Eigen::MatrixXd weighted = soft.asDiagonal() * v;
   out.static_shapes = weighted * base::solve_dense(v.transpose() * weighted, Eigen::MatrixXd::Identity(m, m));
 }
@@ -217,29 +218,29 @@ void DampedSystem::find_losses(DampedState& out) const {
     damped += damper.u * (damper.damping * (damper.v.transpose() * rates));
   const Eigen::MatrixXcd left = rates.transpose();
   out.loss = base::complex_product(left, damped);
-  out.loss_turned = base::complex_product(left, damped.conjugate());
+  out.loss_conjugate = base::complex_product(left, damped.conjugate());
   RootSums& sums = out.sums;
-  sums.plain.setZero(k, k);
-  sums.turned.setZero(k, k);
+  sums.direct.setZero(k, k);
+  sums.conjugate.setZero(k, k);
   for (Index i = 0; i < k; ++i)
     for (Index j = 0; j < k; ++j)
       for (const bool turned : {false, true}) {
         const std::complex<double> sum = l[i] + (turned ? std::conj(l[j]) : l[j]);
-        Eigen::MatrixXcd& loss = turned ? out.loss_turned : out.loss;
+        Eigen::MatrixXcd& loss = turned ? out.loss_conjugate : out.loss;
         if (std::abs(sum) * t_end_ < hardly)
           sums.slow.push_back({i, j, turned, loss(i, j)});
         else
-          (turned ? sums.turned : sums.plain)(i, j) = 1.0 / sum;
+          (turned ? sums.conjugate : sums.direct)(i, j) = 1.0 / sum;
       }
-  out.loss = out.loss.cwiseProduct(sums.plain).eval();
-  out.loss_turned = out.loss_turned.cwiseProduct(sums.turned).eval();
+  out.loss = out.loss.cwiseProduct(sums.direct).eval();
+  out.loss_conjugate = out.loss_conjugate.cwiseProduct(sums.conjugate).eval();
 }
 
-DampedState DampedSystem::make(const contact::ContactStates& mode) const {
+DampedState DampedSystem::make(const contact::ContactStates& contact_states) const {
   DampedState out;
   out.terms = dampers_;
-  for (std::size_t c = 0; c < mode.size(); ++c) add_contact(c, mode[c], out);
-  if (out.terms.size() > most_damped_terms) {
+  for (std::size_t c = 0; c < contact_states.size(); ++c) add_contact(c, contact_states[c], out);
+  if (out.terms.size() > max_damped_terms) {
     out.modes.failure = "too many springs, constraints and dampers for the modes of a contact state";
     return out;
   }
@@ -247,9 +248,9 @@ DampedState DampedSystem::make(const contact::ContactStates& mode) const {
     out.modes.failure = "contacts that hold one motion together";
     return out;
   }
-  out.modes = damped_modes(basis_.square(), decay_, out.terms);
+  out.modes = damped_modes(basis_.omega_squared(), decay_, out.terms);
   if (!out.modes.failure.empty()) return out;
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (std::size_t c = 0; c < contact_states.size(); ++c) {
     ContactRows& own = out.contacts[c];
     own.gap = out.modes.shape.transpose() * basis_.normal(c);
     own.slide = out.modes.shape.transpose() * basis_.tangent(c);

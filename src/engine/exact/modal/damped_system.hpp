@@ -23,7 +23,7 @@ namespace signorini::modal {
 /// Reason why a scene cannot be followed in complex modes; empty: it can.
 [[nodiscard]] std::string damped_refusal(const Model& model);
 /// Number of springs, constraints and dampers of a state in which all contacts are closed and stick.
-[[nodiscard]] std::size_t most_state_terms(const Model& model);
+[[nodiscard]] std::size_t max_state_terms(const Model& model);
 
 /// Quantities of one contact in complex modes: forms times shapes, zero if a constraint holds them.
 struct ContactRows {
@@ -34,10 +34,10 @@ struct ContactRows {
 
 /// 1 / (l_k + l_i), and with the conjugate of l_i; zero if the sum is negligible during a run.
 struct RootSums {
-  Eigen::MatrixXcd plain, turned;
+  Eigen::MatrixXcd direct, conjugate;
   struct Slow {
     Eigen::Index k, i;
-    bool turned;
+    bool conjugate;
     std::complex<double> loss;  ///< DampedState::loss without the division
   };
   std::vector<Slow> slow;
@@ -52,19 +52,19 @@ struct DampedState {
   Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes = 1
   RootSums sums;
   /// Dissipation by the rates of two modes, times root sums.
-  Eigen::MatrixXcd loss, loss_turned;
+  Eigen::MatrixXcd loss, loss_conjugate;
   [[nodiscard]] std::size_t bytes() const;
 };
 
-inline constexpr base::CacheBounds most_damped_states{1024, std::size_t{1} << 28};
+inline constexpr base::CacheLimits max_damped_states{1024, std::size_t{1} << 28};
 
 class DampedSystem {
  public:
   /// Both arguments must outlive the object.
-  DampedSystem(const Model& model, const OpenBasis& basis, double t_end);
+  DampedSystem(const Model& model, const UnconstrainedBasis& basis, double t_end);
 
   /// Data of a state, from the cache or new; its modes may have failed.
-  [[nodiscard]] std::shared_ptr<const DampedState> state(const contact::ContactStates& mode);
+  [[nodiscard]] std::shared_ptr<const DampedState> state(const contact::ContactStates& states);
   [[nodiscard]] long made() const { return made_; }
   /// c_j; dampers(): the dampers in addition to them.
   [[nodiscard]] const Vector& decay() const { return decay_; }
@@ -72,18 +72,18 @@ class DampedSystem {
   [[nodiscard]] bool damped() const { return damped_; }
 
  private:
-  [[nodiscard]] DampedState make(const contact::ContactStates& mode) const;
+  [[nodiscard]] DampedState make(const contact::ContactStates& states) const;
   void add_contact(std::size_t c, const ContactState& state, DampedState& out) const;
   void find_constraints(DampedState& out) const;
   void find_losses(DampedState& out) const;
 
   const Model& model_;
-  const OpenBasis& basis_;
+  const UnconstrainedBasis& basis_;
   const double t_end_;
   Vector decay_;
   std::vector<ModalTerm> dampers_;
   bool damped_ = false;
-  base::BoundedCache<std::vector<State>, std::shared_ptr<const DampedState>> known_{most_damped_states};
+  base::LruCache<std::vector<State>, std::shared_ptr<const DampedState>> known_{max_damped_states};
   long made_ = 0;
 };
 

@@ -21,83 +21,86 @@ std::complex<double> grown(std::complex<double> s, double h) {
 void DampedWorkIntegrals::start() {
   const Model& model = motion_.model();
   const double t = motion_.decision().jet.t;
-  courses_meet_ = false;
+  courses_overlap_ = false;
   loads_.clear();
-  std::vector<std::pair<Course, ModalQuantity>> alike;  // loads with the same history act as one load
+  std::vector<std::pair<TimeCoefficients, ModalQuantity>>
+      alike;  // loads with the same history act as one load
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
-    const Course factor = motion_.time().of(model.loads[i].history.piece(t));
+    const TimeCoefficients factor = motion_.time().of(model.loads[i].history.piece(t));
     if (factor.isZero(0.0)) continue;
     const auto same =
         std::find_if(alike.begin(), alike.end(), [&](const auto& a) { return a.first == factor; });
     if (same == alike.end())
-      alike.emplace_back(factor, motion_.of_load(i));
+      alike.emplace_back(factor, motion_.load_quantity(i));
     else
-      same->second += motion_.of_load(i);
+      same->second += motion_.load_quantity(i);
   }
-  for (const auto& [factor, load] : alike) loads_.push_back(paired(motion_.derivative(load), alone(factor)));
+  for (const auto& [factor, load] : alike)
+    loads_.push_back(product_integral(motion_.derivative(load), without_modes(factor)));
   contacts_.assign(model.contacts.size(), {});
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) pair_contact(c);
-  pair_loss();
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) prepare_contact(c);
+  prepare_loss();
 }
 
-void DampedWorkIntegrals::pair_contact(std::size_t c) {
+void DampedWorkIntegrals::prepare_contact(std::size_t c) {
   const Contact& contact = motion_.model().contacts[c];
-  const ContactState& state = motion_.decision().mode[c];
+  const ContactState& state = motion_.decision().states[c];
   if (state.is_open()) return;
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   const TimeBasis& time = motion_.time();
-  ContactPairings& pairings = contacts_[c];
-  if (!contact.normal_force_given()) pairings.applied_normal_force = paired(own.N, alone(time.constant(1.0)));
+  ContactProducts& pairings = contacts_[c];
+  if (!contact.normal_force_given())
+    pairings.applied_normal_force = product_integral(own.N, without_modes(time.constant(1.0)));
   if (const int direction = slip_sign(state.state); direction != 0)
-    pairings.slip = paired(own.T, motion_.of(contact::slip_rate(contact, direction), c));
-  if (const Course moved = time.derivative(own.surface); !moved.isZero(0.0))
-    pairings.surface = paired(own.T, alone(moved));
+    pairings.slip = product_integral(own.T, motion_.quantity_of(contact::slip_rate(contact, direction), c));
+  if (const TimeCoefficients moved = time.derivative(own.surface); !moved.isZero(0.0))
+    pairings.surface = product_integral(own.T, without_modes(moved));
   if (contact.normal_damping != 0.0) {
     const ModalQuantity rate = motion_.derivative(own.gap);
-    pairings.dashpot = paired(rate, rate);
+    pairings.dashpot = product_integral(rate, rate);
   }
 }
 
 /// int q'^T C q', as far as it is known per segment.
-void DampedWorkIntegrals::pair_loss() {
-  loss_answers_.resize(0, 0);
-  still_loss_.resize(0, 0);
-  const Eigen::MatrixXd& rate = motion_.rate();
+void DampedWorkIntegrals::prepare_loss() {
+  loss_responses_.resize(0, 0);
+  forced_loss_.resize(0, 0);
+  const Eigen::MatrixXd& rate = motion_.forced_response_rate();
   if (!motion_.system().damped() || rate.isZero(0.0)) return;
   Eigen::MatrixXd damped = motion_.system().decay().asDiagonal() * rate;
   for (const ModalTerm& damper : motion_.system().dampers())
     damped += damper.u * (damper.damping * (damper.v.transpose() * rate));
   const Eigen::MatrixXcd rates = (motion_.state().modes.shape * motion_.root().asDiagonal()).transpose();
   const Eigen::MatrixXcd courses = base::complex_product(rates, damped.cast<std::complex<double>>());
-  loss_answers_.resize(courses.rows(), courses.cols());
+  loss_responses_.resize(courses.rows(), courses.cols());
   for (Eigen::Index k = 0; k < courses.rows(); ++k)
-    loss_answers_.row(k) =
-        2.0 * motion_.time().answer(-motion_.root()[k], courses.row(k).transpose()).transpose();
-  still_loss_ = rate.transpose() * damped;
-  courses_meet_ = courses_meet_ || !still_loss_.isZero(0.0);
+    loss_responses_.row(k) =
+        2.0 * motion_.time().response(-motion_.root()[k], courses.row(k).transpose()).transpose();
+  forced_loss_ = rate.transpose() * damped;
+  courses_overlap_ = courses_overlap_ || !forced_loss_.isZero(0.0);
 }
 
-ModalQuantity DampedWorkIntegrals::alone(Course course) const {
+ModalQuantity DampedWorkIntegrals::without_modes(TimeCoefficients course) const {
   return {Eigen::VectorXcd::Zero(motion_.root().size()), std::move(course)};
 }
 
-void DampedWorkIntegrals::add_answers(const Eigen::VectorXcd& row, const Course& course,
-                                      Eigen::MatrixXcd& answers) const {
+void DampedWorkIntegrals::add_responses(const Eigen::VectorXcd& row, const TimeCoefficients& course,
+                                        Eigen::MatrixXcd& answers) const {
   if (course.isZero(0.0) || row.isZero(0.0)) return;
   if (answers.size() == 0) answers.setZero(row.size(), course.size());
-  const ComplexCourse complex = course.cast<std::complex<double>>();
+  const ComplexTimeCoefficients complex = course.cast<std::complex<double>>();
   for (Eigen::Index k = 0; k < row.size(); ++k)
     if (row[k] != 0.0)
-      answers.row(k) += row[k] * motion_.time().answer(-motion_.root()[k], complex).transpose();
+      answers.row(k) += row[k] * motion_.time().response(-motion_.root()[k], complex).transpose();
 }
 
-DampedWorkIntegrals::Pairing DampedWorkIntegrals::paired(ModalQuantity f, ModalQuantity g) {
-  Pairing pairing;
-  add_answers(f.row, g.course, pairing.answers);
-  add_answers(g.row, f.course, pairing.answers);
+DampedWorkIntegrals::ProductIntegral DampedWorkIntegrals::product_integral(ModalQuantity f, ModalQuantity g) {
+  ProductIntegral pairing;
+  add_responses(f.row, g.time_coefficients, pairing.responses);
+  add_responses(g.row, f.time_coefficients, pairing.responses);
   pairing.pairs = !f.row.isZero(0.0) && !g.row.isZero(0.0);
-  pairing.courses = !f.course.isZero(0.0) && !g.course.isZero(0.0);
-  courses_meet_ = courses_meet_ || pairing.courses;
+  pairing.courses = !f.time_coefficients.isZero(0.0) && !g.time_coefficients.isZero(0.0);
+  courses_overlap_ = courses_overlap_ || pairing.courses;
   pairing.f = std::move(f);
   pairing.g = std::move(g);
   return pairing;
@@ -109,7 +112,8 @@ double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::Vec
   const RootSums& sums = motion_.state().sums;
   const auto form = [&](const ModalPoint& at) {
     const Eigen::VectorXcd left = a.cwiseProduct(at.y), right = b.cwiseProduct(at.y);
-    return 0.5 * (left.transpose() * (sums.plain * right + sums.turned * right.conjugate())).value().real();
+    return 0.5 *
+           (left.transpose() * (sums.direct * right + sums.conjugate * right.conjugate())).value().real();
   };
   double sum = form(s.to) - form(s.from);
   const Eigen::VectorXcd& l = motion_.root();
@@ -131,10 +135,10 @@ double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const 
       .real();
 }
 
-double DampedWorkIntegrals::integral(const Pairing& pairing, const Stretch& s) const {
-  double sum = with_courses(pairing.answers, s);
+double DampedWorkIntegrals::integral(const ProductIntegral& pairing, const Stretch& s) const {
+  double sum = with_courses(pairing.responses, s);
   if (pairing.pairs) sum += of_pairs(pairing.f.row, pairing.g.row, s);
-  if (pairing.courses) sum += pairing.f.course.dot(s.products * pairing.g.course);
+  if (pairing.courses) sum += pairing.f.time_coefficients.dot(s.products * pairing.g.time_coefficients);
   return sum;
 }
 
@@ -144,7 +148,7 @@ double DampedWorkIntegrals::loss(const Stretch& s) const {
   const DampedState& state = motion_.state();
   const auto form = [&](const ModalPoint& at) {
     return 0.5 *
-           (at.y.transpose() * (state.loss * at.y + state.loss_turned * at.y.conjugate())).value().real();
+           (at.y.transpose() * (state.loss * at.y + state.loss_conjugate * at.y.conjugate())).value().real();
   };
   double sum = form(s.to) - form(s.from);
   const Eigen::VectorXcd& l = motion_.root();
@@ -153,19 +157,19 @@ double DampedWorkIntegrals::loss(const Stretch& s) const {
     const std::complex<double> rate = l[k] + (turned ? std::conj(l[i]) : l[i]);
     sum += 0.5 * (taken * s.from.y[k] * right * grown(rate, s.to.time - s.from.time)).real();
   }
-  sum += with_courses(loss_answers_, s);
-  if (still_loss_.size() > 0 && s.products.size() > 0) sum += still_loss_.cwiseProduct(s.products).sum();
+  sum += with_courses(loss_responses_, s);
+  if (forced_loss_.size() > 0 && s.products.size() > 0) sum += forced_loss_.cwiseProduct(s.products).sum();
   return sum;
 }
 
 void DampedWorkIntegrals::add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const {
   const Contact& contact = motion_.model().contacts[c];
-  const ContactState& state = motion_.decision().mode[c];
+  const ContactState& state = motion_.decision().states[c];
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   if (state.state == State::inside)
     works.damping += contact::inside_loss(contact, state.state, motion_.value(own.gap, s.from),
                                           motion_.value(own.gap, s.to));
-  const ContactPairings& pairings = contacts_[c];
+  const ContactProducts& pairings = contacts_[c];
   if (pairings.applied_normal_force)
     works.applied_normal_force[c] -= integral(*pairings.applied_normal_force, s);
   if (pairings.slip) works.friction[c] += integral(*pairings.slip, s);
@@ -178,8 +182,8 @@ void DampedWorkIntegrals::add(const ModalPoint& from, const ModalPoint& to,
   if (!(to.time > from.time)) return;
   const TimeBasis& time = motion_.time();
   const Stretch s{from, to, time.at(from.time), time.at(to.time),
-                  courses_meet_ ? time.products(from.time, to.time) : Eigen::MatrixXd()};
-  for (const Pairing& load : loads_) works.loads += integral(load, s);
+                  courses_overlap_ ? time.products(from.time, to.time) : Eigen::MatrixXd()};
+  for (const ProductIntegral& load : loads_) works.loads += integral(load, s);
   works.damping += loss(s);
   for (std::size_t c = 0; c < contacts_.size(); ++c) add_contact(c, s, works);
 }

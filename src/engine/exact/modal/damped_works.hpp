@@ -31,31 +31,32 @@ class DampedWorkIntegrals {
   };
   /// Integral of f g, as far as it is known per segment: modes times courses give y . answers b at the ends of a
   /// stretch.
-  struct Pairing {
+  struct ProductIntegral {
     ModalQuantity f, g;
-    Eigen::MatrixXcd answers;  // modes x b; empty: none
+    Eigen::MatrixXcd responses;  // modes x b; empty: none
     bool pairs = false, courses = false;
   };
-  [[nodiscard]] Pairing paired(ModalQuantity f, ModalQuantity g);
-  [[nodiscard]] ModalQuantity alone(Course course) const;
-  void add_answers(const Eigen::VectorXcd& row, const Course& course, Eigen::MatrixXcd& answers) const;
-  void pair_contact(std::size_t c);
-  void pair_loss();
+  [[nodiscard]] ProductIntegral product_integral(ModalQuantity f, ModalQuantity g);
+  [[nodiscard]] ModalQuantity without_modes(TimeCoefficients course) const;
+  void add_responses(const Eigen::VectorXcd& row, const TimeCoefficients& course,
+                     Eigen::MatrixXcd& answers) const;
+  void prepare_contact(std::size_t c);
+  void prepare_loss();
   [[nodiscard]] double of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, const Stretch& s) const;
   [[nodiscard]] static double with_courses(const Eigen::MatrixXcd& answers, const Stretch& s);
-  [[nodiscard]] double integral(const Pairing& pairing, const Stretch& s) const;
+  [[nodiscard]] double integral(const ProductIntegral& pairing, const Stretch& s) const;
   [[nodiscard]] double loss(const Stretch& s) const;
   void add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const;
 
   const DampedMotion& motion_;
-  std::vector<Pairing> loads_;  // rates along active loads, and the courses of the loads
-  struct ContactPairings {
-    std::optional<Pairing> applied_normal_force, slip, surface, dashpot;
+  std::vector<ProductIntegral> loads_;  // rates along active loads, and the courses of the loads
+  struct ContactProducts {
+    std::optional<ProductIntegral> applied_normal_force, slip, surface, dashpot;
   };
-  std::vector<ContactPairings> contacts_;
-  Eigen::MatrixXd still_loss_;     // b x b: courses only
-  Eigen::MatrixXcd loss_answers_;  // dissipation by modes together with courses
-  bool courses_meet_ = false;      // at least two courses overlap in the segment
+  std::vector<ContactProducts> contacts_;
+  Eigen::MatrixXd forced_loss_;      // b x b: courses only
+  Eigen::MatrixXcd loss_responses_;  // dissipation by modes together with courses
+  bool courses_overlap_ = false;     // at least two courses overlap in the segment
 };
 
 }  // namespace signorini::modal

@@ -9,31 +9,31 @@
 #include "contact/friction.hpp"
 #include "engine/exact/modal/damped_flow.hpp"
 #include "engine/exact/modal/proportional_flow.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "motion/point.hpp"
 
 namespace signorini::modal {
 namespace {
 
-constexpr std::size_t most_parts = 256;  // limit for parts of a step: each holds the amplitudes of all modes
-constexpr int most_touches = 5;          // warnings of the same kind
+constexpr std::size_t max_parts = 256;   // limit for parts of a step: each holds the amplitudes of all modes
+constexpr int max_touches = 5;           // warnings of the same kind
 constexpr double lost_in_modes = 1e-12;  // limit for the loss in modes: spectrum.cpp, damped_flow.cpp
-constexpr int most_corrections = 4;      // corrections of an event time; one suffices unless two guards graze
+constexpr int max_corrections = 4;       // corrections of an event time; one suffices unless two guards graze
 
 }  // namespace
 
 ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& structure,
-                         motion::StateSystems& systems, double t_end, const ModalUse& use)
+                         motion::StateSystems& systems, double t_end, const ModalOptions& use)
     : model_(model),
       structure_(structure),
-      kept_(use.share != nullptr && use.share->memory != nullptr ? use.share->memory->of(model, t_end)
+      kept_(use.share != nullptr && use.share->memory != nullptr ? use.share->memory->entry_for(model, t_end)
                                                                  : nullptr),
-      own_basis_(kept_ ? nullptr : std::make_unique<OpenBasis>(model)),
+      own_basis_(kept_ ? nullptr : std::make_unique<UnconstrainedBasis>(model)),
       basis_(kept_ ? kept_->basis : *own_basis_),
       taylor_(model, structure, systems, t_end, {false, use.step_seed}),
-      turning_(model.contacts.size()),
+      turning_points_(model.contacts.size()),
       peaks_(use.peaks) {
-  knows_low_flights = true;  // the leading derivative follows a guard that leaves zero
+  resolves_low_flights = true;  // the leading derivative follows a guard that leaves zero
   if (!basis_.failure().empty()) return;
   if (proportional_refusal(model).empty()) {
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
@@ -47,15 +47,15 @@ ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& struc
   if (use.share != nullptr) use.share->modes = flow_->modes();
 }
 
-void ModalEngine::say_fallback(double t, const std::string& why) {
+void ModalEngine::warn_of_fallback(double t, const std::string& why) {
   if (fallbacks_++ > 0) return;
   warnings.push_back(fmt::format("the flow in modes gave way to the Taylor series at t = {:.6g}: {}",
                                  model::time_in_scene_units(model_, t), why));
 }
 
 /// The series takes over within a segment: from its beginning, skipping the part already reported.
-engine::Step ModalEngine::give_way() {
-  say_fallback(t_, "a guard stays too near to zero for what modes can prove");
+engine::Step ModalEngine::fall_back_to_series() {
+  warn_of_fallback(t_, "a guard stays too near to zero for what modes can prove");
   modal_ = false;
   taylor_.start(segment_);
   engine::Step step = taylor_.advance();
@@ -64,7 +64,7 @@ engine::Step ModalEngine::give_way() {
   return step;
 }
 
-std::string ModalEngine::follow(const engine::Segment& segment) {
+std::string ModalEngine::start_modes(const engine::Segment& segment) {
   if (!basis_.failure().empty()) return basis_.failure();
   const decide::Decision& decision = *segment.decision;
   // The decision leaves most motions unchanged: then q is kept, without rounding by a conversion to u and back.
@@ -77,38 +77,39 @@ std::string ModalEngine::follow(const engine::Segment& segment) {
 }
 
 void ModalEngine::start(const engine::Segment& segment) {
-  const std::string why = follow(segment);
+  const std::string why = start_modes(segment);
   const decide::Decision& decision = *segment.decision;
   modal_ = why.empty();
   if (!modal_) {
-    say_fallback(decision.jet.t, why);
+    warn_of_fallback(decision.jet.t, why);
     taylor_.start(segment);
     return;
   }
   t_ = decision.jet.t;
-  turning_.start(decision);
-  has_worked_ = false;
+  turning_points_.start(decision);
+  has_works_ = false;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   ++restarts_;
 }
 
 /// Responses of slow modes to loads have terms far greater than the motion, which cancel. Computes the ratio of their
 /// rounding to the loss of a round trip through the modes for the motion so far.
-void ModalEngine::see_terms() {
+void ModalEngine::update_cancellation() {
   const motion::StructureEnergy energy = energy_of(q_, rate_);
-  swung_ = std::max(swung_, std::sqrt(2.0 * (energy.kinetic + energy.elastic)));
-  reached_ = std::max({reached_, q_.norm(), model_.omega1 > 0.0 ? swung_ / model_.omega1 : 0.0});
+  max_velocity_ = std::max(max_velocity_, std::sqrt(2.0 * (energy.kinetic + energy.elastic)));
+  max_displacement_ =
+      std::max({max_displacement_, q_.norm(), model_.omega1 > 0.0 ? max_velocity_ / model_.omega1 : 0.0});
   const SumTerms terms = flow_->terms(now_);
   const auto over = [](double sum, double motion) {
-    return motion > 0.0 ? rounding::of_many * sum / (lost_in_modes * motion) : 0.0;
+    return motion > 0.0 ? rounding::many_operations * sum / (lost_in_modes * motion) : 0.0;
   };
-  cancelled_ =
-      std::max({1.0, over(terms.place, reached_), over(terms.rate, swung_), over(terms.swing, swung_)});
+  cancellation_ = std::max({1.0, over(terms.amplitude, max_displacement_), over(terms.rate, max_velocity_),
+                            over(terms.omega_amplitude, max_velocity_)});
 }
 
-void ModalEngine::see_touches(const Passage& passage, double begin) {
+void ModalEngine::warn_of_touches(const Passage& passage, double begin) {
   for (const std::size_t slot : passage.touches)
-    if (++touches_ <= most_touches)
+    if (++touches_ <= max_touches)
       warnings.push_back(fmt::format(
           "contact '{}': its {} touches zero near {:.9g}; whether it falls there is not decidable "
           "at this precision; it counts as not fallen",
@@ -125,13 +126,13 @@ ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motio
   const double slope = flow_->slope(slot, now_, point, t_);
   if (!(slope < 0.0)) return {};
   return {-segment_.decision->form(slot).value(now) / slope,
-          -rounding::of_many * flow_->magnitude(slot, now_) / slope};
+          -rounding::many_operations * flow_->magnitude(slot, now_) / slope};
 }
 
 /// Moves the end of the last part to the root of the guard according to u, v and the forces that follow from them: in
 /// modes the guard is zero only to the rounding of the modes, which is more than the decision allows. Returns the
 /// uncertainty of that time.
-double ModalEngine::sharpen(std::size_t slot) {
+double ModalEngine::refine_crossing(std::size_t slot) {
   Part& part = parts_.back();
   for (int i = 0;; ++i) {
     t_ = part.begin + part.length;
@@ -139,12 +140,13 @@ double ModalEngine::sharpen(std::size_t slot) {
     motion::Point point;
     fill_rows(of_contacts_, now_, reached, point);
     const ZeroCrossing fall = crossing_of(slot, point);
-    const bool sharp = std::abs(fall.off) <= std::max(0.25 * motion::resolution_at(t_, 0.0), fall.blur);
-    if (i == most_corrections || sharp) {
+    const bool sharp =
+        std::abs(fall.offset) <= std::max(0.25 * motion::resolution_at(t_, 0.0), fall.uncertainty);
+    if (i == max_corrections || sharp) {
       fill(now_, std::move(reached), end_);
-      return fall.blur;
+      return fall.uncertainty;
     }
-    part.length = std::max(0.0, part.length + fall.off);
+    part.length = std::max(0.0, part.length + fall.offset);
     flow_->advance(part.at, part.length, now_);
   }
 }
@@ -154,8 +156,8 @@ engine::Step ModalEngine::advance() {
   engine::Step step;
   step.begin = t_;
   parts_.clear();
-  turns_.clear();
-  last_turns_.clear();
+  turning_times_.clear();
+  last_turning_times_.clear();
   ++steps_;
   for (;;) {
     const double remaining = segment_.end - t_;
@@ -167,7 +169,7 @@ engine::Step ModalEngine::advance() {
     if (last) end = segment_.end;
     const bool stuck =
         !passage.triggered && !last && !(passage.length > 0.01 * motion::resolution_at(t_, 0.0));
-    if (stuck && parts_.empty()) return give_way();
+    if (stuck && parts_.empty()) return fall_back_to_series();
     if (stuck) break;
     if (!std::isfinite(passage.length)) {
       step.kind = engine::Step::Kind::failed;
@@ -175,15 +177,17 @@ engine::Step ModalEngine::advance() {
       step.reason = "the motion overflows";
       return step;
     }
-    see_touches(passage, t_);
+    warn_of_touches(passage, t_);
     parts_.push_back({t_, end - t_, now_});
     ModalPoint next;
     flow_->advance(now_, last ? remaining : passage.length, next);
-    if (peaks_) flow_->find_turns(now_, t_, passage.length, parts_.size() == 1, turning_, last_turns_);
+    if (peaks_)
+      flow_->find_turning_points(now_, t_, passage.length, parts_.size() == 1, turning_points_,
+                                 last_turning_times_);
     now_ = std::move(next);
     t_ = end;
     if (passage.triggered) {
-      step.resolution = sharpen(*passage.triggered);
+      step.resolution = refine_crossing(*passage.triggered);
       step.kind = engine::Step::Kind::event;
       step.triggered = {{contact::contact_of_guard(*passage.triggered),
                          segment_.decision->guards[*passage.triggered].kind, passage.unseen}};
@@ -191,15 +195,15 @@ engine::Step ModalEngine::advance() {
     }
     if (last) break;
     flow_->rearm(now_);
-    if (parts_.size() >= most_parts) break;
+    if (parts_.size() >= max_parts) break;
   }
-  for (const auto& [kind, time] : last_turns_)
-    if (time < t_) turns_.push_back(time);  // the event was moved later
-  std::sort(turns_.begin(), turns_.end());
+  for (const auto& [kind, time] : last_turning_times_)
+    if (time < t_) turning_times_.push_back(time);  // the event was moved later
+  std::sort(turning_times_.begin(), turning_times_.end());
   step.end = t_;
   step.resolution = std::max(step.resolution, motion::resolution_at(t_, parts_.back().length));
   if (step.kind != engine::Step::Kind::event) fill(now_, motion(now_, true), end_);
-  see_terms();
+  update_cancellation();
   return step;
 }
 
@@ -219,7 +223,7 @@ ModalPoint ModalEngine::at(double t) const {
 
 /// 1/2 (q'^2 + omega^2 q^2): no terms cancel.
 motion::StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
-  return {0.5 * rate.squaredNorm(), 0.5 * basis_.square().dot(q.cwiseAbs2())};
+  return {0.5 * rate.squaredNorm(), 0.5 * basis_.omega_squared().dot(q.cwiseAbs2())};
 }
 
 void ModalEngine::set_energy(motion::Point& point) const {
@@ -321,24 +325,24 @@ void ModalEngine::interpolate(double t, motion::Point& point) {
 
 void ModalEngine::integrate(double from, double to, motion::WorkIntegrals& works) {
   if (!modal_) return taylor_.integrate(from, to, works);
-  if (!has_worked_ || worked_to_ != from) worked_ = at(from);
+  if (!has_works_ || works_end_ != from) works_point_ = at(from);
   ModalPoint next = at(to);
-  flow_->add_works(worked_, next, to - from, works);
-  worked_ = std::move(next);
-  worked_to_ = to;
-  has_worked_ = true;
+  flow_->add_works(works_point_, next, to - from, works);
+  works_point_ = std::move(next);
+  works_end_ = to;
+  has_works_ = true;
 }
 
 engine::StepFacts ModalEngine::facts() const {
   engine::StepFacts facts;
   if (modal_) {
-    facts.turning_points = turns_;
-    facts.eigenvector_condition = std::max(flow_->eigenvector_condition(), cancelled_);
+    facts.turning_points = turning_times_;
+    facts.eigenvector_condition = std::max(flow_->eigenvector_condition(), cancellation_);
     if (!parts_.empty()) facts.fast_modes = this;
     return facts;
   }
   facts = taylor_.facts();
-  facts.contact_turns = nullptr;  // points are computed as a whole
+  facts.contact_turning_points = nullptr;  // points are computed as a whole
   return facts;
 }
 
@@ -367,7 +371,7 @@ engine::FastModeBound ModalEngine::term_sizes() const {
 
 double ModalEngine::residual() {
   if (!modal_) return taylor_.residual();
-  return motion::imbalance(model_, structure_, *segment_.forcing, t_, end_);
+  return motion::equilibrium_residual(model_, structure_, *segment_.forcing, t_, end_);
 }
 
 engine::StepperReport ModalEngine::report() {

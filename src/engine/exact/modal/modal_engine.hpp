@@ -14,8 +14,8 @@
 namespace signorini::modal {
 
 /// Intended use of the steps.
-struct ModalUse {
-  ModalShare* share = nullptr;                   ///< data shared with a listener, or null
+struct ModalOptions {
+  SharedModalData* share = nullptr;              ///< data shared with a listener, or null
   bool peaks = true;                             ///< true: turning points of contacts are searched
   std::uint64_t step_seed = 0;                   ///< seed for steps taken in series
   std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched; nullopt: all
@@ -26,7 +26,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   /// All arguments except t_end must outlive the object. Finds the open modes; without them the series follows the
   /// whole motion.
   ModalEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
-              double t_end, const ModalUse& use = {});
+              double t_end, const ModalOptions& use = {});
 
   void start(const engine::Segment& segment) override;
   [[nodiscard]] engine::Step advance() override;
@@ -58,9 +58,9 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
     double begin = 0.0, length = 0.0;
     ModalPoint at;
   };
-  void say_fallback(double t, const std::string& why);
-  [[nodiscard]] engine::Step give_way();
-  [[nodiscard]] std::string follow(const engine::Segment& segment);
+  void warn_of_fallback(double t, const std::string& why);
+  [[nodiscard]] engine::Step fall_back_to_series();
+  [[nodiscard]] std::string start_modes(const engine::Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
   [[nodiscard]] motion::StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
   /// Amplitudes of the open modes; change: empty if no accelerations are needed.
@@ -78,22 +78,22 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   void fill_rest(const ModalPoint& z, const Motion& motion, motion::Point& point) const;
   void fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, motion::Point& point) const;
   struct ZeroCrossing {
-    double off = 0.0, blur = 0.0;  // times
+    double offset = 0.0, uncertainty = 0.0;  // times
   };
   [[nodiscard]] ZeroCrossing crossing_of(std::size_t slot, const motion::Point& point) const;
-  [[nodiscard]] double sharpen(std::size_t slot);
-  void see_terms();
-  void see_touches(const Passage& passage, double begin);
+  [[nodiscard]] double refine_crossing(std::size_t slot);
+  void update_cancellation();
+  void warn_of_touches(const Passage& passage, double begin);
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
-  std::shared_ptr<ModalMemory::Kept> kept_;  // null: no memory is in use
-  std::unique_ptr<OpenBasis> own_basis_;
-  const OpenBasis& basis_;
+  std::shared_ptr<ModalCache::Entry> kept_;  // null: no memory is in use
+  std::unique_ptr<UnconstrainedBasis> own_basis_;
+  const UnconstrainedBasis& basis_;
   Rows watched_, of_contacts_;
   std::unique_ptr<ModalFlow> flow_;  // null without open modes
   exact::ExactEngine taylor_;
-  events::TurningPoints turning_;
+  events::TurningPointDetector turning_points_;
   bool peaks_;
   bool modal_ = false;
   long fallbacks_ = 0, steps_ = 0, proofs_ = 0, restarts_ = 0;
@@ -103,14 +103,14 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   double t_ = 0.0;
   Vector q_, rate_;  // at the end of the last step, with the corresponding motion
   motion::Point end_;
-  double reached_ = 0.0,
-         swung_ = 0.0;      // greatest motion so far, displacements and velocities in the norm of M
-  double cancelled_ = 1.0;  // ratio for the last step: see_terms()
-  double worked_to_ = 0.0;  // time up to which works were added, and the motion there
-  ModalPoint worked_;
-  bool has_worked_ = false;
-  LastTurns last_turns_;  // turning points of the last step
-  std::vector<double> turns_;
+  double max_displacement_ = 0.0,
+         max_velocity_ = 0.0;  // greatest motion so far, displacements and velocities in the norm of M
+  double cancellation_ = 1.0;  // ratio for the last step: update_cancellation()
+  double works_end_ = 0.0;     // time up to which works were added, and the motion there
+  ModalPoint works_point_;
+  bool has_works_ = false;
+  LastTurningTimes last_turning_times_;  // turning points of the last step
+  std::vector<double> turning_times_;
   int touches_ = 0;
 };
 

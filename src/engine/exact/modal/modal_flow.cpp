@@ -10,11 +10,11 @@ constexpr double headroom = 8.0, much_longer = 1e4;
 
 }  // namespace
 
-std::shared_ptr<ModalMemory::Kept> ModalMemory::of(const Model& model, double t_end) {
+std::shared_ptr<ModalCache::Entry> ModalCache::entry_for(const Model& model, double t_end) {
   const bool serves = kept_ && t_end <= kept_->t_end && kept_->t_end <= much_longer * t_end &&
                       model::same_contact_states(model, kept_->model) &&
                       model::same_load_directions(model, kept_->model);
-  if (!serves) kept_ = std::make_shared<Kept>(model, headroom * t_end);
+  if (!serves) kept_ = std::make_shared<Entry>(model, headroom * t_end);
   return kept_;
 }
 

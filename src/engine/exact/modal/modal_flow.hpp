@@ -30,13 +30,13 @@ struct Passage {
   std::vector<std::size_t> touches;      ///< slots whose guards touch zero within rounding
 };
 
-/// Last turning point of each kind: see TurningPoints::Turn.
-using LastTurns = std::map<std::size_t, double>;
+/// Last turning point of each kind: see TurningPointDetector::Turn.
+using LastTurningTimes = std::map<std::size_t, double>;
 
 /// Sums of magnitudes: of the amplitudes of open modes, in the norm of M; of their rates; of omega times the
 /// amplitudes.
 struct SumTerms {
-  double place = 0.0, rate = 0.0, swing = 0.0;
+  double amplitude = 0.0, rate = 0.0, omega_amplitude = 0.0;
 };
 
 class ModalFlow {
@@ -61,8 +61,8 @@ class ModalFlow {
   [[nodiscard]] virtual double magnitude(std::size_t slot, const ModalPoint& at) const = 0;
   /// Finds places in the last passage, which begins at time `begin`, where N, T, g and ut turn beyond their earlier
   /// ranges. observed: the beginning is that of a step and was already examined.
-  virtual void find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                          events::TurningPoints& turning, LastTurns& turns) = 0;
+  virtual void find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
+                                   events::TurningPointDetector& turning, LastTurningTimes& turns) = 0;
   virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time,
                          motion::WorkIntegrals& works) const = 0;
   /// Same meaning as FastModes::fast_mode_bound, from that point on for the given time.
@@ -81,7 +81,7 @@ class ModalFlow {
 
 // Open modes, and complex modes of contact states, kept for all runs of one structure.
 //
-//   ModalMemory memory;      ListenerNeeds::modal->memory = &memory: successive runs, e.g. of orbits and their branches
+//   ModalCache memory;      ListenerNeeds::modal->memory = &memory: successive runs, e.g. of orbits and their branches
 //
 // Computing a state's complex modes costs as much as simulating many periods with them. They depend on the structure
 // alone, except for the sums of roots whose pairs are slow relative to the run: kept modes belong to a run at least as
@@ -90,29 +90,29 @@ class ModalFlow {
 
 class ModalSystem;
 
-class ModalMemory {
+class ModalCache {
  public:
-  struct Kept {
-    Kept(const Model& of, double longest) : model(of), basis(model), t_end(longest) {}
-    Kept(const Kept&) = delete;
-    Kept& operator=(const Kept&) = delete;
+  struct Entry {
+    Entry(const Model& of, double longest) : model(of), basis(model), t_end(longest) {}
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
     const Model model;  ///< load histories and start are unused; directions of loads count
-    const OpenBasis basis;
+    const UnconstrainedBasis basis;
     const double t_end;
     std::unique_ptr<DampedSystem> damped;  ///< created on request
   };
 
   /// Kept data for this structure, whose runs end at t_end.
-  [[nodiscard]] std::shared_ptr<Kept> of(const Model& model, double t_end);
+  [[nodiscard]] std::shared_ptr<Entry> entry_for(const Model& model, double t_end);
 
  private:
-  std::shared_ptr<Kept> kept_;
+  std::shared_ptr<Entry> kept_;
 };
 
 /// Data shared by the engine and a listener of its run.
-struct ModalShare {
-  ModalMemory* memory = nullptr;  ///< from earlier runs; null: none
-  ModalSystem* modes = nullptr;   ///< set by the engine: its modes; null: none, or complex ones
+struct SharedModalData {
+  ModalCache* memory = nullptr;  ///< from earlier runs; null: none
+  ModalSystem* modes = nullptr;  ///< set by the engine: its modes; null: none, or complex ones
 };
 
 // Extreme values of N, T, g and ut within a passage, in modes.
@@ -121,25 +121,26 @@ struct ModalShare {
 //
 // A proof (modal_proof.hpp, damped_proof.hpp) is a step of length unit() that was expanded from a point, and offers
 //   within(at, known, x_end)                     the part of [0, x_end] without a turn beyond the known ranges
-//   expand_beside(at, known, share, remaining)   a new step, with ripples up to that share of the ranges; its length
-//   see_begin(at, time, turning, turns)          turning points at a point itself
+//   expand_for_turning(at, known, share, remaining)   a new step, with ripples up to that share of the ranges; its length
+//   find_turning_at_start(at, time, turning, turns)          turning points at a point itself
 //   series(at)                                   the contacts' slow parts on the step
 
 /// Bounds on the contribution of fast modes, relative to the range of the quantity. Localising a peak needs ripples of
 /// the size of rounding. Excluding a peak needs only ripples that leave the answer decidable: larger ones allow longer
 /// steps, but do not separate a value near the greatest one so far from a greater one. Chosen values.
-inline constexpr double fine_ripple = rounding::of_elimination, greatest_ripple = 1e-4, least_ripple = 1e-10,
-                        ripple_step = 10.0;
+inline constexpr double fine_fast_share = rounding::elimination, max_fast_share = 1e-4,
+                        min_fast_share = 1e-10, fast_share_step = 10.0;
 
 /// advance(from, step, to): the closed form. begin: the time of `from`; observed: the passage begins with a segment,
 /// whose beginning was already examined.
 template <class Proof, class Advance>
-void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& from, double begin,
-                        double length, bool observed, events::TurningPoints& turning, LastTurns& turns) {
-  if (!observed) proof.see_begin(from, begin, turning, turns);
-  const double x_end = length / proof.unit(), x = proof.within(from, turning, x_end);
+void find_turning_points_in_passage(Proof& proof, const Advance& advance, const ModalPoint& from,
+                                    double begin, double length, bool observed,
+                                    events::TurningPointDetector& turning, LastTurningTimes& turns) {
+  if (!observed) proof.find_turning_at_start(from, begin, turning, turns);
+  const double x_end = length / proof.step_length(), x = proof.length_without_turning(from, turning, x_end);
   if (x >= x_end) return;
-  double done = x * proof.unit();
+  double done = x * proof.step_length();
   ModalPoint point, next;
   advance(from, done, point);
   const auto go = [&](double step) {
@@ -147,33 +148,37 @@ void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& 
     std::swap(point, next);
     done += step;
   };
-  double share = greatest_ripple;
+  double share = max_fast_share;
   for (bool moved = true; done < length;) {
     // A quantity that was monotone up to here may turn at this very point.
-    if (moved) proof.see_begin(point, begin + done, turning, turns);
-    const double look = proof.expand_beside(point, turning, share, length - done);
-    const double safe = look > 0.0 ? proof.within(point, turning, look / proof.unit()) * proof.unit() : 0.0;
+    if (moved) proof.find_turning_at_start(point, begin + done, turning, turns);
+    const double look = proof.expand_for_turning(point, turning, share, length - done);
+    const double safe =
+        look > 0.0
+            ? proof.length_without_turning(point, turning, look / proof.step_length()) * proof.step_length()
+            : 0.0;
     moved = safe > 0.0;
     if (moved) go(safe);
     if (moved && safe >= look) {
-      share = std::min(greatest_ripple, share * ripple_step);
+      share = std::min(max_fast_share, share * fast_share_step);
       continue;
     }
-    if (!moved && share > least_ripple) {
-      share = std::max(least_ripple, share / ripple_step);
+    if (!moved && share > min_fast_share) {
+      share = std::max(min_fast_share, share / fast_share_step);
       continue;
     }
     // At the end of the passage a slope may be only rounding and then has no direction.
     if (!(done < length)) return;
-    const double step = proof.expand_beside(point, turning, fine_ripple, length - done);
+    const double step = proof.expand_for_turning(point, turning, fine_fast_share, length - done);
     if (!(step > 0.0)) return;
     motion::Series clock;
     clock.t = begin + done;
-    clock.scale = proof.unit();
-    const auto ends = observed && !(done > 0.0) ? events::TurningPoints::Ends::first_part
-                                                : events::TurningPoints::Ends::part;
-    turning.find(proof.series(point), clock, 0.0, step / proof.unit(), ends);
-    for (const events::TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
+    clock.scale = proof.step_length();
+    const auto ends = observed && !(done > 0.0) ? events::TurningPointDetector::Ends::first_part
+                                                : events::TurningPointDetector::Ends::part;
+    turning.find(proof.series(point), clock, 0.0, step / proof.step_length(), ends);
+    for (const events::TurningPointDetector::TurningPoint& turn : turning.turning_points())
+      turns[turn.kind] = turn.time;
     go(step);
     moved = true;
   }

@@ -24,7 +24,7 @@ bool decreases(const GuardOnStep& guard, double h, double from, double to) {
     power *= to - from;
     rest = std::max(rest, std::abs(entry));
   }
-  q[0] -= guard.ripple_rate * h + rounding::of_elimination * rest;
+  q[0] -= guard.fast_rate_bound * h + rounding::elimination * rest;
   return q[0] > 0.0 && events::first_root(q.data(), q.size() - 1, 0.0).kind == events::FirstRoot::Kind::none;
 }
 
@@ -63,9 +63,9 @@ bool leave_zero(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& armi
   double scale = 0.0;
   for (const double entry : q) scale += std::abs(entry);
   // The decision knows that it rises; the remainder of the series is subtracted.
-  q[0] -= std::min(guard.ripple + rounding::of_many * scale, 0.5 * q[0]);
+  q[0] -= std::min(guard.fast_bound + rounding::many_operations * scale, 0.5 * q[0]);
   if (!(q[0] > 0.0)) {
-    arming.doubt(slot);
+    arming.discard_leading(slot);
     return false;
   }
   const events::FirstRoot fall = events::first_root(q.data(), q.size() - 1, 0.0);
@@ -86,9 +86,9 @@ std::vector<double> derivative_of(const std::vector<double>& p, std::size_t m, d
   return q;
 }
 
-bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
-                  const std::function<double(double)>& value_at, events::ActiveGuards& arming,
-                  Passage& passage, double& limit, double& event) {
+bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
+                     const std::function<double(double)>& value_at, events::ActiveGuards& arming,
+                     Passage& passage, double& limit, double& event) {
   std::vector<double>& p = guard.p;
   const std::size_t degree = p.size() - 1;
   const auto fires = [&](double x) {
@@ -104,13 +104,13 @@ bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
     if (fall.kind == events::FirstRoot::Kind::crossing) fires(fall.x);
     return true;
   }
-  if (guard.ripple == 0.0) {
+  if (guard.fast_bound == 0.0) {
     const events::FirstRoot fall = events::first_root(p.data(), degree, guard.slack);
     if (fall.kind == events::FirstRoot::Kind::crossing) fires(fall.x);
     if (fall.kind == events::FirstRoot::Kind::touch) passage.touches.push_back(slot);
     return true;
   }
-  const double off = guard.slack + guard.ripple, start = p[0];
+  const double off = guard.slack + guard.fast_bound, start = p[0];
   p[0] = start - 2.0 * off;
   const events::FirstRoot doubtful = events::first_root(p.data(), degree, 0.0);
   if (doubtful.kind != events::FirstRoot::Kind::crossing || doubtful.x >= event) return true;
@@ -154,7 +154,8 @@ constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that 
 double sum_of(const Amplitudes& weights, const Amplitudes& values) {
   double sum = 0.0;
   for (std::size_t k = 0; k < values.real.size(); ++k) sum += weights.real[k] * values.real[k];
-  for (std::size_t k = 0; k < values.pair.size(); ++k) sum += whole(weights.pair[k] * values.pair[k]);
+  for (std::size_t k = 0; k < values.pair.size(); ++k)
+    sum += real_contribution(weights.pair[k] * values.pair[k]);
   return sum;
 }
 
@@ -166,8 +167,8 @@ double size_of_sum(const Amplitudes& weights, const Amplitudes& values) {
 }
 
 /// Rewrites the guard's form in terms of g, ut and their rates, with the constants of the forces.
-Shown reduced(const Form& form, const ForceLaw& law, double& constant) {
-  Shown result;
+ModalKinematics reduced(const Form& form, const ForceLaw& law, double& constant) {
+  ModalKinematics result;
   const double N = form.N;
   result.gap = form.gap + N * law.N_gap + form.T * law.T_gap;
   result.ut = form.ut + form.T * law.T_ut;
@@ -188,12 +189,12 @@ void ModalProof::start(const engine::Segment& segment, const StateModes& state,
   oscillators_ = &oscillators;
   forces_ = &forces;
   decision_ = segment.decision;
-  full_ = false;
+  all_slow_ = false;
   const std::size_t contacts = model_.contacts.size();
   laws_.clear();
   surface_.clear();
   for (std::size_t c = 0; c < contacts; ++c) {
-    laws_.push_back(force_law(model_.contacts[c], decision_->mode[c],
+    laws_.push_back(force_law(model_.contacts[c], decision_->states[c],
                               segment.forcing->applied_normal_force(c, decision_->jet.t, 0)));
     surface_.push_back(segment.forcing->surface(c, decision_->jet.t, 0));
   }
@@ -202,11 +203,11 @@ void ModalProof::start(const engine::Segment& segment, const StateModes& state,
     out.assign(contacts, std::vector<double>(l.size() + 1, 0.0));
     for (std::size_t c = 0; c < contacts; ++c)
       for (std::size_t k = l.size(); k-- > 0;)
-        out[c][k] =
-            out[c][k + 1] + (oscillators.turning()[k] > 0.0 ? rows[c].real[k] * forces.real[k] / l[k] : 0.0);
+        out[c][k] = out[c][k + 1] +
+                    (oscillators.damped_omega()[k] > 0.0 ? rows[c].real[k] * forces.real[k] / l[k] : 0.0);
   };
-  still(state.normal, still_normal_);
-  still(state.tangent, still_tangent_);
+  still(state.normal, static_normal_);
+  still(state.tangent, static_tangent_);
   watch(segment, state);
 }
 
@@ -262,7 +263,7 @@ double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const 
       z = rate;
       rate = next;
     }
-    sum += whole(place * z + slope * rate);
+    sum += real_contribution(place * z + slope * rate);
   };
   for (std::size_t k = 0; k < at.z.real.size(); ++k)
     add(at.z.real[k], at.rate.real[k], forces_->real[k], oscillators_->real()[k], guard.place.real[k],
@@ -276,10 +277,10 @@ double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const 
 void ModalProof::rearm(const ModalPoint& at) {
   for (const Watched& guard : guards_)
     if (!active_guards_.armed(guard.slot))
-      active_guards_.see(guard.slot, value(guard, at), 4.0 * guard.noise);
+      active_guards_.update(guard.slot, value(guard, at), 4.0 * guard.noise);
 }
 
-Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
+ModalKinematics ModalProof::kinematics(std::size_t c, const ModalPoint& at) const {
   return {model_.contacts[c].gap + sum_of(state_->normal[c], at.z),
           sum_of(state_->tangent[c], at.z) - surface_[c], sum_of(state_->normal[c], at.rate),
           sum_of(state_->tangent[c], at.rate)};
@@ -287,7 +288,7 @@ Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
 
 void ModalProof::measure(const ModalPoint& at) {
   oscillators_->amplitudes(at, *forces_, amplitude_, pair_amplitude_);
-  for (Watched& guard : guards_) guard.now = leaves(guard) ? derivative(guard, at) : value(guard, at);
+  for (Watched& guard : guards_) guard.now = starts_at_zero(guard) ? derivative(guard, at) : value(guard, at);
   const std::size_t contacts = model_.contacts.size();
   normal_size_.resize(contacts);
   tangent_size_.resize(contacts);
@@ -302,13 +303,13 @@ void ModalProof::measure(const ModalPoint& at) {
 /// Factor of the bound on mode k: |w_k|, times omega^m if the leading derivative is watched.
 double ModalProof::weight_of(const Watched& guard, std::size_t k) const {
   double weight = guard.size[k];
-  if (leaves(guard)) weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * order_of(guard));
+  if (starts_at_zero(guard)) weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * order_of(guard));
   return weight;
 }
 
 std::size_t ModalProof::first_fast() const {
   const std::size_t n = amplitude_.size();
-  std::size_t first = full_ ? n : 0;
+  std::size_t first = all_slow_ ? n : 0;
   for (const Watched& guard : guards_) {
     if (unknown(guard) || !(guard.now > 0.0)) return n;
     double sum = 0.0;
@@ -326,10 +327,10 @@ void ModalProof::choose_step(double remaining) {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
   const std::size_t first = first_fast();
-  h_ = std::min(remaining, longest_decay / alpha_);
+  h_ = std::min(remaining, max_decay / alpha_);
   if (!l.empty()) {
     const double fastest = l[std::min(first, l.size() - 1)];
-    if (fastest > 0.0) h_ = std::min(h_, turn / std::sqrt(fastest));
+    if (fastest > 0.0) h_ = std::min(h_, max_slow_angle / std::sqrt(fastest));
   }
   // Pairs may grow: they are slow unless the step is long relative to their period and their contribution is small.
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -341,31 +342,32 @@ void ModalProof::choose_step(double remaining) {
       return !(4.0 * most * std::pow(root, order) <
                0.5 * quarter * guard.now / static_cast<double>(pairs.size()));
     });
-    if (shows || first == l.size()) h_ = std::min(h_, turn / std::sqrt(size_of(pairs[k])));
+    if (shows || first == l.size()) h_ = std::min(h_, max_slow_angle / std::sqrt(size_of(pairs[k])));
   }
-  part_modes(first == l.size());
+  split_modes(first == l.size());
 }
 
-void ModalProof::bound_ripples() {
+void ModalProof::bound_fast_modes() {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
   for (Watched& guard : guards_) {
-    guard.ripple = guard.ripple_rate = 0.0;
+    guard.fast_bound = guard.fast_rate_bound = 0.0;
     for (std::size_t k = fast_; k < l.size(); ++k) {
       const double ripple = weight_of(guard, k) * amplitude_[k];
-      guard.ripple += ripple;
-      guard.ripple_rate += ripple * std::sqrt(l[k]);
+      guard.fast_bound += ripple;
+      guard.fast_rate_bound += ripple * std::sqrt(l[k]);
     }
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       if (pair_slow_[k]) continue;
       const double root = std::sqrt(size_of(pairs[k]));
       // e^(gamma h) with gamma <= |Im w|, where cosh grows
-      const double growth = std::exp(std::abs(root_of(pairs[k] - Complex(0.25 * alpha_ * alpha_)).im) * h_);
+      const double growth =
+          std::exp(std::abs(complex_sqrt(pairs[k] - Complex(0.25 * alpha_ * alpha_)).im) * h_);
       const double order = order_of(guard);
       const double ripple = 2.0 * growth * pair_amplitude_[k] * std::pow(root, order) *
                             (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root);
-      guard.ripple += ripple;
-      guard.ripple_rate += ripple * root;
+      guard.fast_bound += ripple;
+      guard.fast_rate_bound += ripple * root;
     }
   }
 }
@@ -375,22 +377,22 @@ void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& s
   const std::size_t c = contact::contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);
   slow_[c].combine(decision_->form(guard.slot), p.data());
-  const Shown& form = guard.form;
+  const ModalKinematics& form = guard.form;
   const auto with = [&](const Size& n, const Size& t) {
     return std::abs(form.gap) * n.place + std::abs(form.ut) * t.place + std::abs(form.vn) * n.rate +
            std::abs(form.vt) * t.rate;
   };
   slack = with(normal_rest_[c], tangent_rest_[c]) +
-          rounding::of_few * (with(normal_size_[c], tangent_size_[c]) + std::abs(guard.constant)) +
+          rounding::few_operations * (with(normal_size_[c], tangent_size_[c]) + std::abs(guard.constant)) +
           rounding_of_guard * guard.noise;
 }
 
-bool ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
-                        double& event) {
+bool ModalProof::find_zero(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                           double& event) {
   GuardOnStep on_step;
   combine(guard, on_step.p, on_step.slack);
-  on_step.ripple = guard.ripple;
-  on_step.ripple_rate = guard.ripple_rate;
+  on_step.fast_bound = guard.fast_bound;
+  on_step.fast_rate_bound = guard.fast_rate_bound;
   on_step.noise = guard.noise;
   on_step.leading = active_guards_.leading(guard.slot);
   on_step.armed = active_guards_.armed(guard.slot);
@@ -400,21 +402,21 @@ bool ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& pas
     oscillators_->advance(at, *forces_, h_ * x, point);
     return value(guard, point);
   };
-  return settle_guard(on_step, guard.slot, h_, value_at, active_guards_, passage, limit, event);
+  return find_guard_zero(on_step, guard.slot, h_, value_at, active_guards_, passage, limit, event);
 }
 
 Passage ModalProof::pass(const ModalPoint& at, double remaining) {
   measure(at);
   for (const Watched& guard : guards_)
-    if (leaves(guard) && !(guard.now > 0.0)) active_guards_.doubt(guard.slot);
+    if (starts_at_zero(guard) && !(guard.now > 0.0)) active_guards_.discard_leading(guard.slot);
   choose_step(remaining);
-  bound_ripples();
+  bound_fast_modes();
   expand(at);
   Passage passage;
   double limit = 1.0, event = 2.0;
   bool doubted = false;
-  for (const Watched& guard : guards_) doubted = !settle(guard, at, passage, limit, event) || doubted;
-  const auto done = end_of_step(std::move(passage), doubted, limit, event, h_, full_);
+  for (const Watched& guard : guards_) doubted = !find_zero(guard, at, passage, limit, event) || doubted;
+  const auto done = end_of_step(std::move(passage), doubted, limit, event, h_, all_slow_);
   return done ? *done : pass(at, remaining);
 }
 

@@ -35,7 +35,7 @@ namespace signorini::modal {
 /// A guard on a step, x in [0, 1].
 struct GuardOnStep {
   std::vector<double> p;  ///< coefficients; of time derivative number `leading` if that is not 0
-  double slack = 0.0, ripple = 0.0, ripple_rate = 0.0;  ///< bounds for g, g, g' (by time), or for p
+  double slack = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;  ///< bounds for g, g, g' (by time), or for p
   double noise = 0.0;
   std::size_t leading = 0;
   bool armed = false;  ///< the guard was clearly positive
@@ -46,9 +46,10 @@ struct GuardOnStep {
 
 /// event: place of the first zero so far; limit: place up to which no guard reaches zero. value_at(x): the guard in
 /// closed form. False: the prediction by the guard's derivatives at the start is refuted and no longer used.
-[[nodiscard]] bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
-                                const std::function<double(double)>& value_at, events::ActiveGuards& arming,
-                                Passage& passage, double& limit, double& event);
+[[nodiscard]] bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
+                                   const std::function<double(double)>& value_at,
+                                   events::ActiveGuards& arming, Passage& passage, double& limit,
+                                   double& event);
 
 /// Passage of the step once its guards are settled, limited by `limit` and `event`; nullopt: the step has to be
 /// repeated, with all modes treated as slow (`full`) unless a guard's start has just been refuted. h: length of the
@@ -61,7 +62,7 @@ struct GuardOnStep {
                                  std::vector<double>& p);
 
 /// Kinematic quantities of a contact.
-struct Shown {
+struct ModalKinematics {
   double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0;
 };
 
@@ -77,58 +78,62 @@ class ModalProof {
   void rearm(const ModalPoint& at);
   /// Sum of the magnitudes of a guard's terms.
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
-  [[nodiscard]] Shown shown(std::size_t contact, const ModalPoint& at) const;
+  [[nodiscard]] ModalKinematics kinematics(std::size_t contact, const ModalPoint& at) const;
   [[nodiscard]] ForceLaw law(std::size_t contact) const { return laws_[contact]; }
 
   // Interface required by modal_flow.hpp.
-  [[nodiscard]] double unit() const { return h_; }
-  [[nodiscard]] double within(const ModalPoint& at, const events::TurningPoints& known, double x_end) const;
-  double expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
-                       double remaining);
-  void see_begin(const ModalPoint& at, double time, events::TurningPoints& turning, LastTurns& turns) const;
+  [[nodiscard]] double step_length() const { return h_; }
+  [[nodiscard]] double length_without_turning(const ModalPoint& at, const events::TurningPointDetector& known,
+                                              double x_end) const;
+  double expand_for_turning(const ModalPoint& at, const events::TurningPointDetector& known, double share,
+                            double remaining);
+  void find_turning_at_start(const ModalPoint& at, double time, events::TurningPointDetector& turning,
+                             LastTurningTimes& turns) const;
   [[nodiscard]] const std::vector<motion::ContactSeries>& series(const ModalPoint& /*at*/) const {
     return slow_;
   }
 
  private:
-  static constexpr double turn = 4.0;           // rad of the fastest slow mode in a step
-  static constexpr double longest_decay = 2.0;  // alpha h
+  static constexpr double max_slow_angle = 4.0;  // rad of the fastest slow mode in a step
+  static constexpr double max_decay = 2.0;       // alpha h
   static constexpr double never = 1e300;
 
   struct Watched {
     std::size_t slot = 0;
-    Shown form;
+    ModalKinematics form;
     double constant = 0.0, noise = 0.0;
-    Amplitudes place, rate;                  // coefficients of z and z' in the guard
-    std::vector<double> size;                // |place| + |rate| sqrt(l), real modes
-    double now = 0.0;                        // value of the guard, or of its leading derivative
-    double ripple = 0.0, ripple_rate = 0.0;  // bounds; for the leading derivative if leaves()
+    Amplitudes place, rate;                          // coefficients of z and z' in the guard
+    std::vector<double> size;                        // |place| + |rate| sqrt(l), real modes
+    double now = 0.0;                                // value of the guard, or of its leading derivative
+    double fast_bound = 0.0, fast_rate_bound = 0.0;  // bounds; for the leading derivative if leaves()
   };
   struct Size {
     double place = 0.0, rate = 0.0;
   };
-  using Watch4 = std::array<double, 4>;  // N, T, g and ut, as in TurningPoints::watched
-  [[nodiscard]] Watch4 ripples(std::size_t contact, bool of_rate) const;
-  [[nodiscard]] Watch4 one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
+  using WatchedValues = std::array<double, 4>;  // N, T, g and ut, as in TurningPointDetector::watched
+  [[nodiscard]] WatchedValues fast_bounds(std::size_t contact, bool of_rate) const;
+  [[nodiscard]] WatchedValues one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
   void watch(const engine::Segment& segment, const StateModes& state);
   [[nodiscard]] double value(const Watched& guard, const ModalPoint& at) const;
   [[nodiscard]] double derivative(const Watched& guard, const ModalPoint& at) const;
   void measure(const ModalPoint& at);
-  void part_modes(bool all_slow);
+  void split_modes(bool all_slow);
   [[nodiscard]] std::size_t first_fast() const;
   void choose_step(double remaining);
-  void bound_ripples();
+  void bound_fast_modes();
   void expand_real(const ModalPoint& at);
   void expand_modes(const ModalPoint& at);
   [[nodiscard]] Size sum(const Amplitudes& row, double still, std::vector<double>& out) const;
   void expand(const ModalPoint& at);
   void combine(const Watched& guard, std::vector<double>& p, double& slack) const;
-  [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
-                            double& event);
+  [[nodiscard]] bool find_zero(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                               double& event);
   /// The guard starts at zero, and its leading derivative is watched.
-  [[nodiscard]] bool leaves(const Watched& guard) const { return active_guards_.leading(guard.slot) > 0; }
+  [[nodiscard]] bool starts_at_zero(const Watched& guard) const {
+    return active_guards_.leading(guard.slot) > 0;
+  }
   [[nodiscard]] bool unknown(const Watched& guard) const {
-    return !active_guards_.armed(guard.slot) && !leaves(guard);
+    return !active_guards_.armed(guard.slot) && !starts_at_zero(guard);
   }
   [[nodiscard]] double order_of(const Watched& guard) const {
     return static_cast<double>(active_guards_.leading(guard.slot));
@@ -145,7 +150,7 @@ class ModalProof {
   std::vector<double> surface_;
   events::ActiveGuards active_guards_;
   std::vector<Watched> guards_;
-  std::vector<std::vector<double>> still_normal_, still_tangent_;  // sums of a_k p_k / l_k from k on
+  std::vector<std::vector<double>> static_normal_, static_tangent_;  // sums of a_k p_k / l_k from k on
   std::vector<double> amplitude_, pair_amplitude_, coefficients_;
   std::vector<Complex> pair_coefficients_;
   std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes, for rounding bounds
@@ -154,7 +159,7 @@ class ModalProof {
   std::vector<bool> pair_slow_;
   std::size_t fast_ = 0, degree_ = 0, count_ = 0;  // number of slow modes; degree and length of their series
   double h_ = 0.0;
-  bool full_ = false;  // the next step treats all modes as slow
+  bool all_slow_ = false;  // the next step treats all modes as slow
 };
 
 }  // namespace signorini::modal

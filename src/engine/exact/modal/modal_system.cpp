@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
 #include "engine/exact/modal/modal_proof.hpp"
@@ -36,7 +36,7 @@ std::string coupling_refusal(const Model& model) {
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.sliding_point()) return "shear elements";
     if (contact.normal_damping != 0.0) return "dashpots of contacts";
-    if (contact::friction_varies(contact)) return contact::named_friction(contact);
+    if (contact::friction_varies(contact)) return contact::friction_description(contact);
   }
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
     return "massless degrees of freedom";
@@ -44,13 +44,13 @@ std::string coupling_refusal(const Model& model) {
   if (!has_narrow_band(model.mass, model.stiffness)) return "matrices with a wide band";
   const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
   const SparseMatrix rest = model.damping - alpha * model.mass;
-  if (!(rest.norm() <= rounding::of_many * model.damping.norm()))
+  if (!(rest.norm() <= rounding::many_operations * model.damping.norm()))
     return "damping that is not proportional to the mass";
   return {};
 }
 
 std::string proportional_refusal(const Model& model) {
-  if (!stands_still(model)) return "loads or surfaces that change other than in jumps";
+  if (!has_constant_excitation(model)) return "loads or surfaces that change other than in jumps";
   if (std::string why = coupling_refusal(model); !why.empty()) return why;
   const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
   if (!(alpha > 0.0)) return "no damping proportional to the mass";
@@ -59,15 +59,16 @@ std::string proportional_refusal(const Model& model) {
   return {};
 }
 
-std::size_t most_state_springs(const Model& model) {
+std::size_t max_state_springs(const Model& model) {
   std::size_t count = 0;
   for (const Contact& contact : model.contacts)
     count += (contact.normal_spring() ? 1u : 0u) + (contact.tangential_stiffness ? 1u : 0u);
   return count;
 }
 
-Amplitudes constant_forces(const Model& model, const StateModes& state, const contact::ContactStates& mode,
-                           const motion::Forcing& forcing, double t) {
+Amplitudes constant_forces(const Model& model, const StateModes& state,
+                           const contact::ContactStates& contact_states, const motion::Forcing& forcing,
+                           double t) {
   Amplitudes forces = state.spectrum.zero();
   const auto add = [&](const Amplitudes& from, double factor) {
     if (factor == 0.0) return;
@@ -78,7 +79,7 @@ Amplitudes constant_forces(const Model& model, const StateModes& state, const co
     add(state.from_load[i], model.loads[i].history.piece(t).value(t));
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    const ForceLaw law = force_law(contact, mode[c], forcing.applied_normal_force(c, t, 0));
+    const ForceLaw law = force_law(contact, contact_states[c], forcing.applied_normal_force(c, t, 0));
     const double gap = contact.gap, surface = forcing.surface(c, t, 0);
     if (!contact.normal_force_given()) add(state.from_normal[c], -(law.N_constant + law.N_gap * gap));
     add(state.from_tangent[c], -(law.T_constant + law.T_gap * gap - law.T_ut * surface));
@@ -86,40 +87,40 @@ Amplitudes constant_forces(const Model& model, const StateModes& state, const co
   return forces;
 }
 
-ModalSystem::ModalSystem(const Model& model, const OpenBasis& basis)
+ModalSystem::ModalSystem(const Model& model, const UnconstrainedBasis& basis)
     : model_(model),
       basis_(basis),
-      poles_(basis.square()),
+      poles_(basis.omega_squared()),
       alpha_(model.damping.coeff(0, 0) / model.mass.coeff(0, 0)) {}
 
-std::shared_ptr<const StateModes> ModalSystem::state(const contact::ContactStates& mode) {
-  const std::vector<State> states = contact::states_of(mode);
+std::shared_ptr<const StateModes> ModalSystem::state(const contact::ContactStates& contact_states) {
+  const std::vector<State> states = contact::states_of(contact_states);
   if (const auto* known = known_.find(states)) return *known;
   ++made_;
-  auto made = std::make_shared<const StateModes>(make(mode));
+  auto made = std::make_shared<const StateModes>(make(contact_states));
   const auto rows = static_cast<std::size_t>(poles_.size());
   const std::size_t lists = 2 * (basis_.normals().size() + basis_.tangents().size() + basis_.loads().size());
-  const std::size_t bytes = made->spectrum.written_bytes() + made->pairs.bytes();
+  const std::size_t bytes = made->spectrum.stored_bytes() + made->pairs.bytes();
   return known_.insert(states, std::move(made),
-                       bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * mode.size())));
+                       bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * contact_states.size())));
 }
 
 /// The matrix is a diagonal plus at most two columns for each contact.
-StateModes ModalSystem::make(const contact::ContactStates& mode) const {
+StateModes ModalSystem::make(const contact::ContactStates& contact_states) const {
   std::vector<Vector> u, v;
   bool symmetric = true;
   const auto add = [&](const Vector& force, const Vector& form, double stiffness) {
     u.push_back(force * std::sqrt(stiffness));
     v.push_back(form * std::sqrt(stiffness));
   };
-  for (std::size_t c = 0; c < mode.size(); ++c) {
-    const ForceLaw law = force_law(model_.contacts[c], mode[c], 0.0);
+  for (std::size_t c = 0; c < contact_states.size(); ++c) {
+    const ForceLaw law = force_law(model_.contacts[c], contact_states[c], 0.0);
     if (law.N_gap != 0.0)
       add(basis_.normal(c) + (law.T_gap / law.N_gap) * basis_.tangent(c), basis_.normal(c), law.N_gap);
     if (law.T_ut != 0.0) add(basis_.tangent(c), basis_.tangent(c), law.T_ut);
     symmetric = symmetric && law.T_gap == 0.0;
   }
-  Eigen::MatrixXd forces(basis_.square().size(), static_cast<Eigen::Index>(u.size())), forms = forces;
+  Eigen::MatrixXd forces(basis_.omega_squared().size(), static_cast<Eigen::Index>(u.size())), forms = forces;
   for (std::size_t a = 0; a < u.size(); ++a) {
     forces.col(static_cast<Eigen::Index>(a)) = u[a];
     forms.col(static_cast<Eigen::Index>(a)) = v[a];
@@ -139,9 +140,9 @@ StateModes ModalSystem::make(const contact::ContactStates& mode) const {
   both(basis_.normals(), made.normal, made.from_normal);
   both(basis_.tangents(), made.tangent, made.from_tangent);
   both(basis_.loads(), made.load, made.from_load);
-  const bool slips =
-      std::any_of(mode.begin(), mode.end(), [](const ContactState& c) { return slip_sign(c.state) != 0; });
-  if (slips && spectrum.written_bytes() > 0) made.pairs = ModePairs(spectrum, alpha_);
+  const bool slips = std::any_of(contact_states.begin(), contact_states.end(),
+                                 [](const ContactState& c) { return slip_sign(c.state) != 0; });
+  if (slips && spectrum.stored_bytes() > 0) made.pairs = ModePairs(spectrum, alpha_);
   return made;
 }
 
@@ -151,7 +152,7 @@ namespace {
 
 constexpr std::size_t most_degree = 30;
 
-/// Errors of N, T, g and ut (TurningPoints::watched) that follow from errors of g and ut.
+/// Errors of N, T, g and ut (TurningPointDetector::watched) that follow from errors of g and ut.
 std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent) {
   return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
           tangent};
@@ -160,10 +161,10 @@ std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent)
 }  // namespace
 
 /// Selects the modes that a step of length h_ follows as polynomials.
-void ModalProof::part_modes(bool all_slow) {
+void ModalProof::split_modes(bool all_slow) {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
-  const double square = turn * turn * (1.0 + 1e-12);
+  const double square = max_slow_angle * max_slow_angle * (1.0 + 1e-12);
   fast_ = static_cast<std::size_t>(
       std::partition_point(l.begin(), l.end(), [&](double value) { return value * h_ * h_ < square; }) -
       l.begin());
@@ -173,8 +174,8 @@ void ModalProof::part_modes(bool all_slow) {
 }
 
 /// Bounds on the contributions of fast modes and of the remainder of the slow ones to N, T, g and ut
-/// (TurningPoints::watched), or to their rates: each mode moves by at most A, and by sqrt(l) A in a unit of time.
-ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
+/// (TurningPointDetector::watched), or to their rates: each mode moves by at most A, and by sqrt(l) A in a unit of time.
+ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) const {
   const ForceLaw& law = laws_[c];
   double normal = of_rate ? normal_rest_[c].rate : normal_rest_[c].place;
   double tangent = of_rate ? tangent_rest_[c].rate : tangent_rest_[c].place;
@@ -188,11 +189,11 @@ ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
 
 /// Part of [0, 1] on which each of N, T, g and ut is monotone or constant, without a turning point. N follows g; T
 /// follows g in slip and ut in stick.
-ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
+ModalProof::WatchedValues ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
-  const Watch4 ripple = ripples(c, true);
+  const WatchedValues ripple = fast_bounds(c, true);
   const auto goes = [&](motion::ContactSeries::Field rate, double off) {
-    const double* a = slow_[c].of(rate);
+    const double* a = slow_[c].coefficients(rate);
     return stays_above(a, degree_, x_end, a[0] < 0.0 ? -1.0 : 1.0, -off, p);
   };
   const double gap = goes(motion::ContactSeries::vn, ripple[2]),
@@ -202,19 +203,21 @@ ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<
   return {N, T, gap, ut};
 }
 
-double ModalProof::within(const ModalPoint& /*at*/, const events::TurningPoints& known, double x_end) const {
+double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events::TurningPointDetector& known,
+                                          double x_end) const {
   if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
   std::vector<double> p(degree_ + 1);
   double safe = 1.0;  // part of x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
-    const Watch4 ripple = ripples(c, false), forth = one_way(c, x_end, p);
-    const Watch4 unsure = of_law(laws_[c], rounding::of_elimination * normal_size_[c].place,
-                                 rounding::of_elimination * tangent_size_[c].place);
+    const WatchedValues ripple = fast_bounds(c, false), forth = one_way(c, x_end, p);
+    const WatchedValues unsure = of_law(laws_[c], rounding::elimination * normal_size_[c].place,
+                                        rounding::elimination * tangent_size_[c].place);
     for (std::size_t f = 0; f < ripple.size(); ++f) {
-      const events::TurningPoints::Range& range = known.range(c, events::TurningPoints::watched[f]);
-      const double* a = slow_[c].of(events::TurningPoints::watched[f]);
-      // see_begin sums the slope in another order: if the slope is only rounding, its sign may differ.
-      if (range.is_left(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
+      const events::TurningPointDetector::Range& range =
+          known.range(c, events::TurningPointDetector::watched_fields[f]);
+      const double* a = slow_[c].coefficients(events::TurningPointDetector::watched_fields[f]);
+      // find_turning_at_start sums the slope in another order: if the slope is only rounding, its sign may differ.
+      if (range.is_exceeded(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
       if (forth[f] >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
         const double room = (sign < 0.0 ? range.greatest : -range.least) - ripple[f];
@@ -226,27 +229,28 @@ double ModalProof::within(const ModalPoint& /*at*/, const events::TurningPoints&
 }
 
 /// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
-void ModalProof::see_begin(const ModalPoint& at, double time, events::TurningPoints& turning,
-                           LastTurns& turns) const {
+void ModalProof::find_turning_at_start(const ModalPoint& at, double time,
+                                       events::TurningPointDetector& turning, LastTurningTimes& turns) const {
   for (std::size_t c = 0; c < laws_.size(); ++c) {
-    const Shown now = shown(c, at);
+    const ModalKinematics now = kinematics(c, at);
     const ForceLaw& law = laws_[c];
-    const Watch4 value{law.N(now.gap), law.T(now.gap, now.ut), now.gap, now.ut};
-    const Watch4 rate{law.N_rate(now.vn), law.T_rate(now.vn, now.vt), now.vn, now.vt};
+    const WatchedValues value{law.N(now.gap), law.T(now.gap, now.ut), now.gap, now.ut};
+    const WatchedValues rate{law.N_rate(now.vn), law.T_rate(now.vn, now.vt), now.vn, now.vt};
     for (std::size_t f = 0; f < value.size(); ++f)
-      if (const auto peak = turning.begins(c, events::TurningPoints::watched[f], value[f], rate[f], time))
+      if (const auto peak = turning.find_at_start(c, events::TurningPointDetector::watched_fields[f],
+                                                  value[f], rate[f], time))
         turns[peak->kind] = peak->time;
   }
 }
 
-double ModalProof::expand_beside(const ModalPoint& at, const events::TurningPoints& known, double share,
-                                 double remaining) {
+double ModalProof::expand_for_turning(const ModalPoint& at, const events::TurningPointDetector& known,
+                                      double share, double remaining) {
   oscillators_->amplitudes(at, *forces_, amplitude_, pair_amplitude_);
   const std::size_t n = amplitude_.size();
   std::size_t first = 0;
   for (std::size_t c = 0; c < slow_.size(); ++c) {
     const ForceLaw& law = laws_[c];
-    const Shown now = shown(c, at);
+    const ModalKinematics now = kinematics(c, at);
     const double N = law.N(now.gap), T = law.T(now.gap, now.ut);
     const auto allowed = [&](motion::ContactSeries::Field field, double value, double factor) {
       return factor == 0.0 ? Oscillators::never
@@ -266,11 +270,11 @@ double ModalProof::expand_beside(const ModalPoint& at, const events::TurningPoin
     }
     first = std::max(first, k);
   }
-  h_ = std::min(remaining, longest_decay / alpha_);
+  h_ = std::min(remaining, max_decay / alpha_);
   if (n > 0 && oscillators_->real()[std::min(first, n - 1)] > 0.0)
-    h_ = std::min(h_, turn / std::sqrt(oscillators_->real()[std::min(first, n - 1)]));
-  for (const Complex l : oscillators_->pairs()) h_ = std::min(h_, turn / std::sqrt(size_of(l)));
-  part_modes(first == n);
+    h_ = std::min(h_, max_slow_angle / std::sqrt(oscillators_->real()[std::min(first, n - 1)]));
+  for (const Complex l : oscillators_->pairs()) h_ = std::min(h_, max_slow_angle / std::sqrt(size_of(l)));
+  split_modes(first == n);
   expand(at);
   return h_;
 }
@@ -303,7 +307,7 @@ void ModalProof::expand_modes(const ModalPoint& at) {
   const std::vector<Complex>& pairs = oscillators_->pairs();
   const double fastest = fast_ > 0 ? std::sqrt(std::abs(l[fast_ - 1])) * h_ : 0.0;
   const bool any_pair = std::any_of(pair_slow_.begin(), pair_slow_.end(), [](bool slow) { return slow; });
-  const double reach = any_pair ? turn : std::max(fastest, 0.5 * alpha_ * h_);
+  const double reach = any_pair ? max_slow_angle : std::max(fastest, 0.5 * alpha_ * h_);
   degree_ = std::min<std::size_t>(most_degree, 10 + static_cast<std::size_t>(5.5 * reach));
   count_ = degree_ + 3;
   coefficients_.resize(count_ * fast_);
@@ -330,12 +334,12 @@ ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vecto
   double left = 2.0 * (of_modes.bottomRows(rest).cwiseAbs() * shown.cwiseAbs()).sum();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!pair_slow_[k]) {
-      still += whole(row.pair[k] * forces_->pair[k] * inverse(pairs[k]));
+      still += real_contribution(row.pair[k] * forces_->pair[k] * inverse(pairs[k]));
       continue;
     }
     for (std::size_t j = 0; j < count_; ++j) {
       const Complex term = row.pair[k] * pair_coefficients_[j * pairs.size() + k];
-      out[j] += whole(term);
+      out[j] += real_contribution(term);
       if (j > degree_) left += 4.0 * size_of(term);
     }
   }
@@ -351,8 +355,8 @@ void ModalProof::expand(const ModalPoint& at) {
   tangent_rest_.resize(contacts);
   std::vector<double> n, t;
   for (std::size_t c = 0; c < contacts; ++c) {
-    normal_rest_[c] = sum(state_->normal[c], still_normal_[c][fast_], n);
-    tangent_rest_[c] = sum(state_->tangent[c], still_tangent_[c][fast_], t);
+    normal_rest_[c] = sum(state_->normal[c], static_normal_[c][fast_], n);
+    tangent_rest_[c] = sum(state_->tangent[c], static_tangent_[c][fast_], t);
     n[0] += model_.contacts[c].gap;
     t[0] -= surface_[c];
     motion::ContactSeries& slow = slow_[c];
@@ -360,13 +364,16 @@ void ModalProof::expand(const ModalPoint& at) {
     const ForceLaw& law = laws_[c];
     for (std::size_t j = 0; j <= degree_; ++j) {
       const double rate = static_cast<double>(j + 1) / h_;
-      slow.place(motion::ContactSeries::gap)[j] = n[j];
-      slow.place(motion::ContactSeries::ut)[j] = slow.place(motion::ContactSeries::slide)[j] = t[j];
-      slow.place(motion::ContactSeries::vn)[j] = rate * n[j + 1];
-      slow.place(motion::ContactSeries::vt)[j] = rate * t[j + 1];
-      slow.place(motion::ContactSeries::an)[j] = rate * n[j + 2] * static_cast<double>(j + 2) / h_;
-      slow.place(motion::ContactSeries::N)[j] = law.N_gap * n[j] + (j == 0 ? law.N_constant : 0.0);
-      slow.place(motion::ContactSeries::T)[j] =
+      slow.mutable_coefficients(motion::ContactSeries::gap)[j] = n[j];
+      slow.mutable_coefficients(motion::ContactSeries::ut)[j] =
+          slow.mutable_coefficients(motion::ContactSeries::slide)[j] = t[j];
+      slow.mutable_coefficients(motion::ContactSeries::vn)[j] = rate * n[j + 1];
+      slow.mutable_coefficients(motion::ContactSeries::vt)[j] = rate * t[j + 1];
+      slow.mutable_coefficients(motion::ContactSeries::an)[j] =
+          rate * n[j + 2] * static_cast<double>(j + 2) / h_;
+      slow.mutable_coefficients(motion::ContactSeries::N)[j] =
+          law.N_gap * n[j] + (j == 0 ? law.N_constant : 0.0);
+      slow.mutable_coefficients(motion::ContactSeries::T)[j] =
           law.T_gap * n[j] + law.T_ut * t[j] + (j == 0 ? law.T_constant : 0.0);
     }
   }

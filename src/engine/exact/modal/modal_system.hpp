@@ -35,7 +35,7 @@ struct ForceLaw {
 /// Reason why a scene cannot be followed in uncoupled modes; empty: it can.
 [[nodiscard]] std::string proportional_refusal(const Model& model);
 /// Number of springs of a state in which all contacts are closed and stick.
-[[nodiscard]] std::size_t most_state_springs(const Model& model);
+[[nodiscard]] std::size_t max_state_springs(const Model& model);
 
 /// One combination of contact states.
 struct StateModes {
@@ -48,32 +48,32 @@ struct StateModes {
 
 /// Y p: modal forces by loads and the constant parts of contact forces in the state, from t on.
 [[nodiscard]] Amplitudes constant_forces(const Model& model, const StateModes& state,
-                                         const contact::ContactStates& mode, const motion::Forcing& forcing,
+                                         const contact::ContactStates& states, const motion::Forcing& forcing,
                                          double t);
 
 /// Limit of states in memory: those of a motion that returns to its states.
-inline constexpr base::CacheBounds most_state_modes{1024, std::size_t{1} << 28};
+inline constexpr base::CacheLimits max_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {
  public:
   /// Both arguments must outlive the object.
-  ModalSystem(const Model& model, const OpenBasis& basis);
+  ModalSystem(const Model& model, const UnconstrainedBasis& basis);
 
   [[nodiscard]] double alpha() const { return alpha_; }
-  [[nodiscard]] const OpenBasis& basis() const { return basis_; }
+  [[nodiscard]] const UnconstrainedBasis& basis() const { return basis_; }
   /// The modes of a state, from the cache or new. Its spectrum may have failed.
-  [[nodiscard]] std::shared_ptr<const StateModes> state(const contact::ContactStates& mode);
+  [[nodiscard]] std::shared_ptr<const StateModes> state(const contact::ContactStates& states);
   /// Number of states computed.
   [[nodiscard]] long made() const { return made_; }
 
  private:
   const Model& model_;
-  const OpenBasis& basis_;
+  const UnconstrainedBasis& basis_;
   Poles poles_;
   double alpha_ = 0.0;
-  [[nodiscard]] StateModes make(const contact::ContactStates& mode) const;
+  [[nodiscard]] StateModes make(const contact::ContactStates& states) const;
 
-  base::BoundedCache<std::vector<State>, std::shared_ptr<const StateModes>> known_{most_state_modes};
+  base::LruCache<std::vector<State>, std::shared_ptr<const StateModes>> known_{max_state_modes};
   long made_ = 0;
 };
 

@@ -52,13 +52,13 @@ template <class Real, class Pair>
 double sum_over(const Amplitudes& row, const Real& real, const Pair& pair) {
   double sum = 0.0;
   for (std::size_t k = 0; k < row.real.size(); ++k) sum += row.real[k] * real(k);
-  for (std::size_t k = 0; k < row.pair.size(); ++k) sum += whole(row.pair[k] * pair(k));
+  for (std::size_t k = 0; k < row.pair.size(); ++k) sum += real_contribution(row.pair[k] * pair(k));
   return sum;
 }
 
 }  // namespace
 
-bool ModalWorkIntegrals::suits(const Spectrum& spectrum, double t_end) {
+bool ModalWorkIntegrals::is_accurate_for(const Spectrum& spectrum, double t_end) {
   const double square = t_end * t_end;
   const auto bad = [&](double l) {
     return std::abs(l) * square > no_frequency && l * square < least_frequency;
@@ -74,15 +74,15 @@ void ModalWorkIntegrals::start(const engine::Segment& segment, const StateModes&
   state_ = &state;
   oscillators_ = &oscillators;
   forces_ = &forces;
-  free_below_ = no_frequency / (t_end * t_end);
+  zero_frequency_limit_ = no_frequency / (t_end * t_end);
   loads_.clear();
   for (std::size_t i = 0; i < model_.loads.size(); ++i) {
     const double t = decision_->jet.t, f = model_.loads[i].history.piece(t).value(t);
     if (f != 0.0) loads_.emplace_back(i, f);
   }
   slipping_.clear();
-  for (std::size_t c = 0; c < decision_->mode.size(); ++c)
-    if (slip_sign(decision_->mode[c].state) != 0) slipping_.push_back(c);
+  for (std::size_t c = 0; c < decision_->states.size(); ++c)
+    if (slip_sign(decision_->states[c].state) != 0) slipping_.push_back(c);
 }
 
 ModalWorkIntegrals::Stretch ModalWorkIntegrals::stretch(const ModalPoint& from, const ModalPoint& to,
@@ -91,7 +91,7 @@ ModalWorkIntegrals::Stretch ModalWorkIntegrals::stretch(const ModalPoint& from, 
   const std::vector<double>& l = oscillators_->real();
   for (std::size_t k = 0; k < l.size(); ++k) {
     const double p = forces_->real[k];
-    if (std::abs(l[k]) < free_below_) {
+    if (std::abs(l[k]) < zero_frequency_limit_) {
       const double d = p / alpha_, r0 = from.rate.real[k] - d, r1 = to.rate.real[k] - d;
       s.drift.push_back(d);
       s.real.push_back({0.0, -r0 / alpha_, r0, -r1 / alpha_, r1});
@@ -166,14 +166,14 @@ void ModalWorkIntegrals::add_oscillating(const Lanes& lanes, Sums& sums) const {
   const ModePairs& pairs = state_->pairs;
   const Eigen::Index n = lanes.l.size();
   const ModeEnds ends{lanes.l.data(), lanes.y0.data(), lanes.r0.data(), lanes.y1.data(), lanes.r1.data()};
-  Eigen::ArrayXd own(pairs.known() ? 0 : n), yy(n), mixed(n);
+  Eigen::ArrayXd own(pairs.available() ? 0 : n), yy(n), mixed(n);
   for (Eigen::Index k = 1; k < n; ++k) {
     if (lanes.y0[k] == 0.0 && lanes.y1[k] == 0.0 && lanes.r0[k] == 0.0 && lanes.r1[k] == 0.0) continue;
-    if (!pairs.known()) pairs_of_mode(state_->spectrum, alpha_, k, own.data());
-    const double* shared = pairs.known() ? pairs.of(k) : own.data();
-    sums.rates -= 2.0 * meet_before(ends, alpha_, k, shared, yy.data(), mixed.data());
+    if (!pairs.available()) pairs_of_mode(state_->spectrum, alpha_, k, own.data());
+    const double* shared = pairs.available() ? pairs.row(k) : own.data();
+    sums.rates -= 2.0 * pair_integrals(ends, alpha_, k, shared, yy.data(), mixed.data());
     for (const std::size_t c : slipping_)
-      sums.crossed[c] += crossed_before(state_->normal[c].real.data(), state_->tangent[c].real.data(), k,
+      sums.crossed[c] += cross_integral(state_->normal[c].real.data(), state_->tangent[c].real.data(), k,
                                         yy.data(), mixed.data());
   }
 }
@@ -185,8 +185,8 @@ void ModalWorkIntegrals::add_real(const Stretch& s, const std::vector<std::size_
   for (const std::size_t k : moving) {
     const Ends<double>& y = s.real[k];
     (y.l == 0.0 ? resting : oscillating).push_back(k);
-    sums.rates +=
-        spectrum.square(k) * integrals(y, y, alpha_).rates + with_drifts(s, k, k, spectrum.square(k));
+    sums.rates += spectrum.norm_squared(k) * integrals(y, y, alpha_).rates +
+                  with_drifts(s, k, k, spectrum.norm_squared(k));
     for (const std::size_t c : slipping_)
       sums.crossed[c] +=
           state_->normal[c].real[k] * state_->tangent[c].real[k] * 0.5 * (y.y1 * y.y1 - y.y0 * y.y0);
@@ -214,11 +214,12 @@ void ModalWorkIntegrals::add_pairs(const Stretch& s, const std::vector<std::size
     for (const std::size_t k : moving) {
       const Integrals<Complex> both = integrals(s.pair[i], complex(s.real[k]), alpha_);
       const Complex x = product(own.c.data() + k * rank, own.h.data() + k * rank, oscillators_->real()[k]);
-      sums.rates += 2.0 * whole(x * (both.rates + (s.pair[i].y1 - s.pair[i].y0) * s.drift[k]));
+      sums.rates += 2.0 * real_contribution(x * (both.rates + (s.pair[i].y1 - s.pair[i].y0) * s.drift[k]));
       for (const std::size_t c : slipping_)
         sums.crossed[c] +=
-            whole(state_->normal[c].pair[i] * both.mixed) * state_->tangent[c].real[k] +
-            whole(state_->tangent[c].pair[i] * (both.changed - both.mixed)) * state_->normal[c].real[k];
+            real_contribution(state_->normal[c].pair[i] * both.mixed) * state_->tangent[c].real[k] +
+            real_contribution(state_->tangent[c].pair[i] * (both.changed - both.mixed)) *
+                state_->normal[c].real[k];
     }
     for (std::size_t j = 0; j < s.pair.size(); ++j)
       for (const bool conjugate : {false, true}) {
@@ -226,7 +227,7 @@ void ModalWorkIntegrals::add_pairs(const Stretch& s, const std::vector<std::size
         const Ends<Complex>& y = s.pair[j];
         const Integrals<Complex> both = integrals(
             s.pair[i], {turned(y.l), turned(y.y0), turned(y.r0), turned(y.y1), turned(y.r1)}, alpha_);
-        Complex x = spectrum.square_of_pair(i);
+        Complex x = spectrum.pair_norm_squared(i);
         if (i != j || conjugate) {
           std::vector<Complex> c(rank), h(rank);
           for (std::size_t a = 0; a < rank; ++a) {
@@ -235,15 +236,15 @@ void ModalWorkIntegrals::add_pairs(const Stretch& s, const std::vector<std::size
           }
           x = product(c.data(), h.data(), turned(y.l));
         }
-        sums.rates += whole(x * both.rates);
+        sums.rates += real_contribution(x * both.rates);
         for (const std::size_t c : slipping_)
           sums.crossed[c] +=
-              whole(state_->normal[c].pair[i] * turned(state_->tangent[c].pair[j]) * both.mixed);
+              real_contribution(state_->normal[c].pair[i] * turned(state_->tangent[c].pair[j]) * both.mixed);
       }
   }
 }
 
-double ModalWorkIntegrals::gap_area(const Stretch& s, std::size_t c) const {
+double ModalWorkIntegrals::gap_integral(const Stretch& s, std::size_t c) const {
   return model_.contacts[c].gap * s.time + sum_over(
                                                state_->normal[c],
                                                [&](std::size_t k) { return s.area.real[k]; },
@@ -274,7 +275,7 @@ double ModalWorkIntegrals::gap_times_slide(const Stretch& s, std::size_t c, doub
         const Ends<Complex>& y = s.pair[k];
         return -((y.r1 - y.r0 + (y.y1 - y.y0) * alpha_) * inverse(y.l));
       });
-  return v_drift * gap_area(s, c) + (gap - at_begin(a)) * (end - at_begin(b)) +
+  return v_drift * gap_integral(s, c) + (gap - at_begin(a)) * (end - at_begin(b)) +
          g_drift * (s.time * end - area) + crossed;
 }
 
@@ -299,15 +300,15 @@ void ModalWorkIntegrals::add(const ModalProof& proof, const ModalPoint& from, co
   }
   works.damping += alpha_ * sums.rates;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    const ContactState& state = decision_->mode[c];
+    const ContactState& state = decision_->states[c];
     if (state.is_open()) continue;
     const Contact& contact = model_.contacts[c];
     const ForceLaw law = proof.law(c);
     if (!contact.normal_force_given())
-      works.applied_normal_force[c] -= law.N_gap * gap_area(s, c) + law.N_constant * time;
+      works.applied_normal_force[c] -= law.N_gap * gap_integral(s, c) + law.N_constant * time;
     const int direction = slip_sign(state.state);
     if (direction == 0) continue;
-    const Shown begin = proof.shown(c, from), end = proof.shown(c, to);
+    const ModalKinematics begin = proof.kinematics(c, from), end = proof.kinematics(c, to);
     const Form rate = contact::slip_rate(contact, direction);
     const double slide = end.ut - begin.ut, rise = end.gap - begin.gap;
     works.friction[c] += law.T_constant * (rate.vt * slide + rate.vn * rise) +

@@ -19,7 +19,7 @@ class ModalWorkIntegrals {
   ModalWorkIntegrals(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
 
   /// False: a frequency is too low for the closed form of works and too high to count as zero.
-  [[nodiscard]] static bool suits(const Spectrum& spectrum, double t_end);
+  [[nodiscard]] static bool is_accurate_for(const Spectrum& spectrum, double t_end);
 
   /// All arguments except t_end must live until the next start.
   void start(const engine::Segment& segment, const StateModes& state, const Oscillators& oscillators,
@@ -60,12 +60,12 @@ class ModalWorkIntegrals {
   void add_real(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
   void add_pairs(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
   [[nodiscard]] std::vector<std::size_t> moving(const Stretch& s) const;
-  [[nodiscard]] double gap_area(const Stretch& s, std::size_t contact) const;
+  [[nodiscard]] double gap_integral(const Stretch& s, std::size_t contact) const;
   [[nodiscard]] double gap_times_slide(const Stretch& s, std::size_t contact, double gap,
                                        double crossed) const;
 
   const Model& model_;
-  double alpha_, free_below_ = 0.0;
+  double alpha_, zero_frequency_limit_ = 0.0;
   const decide::Decision* decision_ = nullptr;
   const StateModes* state_ = nullptr;
   const Oscillators* oscillators_ = nullptr;

@@ -1,6 +1,6 @@
 #include "engine/exact/modal/mode_pairs.hpp"
 
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::modal {
 
@@ -43,11 +43,11 @@ template <class T>
 
 }  // namespace
 
-SIGNORINI_WIDE_LANES double meet_before(const ModeEnds& ends, double alpha, std::ptrdiff_t k,
-                                        const double* shared, double* yy, double* mixed) {
-  base::Four sum = {};
+SIGNORINI_WIDE_LANES double pair_integrals(const ModeEnds& ends, double alpha, std::ptrdiff_t k,
+                                           const double* shared, double* yy, double* mixed) {
+  base::Double4 sum = {};
   std::ptrdiff_t i = 0;
-  for (; i + 4 <= k; i += 4) meet<base::Four>(ends, alpha, k, i, shared, yy, mixed, sum);
+  for (; i + 4 <= k; i += 4) meet<base::Double4>(ends, alpha, k, i, shared, yy, mixed, sum);
   for (int lane = 0; i < k; ++i, ++lane) {
     double own = 0.0;
     meet<double>(ends, alpha, k, i, shared, yy, mixed, own);
@@ -56,14 +56,14 @@ SIGNORINI_WIDE_LANES double meet_before(const ModeEnds& ends, double alpha, std:
   return base::sum_of_lanes(sum);
 }
 
-SIGNORINI_WIDE_LANES double crossed_before(const double* n, const double* t, std::ptrdiff_t k,
+SIGNORINI_WIDE_LANES double cross_integral(const double* n, const double* t, std::ptrdiff_t k,
                                            const double* yy, const double* mixed) {
-  base::Four to_t = {}, to_n = {};
+  base::Double4 to_t = {}, to_n = {};
   std::ptrdiff_t i = 0;
   for (; i + 4 <= k; i += 4) {
-    const base::Four both = base::lanes_at<base::Four>(mixed + i).v;
-    to_t += base::lanes_at<base::Four>(t + i).v * both;
-    to_n += base::lanes_at<base::Four>(n + i).v * (base::lanes_at<base::Four>(yy + i).v - both);
+    const base::Double4 both = base::lanes_at<base::Double4>(mixed + i).v;
+    to_t += base::lanes_at<base::Double4>(t + i).v * both;
+    to_n += base::lanes_at<base::Double4>(n + i).v * (base::lanes_at<base::Double4>(yy + i).v - both);
   }
   for (int lane = 0; i < k; ++i, ++lane) {
     to_t[lane] += t[i] * mixed[i];

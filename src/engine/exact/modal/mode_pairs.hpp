@@ -17,9 +17,9 @@ class ModePairs {
  public:
   ModePairs() = default;
   ModePairs(const Spectrum& spectrum, double alpha);
-  [[nodiscard]] bool known() const { return !shared_.empty(); }
+  [[nodiscard]] bool available() const { return !shared_.empty(); }
   /// shared_kl for all l < k.
-  [[nodiscard]] const double* of(Eigen::Index k) const { return shared_.data() + k * (k - 1) / 2; }
+  [[nodiscard]] const double* row(Eigen::Index k) const { return shared_.data() + k * (k - 1) / 2; }
   [[nodiscard]] std::size_t bytes() const { return sizeof(double) * shared_.size(); }
 
  private:
@@ -45,11 +45,11 @@ struct ModeEnds {
 
 /// For mode k and all i < k: writes [yy] and int y_k y_i', returns the sum of -x_k^T x_i int y_k' y_i'. shared: x_k^T
 /// x_i e (mode_pairs.hpp).
-[[nodiscard]] double meet_before(const ModeEnds& ends, double alpha, std::ptrdiff_t k, const double* shared,
-                                 double* yy, double* mixed);
+[[nodiscard]] double pair_integrals(const ModeEnds& ends, double alpha, std::ptrdiff_t k,
+                                    const double* shared, double* yy, double* mixed);
 
 /// sum over i < k of n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ): contribution of both to int (sum n y)(sum t y').
-[[nodiscard]] double crossed_before(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
+[[nodiscard]] double cross_integral(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
                                     const double* mixed);
 
 }  // namespace signorini::modal

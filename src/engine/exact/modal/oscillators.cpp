@@ -9,8 +9,8 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double small_turn = 1.0;      // l time^2 up to which the series is used
-constexpr std::size_t most_terms = 64;  // alpha time <= 4 and l time^2 <= 1: 40 are enough
+constexpr double small_turn = 1.0;     // l time^2 up to which the series is used
+constexpr std::size_t max_terms = 64;  // alpha time <= 4 and l time^2 <= 1: 40 are enough
 
 Complex cosine(Complex a) { return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)}; }
 Complex sine(Complex a) { return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)}; }
@@ -21,7 +21,7 @@ template <class S>
 void by_series(S& z, S& rate, S& integral, S p, S l, double alpha, double time) {
   S a = z, b = rate * time;  // coefficients j and j + 1
   S sum = a + b, slope = b, area = a + b * 0.5, force = p * (time * time);
-  for (std::size_t j = 0; j < most_terms; ++j) {
+  for (std::size_t j = 0; j < max_terms; ++j) {
     const double down = 1.0 / static_cast<double>(j + 2);
     const S next =
         (force - a * l * (time * time)) * (down / static_cast<double>(j + 1)) - b * (alpha * time * down);
@@ -54,9 +54,10 @@ Oscillators::Oscillators(const Spectrum& spectrum, double alpha)
     : alpha_(alpha), real_(spectrum.real()), pairs_(spectrum.pairs()) {
   for (const double l : real_) {
     const double square = l - 0.25 * alpha * alpha;
-    turning_.push_back(square > 0.0 ? std::sqrt(square) : 0.0);
+    damped_omega_.push_back(square > 0.0 ? std::sqrt(square) : 0.0);
   }
-  for (const Complex l : pairs_) pair_turning_.push_back(root_of(l - Complex(0.25 * alpha * alpha)));
+  for (const Complex l : pairs_)
+    pair_damped_omega_.push_back(complex_sqrt(l - Complex(0.25 * alpha * alpha)));
 }
 
 /// by_series for the first `count` real modes, a block at a time: term by term, until a majorant of the block's last
@@ -78,7 +79,7 @@ void Oscillators::slow_by_series(const Amplitudes& p, std::size_t count, double 
     }
     const double most = std::max(std::abs(l[0]), std::abs(l[end - begin - 1]));
     double bound = 1.0, next_bound = 1.0;
-    for (std::size_t j = 0; j < most_terms; ++j) {
+    for (std::size_t j = 0; j < max_terms; ++j) {
       const double down = 1.0 / static_cast<double>(j + 2), pull = down / static_cast<double>(j + 1);
       const double drag = alpha_ * time * down;
       for (std::size_t i = 0; i < width; ++i) {
@@ -105,18 +106,18 @@ void Oscillators::advance(const ModalPoint& from, const Amplitudes& p, double ti
   to = from;
   const double decay = std::exp(-0.5 * alpha_ * time), square = time * time;
   const auto turns = [&](std::size_t k) {
-    return real_[k] * square > small_turn && turning_[k] * time > 0.5;
+    return real_[k] * square > small_turn && damped_omega_[k] * time > 0.5;
   };
   std::size_t first = 0;  // eigenvalues ascend
   while (first < real_.size() && !turns(first)) ++first;
   slow_by_series(p, first, time, to);
   for (std::size_t k = first; k < real_.size(); ++k)
-    in_closed_form(to.z.real[k], to.rate.real[k], p.real[k], real_[k], turning_[k], alpha_, decay, time);
+    in_closed_form(to.z.real[k], to.rate.real[k], p.real[k], real_[k], damped_omega_[k], alpha_, decay, time);
   Complex complex_area;
   for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (size_of(pairs_[k]) * square > small_turn && size_of(pair_turning_[k]) * time > 0.5)
-      in_closed_form(to.z.pair[k], to.rate.pair[k], p.pair[k], pairs_[k], pair_turning_[k], alpha_, decay,
-                     time);
+    if (size_of(pairs_[k]) * square > small_turn && size_of(pair_damped_omega_[k]) * time > 0.5)
+      in_closed_form(to.z.pair[k], to.rate.pair[k], p.pair[k], pairs_[k], pair_damped_omega_[k], alpha_,
+                     decay, time);
     else
       by_series(to.z.pair[k], to.rate.pair[k], complex_area, p.pair[k], pairs_[k], alpha_, time);
 }
@@ -125,7 +126,7 @@ void Oscillators::amplitudes(const ModalPoint& at, const Amplitudes& p, std::vec
                              std::vector<double>& pair) const {
   real.resize(real_.size());
   for (std::size_t k = 0; k < real_.size(); ++k) {
-    const double w = turning_[k];
+    const double w = damped_omega_[k];
     if (!(w > 0.0)) {
       real[k] = never;
       continue;
@@ -140,7 +141,7 @@ void Oscillators::amplitudes(const ModalPoint& at, const Amplitudes& p, std::vec
   }
 }
 
-Amplitudes Oscillators::second(const ModalPoint& at, const Amplitudes& p) const {
+Amplitudes Oscillators::accelerations(const ModalPoint& at, const Amplitudes& p) const {
   Amplitudes second;
   for (std::size_t k = 0; k < at.z.real.size(); ++k)
     second.real.push_back(p.real[k] - alpha_ * at.rate.real[k] - real_[k] * at.z.real[k]);

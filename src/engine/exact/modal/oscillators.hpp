@@ -43,13 +43,13 @@ class Oscillators {
   [[nodiscard]] const std::vector<double>& real() const { return real_; }
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_; }
   /// w of real modes; 0 for those that do not oscillate.
-  [[nodiscard]] const std::vector<double>& turning() const { return turning_; }
+  [[nodiscard]] const std::vector<double>& damped_omega() const { return damped_omega_; }
   /// w of pairs: its imaginary part is the growth rate of one mode of each pair relative to e^(-alpha t/2).
-  [[nodiscard]] const std::vector<Complex>& pair_turning() const { return pair_turning_; }
+  [[nodiscard]] const std::vector<Complex>& pair_damped_omega() const { return pair_damped_omega_; }
   /// The motion after `time`; alpha time <= 4. Forces p are constant.
   void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
   /// z''
-  [[nodiscard]] Amplitudes second(const ModalPoint& at, const Amplitudes& p) const;
+  [[nodiscard]] Amplitudes accelerations(const ModalPoint& at, const Amplitudes& p) const;
   /// Amplitude bound of a mode that does not oscillate: larger than any other, but finite, since zero times infinity is
   /// NaN.
   static constexpr double never = 1e300;
@@ -63,8 +63,8 @@ class Oscillators {
  private:
   void slow_by_series(const Amplitudes& p, std::size_t count, double time, ModalPoint& to) const;
   double alpha_ = 0.0;
-  std::vector<double> real_, turning_;
-  std::vector<Complex> pairs_, pair_turning_;
+  std::vector<double> real_, damped_omega_;
+  std::vector<Complex> pairs_, pair_damped_omega_;
 };
 
 /// coefficients[j] = time^j / j! times the derivative of order j of z, 0 <= j < count.

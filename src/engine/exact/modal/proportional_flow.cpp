@@ -5,7 +5,7 @@
 
 namespace signorini::modal {
 
-ProportionalFlow::ProportionalFlow(const Model& model, const OpenBasis& basis, double t_end)
+ProportionalFlow::ProportionalFlow(const Model& model, const UnconstrainedBasis& basis, double t_end)
     : model_(model),
       t_end_(t_end),
       system_(model, basis),
@@ -13,34 +13,34 @@ ProportionalFlow::ProportionalFlow(const Model& model, const OpenBasis& basis, d
       works_(model, system_.alpha()) {}
 
 /// Reason why the series has to follow a segment; empty: none.
-std::string ProportionalFlow::obstacle(const engine::Segment& segment) {
+std::string ProportionalFlow::unsupported_reason(const engine::Segment& segment) {
   if (segment.forcing->varies()) return "forces or surfaces that change";
-  state_ = system_.state(segment.decision->mode);
+  state_ = system_.state(segment.decision->states);
   if (!state_->spectrum.failure().empty()) return state_->spectrum.failure();
-  if (!ModalWorkIntegrals::suits(state_->spectrum, t_end_))
+  if (!ModalWorkIntegrals::is_accurate_for(state_->spectrum, t_end_))
     return "frequencies that are neither zero nor fast beside the run";
   return {};
 }
 
 std::string ProportionalFlow::start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                     ModalPoint& now) {
-  if (std::string why = obstacle(segment); !why.empty()) return why;
+  if (std::string why = unsupported_reason(segment); !why.empty()) return why;
   segment_ = &segment;
   oscillators_ = Oscillators(state_->spectrum, system_.alpha());
   state_->spectrum.to_modes({&q, &rate}, {&now.z, &now.rate});
   forces_ =
-      constant_forces(model_, *state_, segment.decision->mode, *segment.forcing, segment.decision->jet.t);
+      constant_forces(model_, *state_, segment.decision->states, *segment.forcing, segment.decision->jet.t);
   proof_.start(segment, *state_, oscillators_, forces_);
   works_.start(segment, *state_, oscillators_, forces_, t_end_);
   return {};
 }
 
-void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                                  events::TurningPoints& turning, LastTurns& turns) {
+void ProportionalFlow::find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
+                                           events::TurningPointDetector& turning, LastTurningTimes& turns) {
   const auto advance = [&](const ModalPoint& at, double step, ModalPoint& to) {
     oscillators_.advance(at, forces_, step, to);
   };
-  find_passage_turns(proof_, advance, from, begin, length, observed, turning, turns);
+  find_turning_points_in_passage(proof_, advance, from, begin, length, observed, turning, turns);
 }
 
 std::optional<engine::FastModeBound> ProportionalFlow::fast_mode_bound(const ModalPoint& from, double time,
@@ -62,13 +62,13 @@ std::optional<engine::FastModeBound> ProportionalFlow::fast_mode_bound(const Mod
   for (std::size_t k = 0; k < real.size(); ++k) {
     const double rate = std::sqrt(std::abs(oscillators_.real()[k]));
     if (!(std::max(rate, oscillators_.alpha()) > omega)) continue;
-    if (!(oscillators_.turning()[k] > 0.0)) return std::nullopt;
+    if (!(oscillators_.damped_omega()[k] > 0.0)) return std::nullopt;
     add(rate, real[k], [&](const Amplitudes& of) { return std::abs(of.real[k]); });
   }
   for (std::size_t k = 0; k < pair.size(); ++k) {
     const double rate = std::sqrt(size_of(oscillators_.pairs()[k]));
     if (!(rate > omega)) continue;
-    const double grown = std::exp(std::abs(oscillators_.pair_turning()[k].im) * time);
+    const double grown = std::exp(std::abs(oscillators_.pair_damped_omega()[k].im) * time);
     add(rate, 2.0 * pair[k] * grown, [&](const Amplitudes& of) { return size_of(of.pair[k]); });
   }
   engine::FastModeBound r{u.value(), v.value(), a.value(), Eigen::VectorXd::Zero(model_.force_count())};
@@ -83,7 +83,7 @@ std::optional<engine::FastModeBound> ProportionalFlow::fast_mode_bound(const Mod
 
 void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vector* change) const {
   if (!change) return state_->spectrum.from_modes({&z.z, &z.rate}, {&q, &rate});
-  const Amplitudes second = oscillators_.second(z, forces_);
+  const Amplitudes second = oscillators_.accelerations(z, forces_);
   state_->spectrum.from_modes({&z.z, &z.rate, &second}, {&q, &rate, change});
 }
 

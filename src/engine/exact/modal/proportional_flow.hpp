@@ -11,7 +11,7 @@ namespace signorini::modal {
 class ProportionalFlow final : public ModalFlow {
  public:
   /// All arguments except t_end must outlive the object.
-  ProportionalFlow(const Model& model, const OpenBasis& basis, double t_end);
+  ProportionalFlow(const Model& model, const UnconstrainedBasis& basis, double t_end);
 
   [[nodiscard]] std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now) override;
@@ -29,8 +29,8 @@ class ProportionalFlow final : public ModalFlow {
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const override {
     return proof_.magnitude(slot, at);
   }
-  void find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                  events::TurningPoints& turning, LastTurns& turns) override;
+  void find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
+                           events::TurningPointDetector& turning, LastTurningTimes& turns) override;
   void add_works(const ModalPoint& from, const ModalPoint& to, double time,
                  motion::WorkIntegrals& works) const override {
     works_.add(proof_, from, to, time, works);
@@ -44,7 +44,7 @@ class ProportionalFlow final : public ModalFlow {
   [[nodiscard]] long states_made() const override { return system_.made(); }
 
  private:
-  [[nodiscard]] std::string obstacle(const engine::Segment& segment);
+  [[nodiscard]] std::string unsupported_reason(const engine::Segment& segment);
 
   const Model& model_;
   const double t_end_;

@@ -3,25 +3,26 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "base/wide_lanes.hpp"
+#include "base/simd.hpp"
 
 namespace signorini::modal {
 namespace {
 
-constexpr std::size_t most_at_once = 3;
+constexpr std::size_t max_at_once = 3;
 
 /// y[s][i] := row[i] . x[s] for Rows rows, consecutive in memory, and Vectors vectors.
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void rows_times(const double* row, std::ptrdiff_t columns,
                                               const double* const* x, double* const* y,
                                               std::ptrdiff_t first) {
-  base::Four sum[Rows][Vectors] = {};
+  base::Double4 sum[Rows][Vectors] = {};
   std::ptrdiff_t k = 0;
   for (; k + 4 <= columns; k += 4)
     for (std::size_t r = 0; r < Rows; ++r) {
-      const base::Four entry =
-          base::lanes_at<base::Four>(row + static_cast<std::ptrdiff_t>(r) * columns + k).v;
-      for (std::size_t s = 0; s < Vectors; ++s) sum[r][s] += entry * base::lanes_at<base::Four>(x[s] + k).v;
+      const base::Double4 entry =
+          base::lanes_at<base::Double4>(row + static_cast<std::ptrdiff_t>(r) * columns + k).v;
+      for (std::size_t s = 0; s < Vectors; ++s)
+        sum[r][s] += entry * base::lanes_at<base::Double4>(x[s] + k).v;
     }
   for (std::size_t r = 0; r < Rows; ++r)
     for (std::size_t s = 0; s < Vectors; ++s) {
@@ -60,10 +61,10 @@ void thin_product(const RowMatrix& a, const std::vector<const Eigen::VectorXd*>&
   constexpr void (*times[])(const double*, std::ptrdiff_t, std::ptrdiff_t, const double* const*,
                             double* const*) = {times_one, times_two, times_three};
   for (Eigen::VectorXd* out : y) out->resize(a.rows());
-  for (std::size_t s = 0; s < x.size(); s += most_at_once) {
-    const std::size_t count = std::min(most_at_once, x.size() - s);
-    const double* from[most_at_once];
-    double* to[most_at_once];
+  for (std::size_t s = 0; s < x.size(); s += max_at_once) {
+    const std::size_t count = std::min(max_at_once, x.size() - s);
+    const double* from[max_at_once];
+    double* to[max_at_once];
     for (std::size_t i = 0; i < count; ++i) {
       from[i] = x[s + i]->data();
       to[i] = y[s + i]->data();

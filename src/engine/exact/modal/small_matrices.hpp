@@ -13,12 +13,12 @@
 namespace signorini::modal {
 
 /// Limit for the springs of closed contacts in a state of the modal flow.
-inline constexpr std::size_t most_rank = 12;
+inline constexpr std::size_t max_rank = 12;
 
 template <class S>
-using SmallMatrix = std::array<std::array<S, most_rank>, most_rank>;
+using SmallMatrix = std::array<std::array<S, max_rank>, max_rank>;
 template <class S>
-using SmallVector = std::array<S, most_rank>;
+using SmallVector = std::array<S, max_rank>;
 
 template <class S>
 class SmallLu {
@@ -128,7 +128,7 @@ class SmallLu {
  private:
   std::size_t rank_;
   SmallMatrix<S> a_;
-  std::array<std::size_t, most_rank> row_{}, column_{};
+  std::array<std::size_t, max_rank> row_{}, column_{};
   bool singular_ = false;
 };
 

@@ -20,7 +20,7 @@ constexpr double worst_condition = 1e4;
 }  // namespace
 
 Poles::Poles(const Eigen::VectorXd& values)
-    : base(values.data(), values.data() + values.size()), tiny(base.size(), 0.0) {
+    : base(values.data(), values.data() + values.size()), separation(base.size(), 0.0) {
   double scale = 1.0;
   for (const double value : base)
     if (value > 0.0) {
@@ -30,7 +30,8 @@ Poles::Poles(const Eigen::VectorXd& values)
   for (std::size_t i = 1; i < base.size(); ++i)
     if (base[i] - base[i - 1] <= equal * base[i]) base[i] = base[i - 1];
   for (std::size_t i = 1; i < base.size(); ++i)
-    if (base[i] == base[i - 1]) tiny[i] = tiny[i - 1] + parting * std::max(scale, base[i]);
+    if (base[i] == base[i - 1])
+      separation[i] = separation[i - 1] + pole_separation * std::max(scale, base[i]);
 }
 
 Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
@@ -38,7 +39,7 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
     : rank_(static_cast<std::size_t>(u.cols())), order_(poles.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t(0));
   values_ = poles.base;
-  if (rank_ > most_rank) {
+  if (rank_ > max_rank) {
     failure_ = "too many springs of closed contacts for the modes of a contact state";
     return;
   }
@@ -57,17 +58,17 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
     std::fill_n(group_begin_.begin() + static_cast<std::ptrdiff_t>(first), last - first, first);
     std::fill_n(group_end_.begin() + static_cast<std::ptrdiff_t>(first), last - first, last);
   }
-  turn_equal_modes(u, v);
-  take_seen(poles, u, v);
+  rotate_equal_modes(u, v);
+  select_coupled(poles, u, v);
   if (symmetric) {
     std::vector<double> offset(n_);
     if (search(offset)) {
-      real_.home = home_;
+      real_.pole_index = home_;
       real_.offset = std::move(offset);
     }
   } else {
     std::vector<Complex> offset(n_);
-    if (search(offset) && !part_kinds(offset))
+    if (search(offset) && !split_real_and_pairs(offset))
       failure_ = "complex eigenvalues do not come in conjugate pairs";
   }
   if (!failure_.empty()) return;
@@ -76,21 +77,21 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   order_values();
   find_squares();
   find_alike();
-  part_close_roots();
+  split_close_roots();
   find_products();
-  if (order_.size() + 2 * pairs_.size() <= written_up_to) write_out();
+  if (order_.size() + 2 * pairs_.size() <= written_up_to) store_matrices();
   test();
 }
 
 /// Rotates V so that it has no more nonzero rows than its rank.
-void Spectrum::turn_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
+void Spectrum::rotate_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
   for (std::size_t first = 0; first < group_end_.size(); first = group_end_[first]) {
     const auto row = static_cast<Eigen::Index>(first),
                rows = static_cast<Eigen::Index>(group_end_[first] - first);
     if (rows == 1) continue;
     const Eigen::MatrixXd seen = v.middleRows(row, rows);
     const base::EigenPairs pairs = base::symmetric_eigen(seen * seen.transpose());
-    turns_.emplace_back(row, pairs.vectors);
+    rotations_.emplace_back(row, pairs.vectors);
     for (Eigen::MatrixXd* matrix : {&u, &v})
       matrix->middleRows(row, rows) = (pairs.vectors.transpose() * matrix->middleRows(row, rows)).eval();
     const double most = v.middleRows(row, rows).cwiseAbs().maxCoeff();
@@ -99,16 +100,16 @@ void Spectrum::turn_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
   }
 }
 
-void Spectrum::take_seen(const Poles& poles, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v) {
+void Spectrum::select_coupled(const Poles& poles, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v) {
   const double least = filling * v.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < v.rows(); ++i)
-    (v.row(i).cwiseAbs().maxCoeff() > least ? seen_ : unseen_).push_back(i);
-  n_ = seen_.size();
+    (v.row(i).cwiseAbs().maxCoeff() > least ? coupled_ : uncoupled_).push_back(i);
+  n_ = coupled_.size();
   std::vector<std::size_t> begin, end;
   for (std::size_t i = 0; i < n_; ++i) {
-    const auto old = static_cast<std::size_t>(seen_[i]);
+    const auto old = static_cast<std::size_t>(coupled_[i]);
     poles_.base.push_back(poles.base[old]);
-    poles_.tiny.push_back(poles.tiny[old]);
+    poles_.separation.push_back(poles.separation[old]);
     const bool same = i > 0 && poles_.base[i] == poles_.base[i - 1];
     begin.push_back(same ? begin.back() : i);
   }
@@ -116,10 +117,10 @@ void Spectrum::take_seen(const Poles& poles, const Eigen::MatrixXd& u, const Eig
   for (std::size_t i = n_; i-- > 1;) end[i - 1] = begin[i] == begin[i - 1] ? end[i] : i;
   group_begin_ = std::move(begin);
   group_end_ = std::move(end);
-  u_ = u(seen_, Eigen::all);
-  v_ = v(seen_, Eigen::all);
-  u_unseen_ = u(unseen_, Eigen::all);
-  for (const Eigen::Index i : unseen_) unseen_poles_.push_back(poles.base[static_cast<std::size_t>(i)]);
+  u_ = u(coupled_, Eigen::all);
+  v_ = v(coupled_, Eigen::all);
+  u_uncoupled_ = u(uncoupled_, Eigen::all);
+  for (const Eigen::Index i : uncoupled_) uncoupled_poles_.push_back(poles.base[static_cast<std::size_t>(i)]);
   const double fill = filling * u.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < u_.rows(); ++i)
     if (u_.row(i).cwiseAbs().maxCoeff() <= fill) u_.row(i).setConstant(fill);
@@ -137,7 +138,7 @@ void Spectrum::take_seen(const Poles& poles, const Eigen::MatrixXd& u, const Eig
 
 void Spectrum::order_values() {
   std::vector<double> values = real_.value;
-  values.insert(values.end(), unseen_poles_.begin(), unseen_poles_.end());
+  values.insert(values.end(), uncoupled_poles_.begin(), uncoupled_poles_.end());
   order_.resize(values.size());
   std::iota(order_.begin(), order_.end(), std::size_t(0));
   std::sort(order_.begin(), order_.end(),
@@ -170,15 +171,15 @@ void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool for
   z.assign(count, S(0.0));
   std::vector<double> base(count), tiny(count);
   for (std::size_t k = 0; k < count; ++k) {
-    base[k] = poles_.base[roots.home[k]];
-    tiny[k] = poles_.tiny[roots.home[k]];
+    base[k] = poles_.base[roots.pole_index[k]];
+    tiny[k] = poles_.separation[roots.pole_index[k]];
   }
   const Eigen::MatrixXd& side = form ? u_ : v_;
   std::vector<S> sums(count * rank_, S(0.0)), one(count);
   for (std::size_t i = 0; i < n_; ++i) {
-    const double entry = q[seen_[i]];
+    const double entry = q[coupled_[i]];
     if (entry == 0.0) continue;
-    const double base_i = poles_.base[i], tiny_i = poles_.tiny[i];
+    const double base_i = poles_.base[i], tiny_i = poles_.separation[i];
     for (std::size_t k = 0; k < count; ++k)
       one[k] = inverse(S((base_i - base[k]) + (tiny_i - tiny[k])) - roots.offset[k]);
     for (std::size_t a = 0; a < rank_; ++a) {
@@ -194,20 +195,23 @@ void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool for
 
 /// Motion of an unseen mode in each seen mode: -1/(D_j - l) U_j c.
 template <class S>
-S Spectrum::moved(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const {
+S Spectrum::uncoupled_coordinate(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const {
   S sum{};
   for (std::size_t a = 0; a < rank_; ++a)
-    sum += roots.right[k * rank_ + a] * u_unseen_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
+    sum +=
+        roots.right[k * rank_ + a] * u_uncoupled_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
   if (!(size_of(sum) > 0.0)) return S(0.0);
-  return sum * inverse(S(pole - poles_.base[roots.home[k]] - poles_.tiny[roots.home[k]]) - roots.offset[k]);
+  return sum * inverse(S(pole - poles_.base[roots.pole_index[k]] - poles_.separation[roots.pole_index[k]]) -
+                       roots.offset[k]);
 }
 
-double Spectrum::moved_by_all(std::size_t j, const std::vector<double>& real,
-                              const std::vector<Complex>& pair) const {
+double Spectrum::uncoupled_sum(std::size_t j, const std::vector<double>& real,
+                               const std::vector<Complex>& pair) const {
   double sum = 0.0;
-  const double pole = unseen_poles_[j];
-  for (std::size_t k = 0; k < real_.size(); ++k) sum += moved(real_, k, j, pole) * real[k];
-  for (std::size_t k = 0; k < pairs_.size(); ++k) sum += whole(moved(pairs_, k, j, pole) * pair[k]);
+  const double pole = uncoupled_poles_[j];
+  for (std::size_t k = 0; k < real_.size(); ++k) sum += uncoupled_coordinate(real_, k, j, pole) * real[k];
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    sum += real_contribution(uncoupled_coordinate(pairs_, k, j, pole) * pair[k]);
   return sum;
 }
 
@@ -219,7 +223,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
   }
   if (form && x_.size() > 0) return of_form_written(q, z);
   Eigen::VectorXd turned = q;
-  for (const auto& [row, vectors] : turns_)
+  for (const auto& [row, vectors] : rotations_)
     turned.segment(row, vectors.rows()) = vectors.transpose() * q.segment(row, vectors.rows());
   std::vector<double> real;
   project(real_, turned, form, real);
@@ -229,18 +233,18 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     for (const Close& pair : close_) real[pair.k] -= pair.product * mixed[pair.l];
   }
   if (form) {  // all modes move the unseen part of a form
-    for (std::size_t j = 0; j < unseen_.size(); ++j)
-      if (const double entry = turned[unseen_[j]]; entry != 0.0) {
+    for (std::size_t j = 0; j < uncoupled_.size(); ++j)
+      if (const double entry = turned[uncoupled_[j]]; entry != 0.0) {
         for (std::size_t k = 0; k < real_.size(); ++k)
-          real[k] += entry * moved(real_, k, j, unseen_poles_[j]);
+          real[k] += entry * uncoupled_coordinate(real_, k, j, uncoupled_poles_[j]);
         for (std::size_t k = 0; k < pairs_.size(); ++k)
-          z.pair[k] += moved(pairs_, k, j, unseen_poles_[j]) * entry;
+          z.pair[k] += uncoupled_coordinate(pairs_, k, j, uncoupled_poles_[j]) * entry;
       }
-    for (const Eigen::Index i : unseen_) real.push_back(turned[i]);
+    for (const Eigen::Index i : uncoupled_) real.push_back(turned[i]);
   } else {
     const std::vector<double> seen = real;
-    for (std::size_t j = 0; j < unseen_.size(); ++j)
-      real.push_back(turned[unseen_[j]] - moved_by_all(j, seen, z.pair));
+    for (std::size_t j = 0; j < uncoupled_.size(); ++j)
+      real.push_back(turned[uncoupled_[j]] - uncoupled_sum(j, seen, z.pair));
   }
   z.real.resize(order_.size());
   for (std::size_t p = 0; p < order_.size(); ++p) z.real[p] = real[order_[p]];
@@ -268,9 +272,10 @@ void Spectrum::from_modes(const std::vector<const Amplitudes*>& z,
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, rank * static_cast<Eigen::Index>(z.size()));
   std::vector<double> one(n_);
   for (std::size_t k = 0; k < real_.size(); ++k) {
-    const double base = poles_.base[real_.home[k]], tiny = poles_.tiny[real_.home[k]], own = real_.offset[k];
+    const double base = poles_.base[real_.pole_index[k]], tiny = poles_.separation[real_.pole_index[k]],
+                 own = real_.offset[k];
     for (std::size_t i = 0; i < n_; ++i)
-      one[i] = 1.0 / (((poles_.base[i] - base) + (poles_.tiny[i] - tiny)) - own);
+      one[i] = 1.0 / (((poles_.base[i] - base) + (poles_.separation[i] - tiny)) - own);
     for (std::size_t s = 0; s < z.size(); ++s)
       for (std::size_t a = 0; a < rank_; ++a) {
         const double weight = real_.right[k * rank_ + a] * real[s][k];
@@ -280,24 +285,26 @@ void Spectrum::from_modes(const std::vector<const Amplitudes*>& z,
   }
   for (std::size_t k = 0; k < pairs_.size(); ++k)
     for (std::size_t i = 0; i < n_; ++i) {
-      const Complex pole = inverse(Complex(poles_.between(i, pairs_.home[k])) - pairs_.offset[k]);
+      const Complex pole =
+          inverse(Complex(poles_.pole_difference(i, pairs_.pole_index[k])) - pairs_.offset[k]);
       for (std::size_t s = 0; s < z.size(); ++s)
         for (std::size_t a = 0; a < rank_; ++a)
           sums(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s * rank_ + a)) +=
-              whole(pairs_.right[k * rank_ + a] * z[s]->pair[k] * pole);
+              real_contribution(pairs_.right[k * rank_ + a] * z[s]->pair[k] * pole);
     }
   for (std::size_t s = 0; s < z.size(); ++s) {
-    q[s]->resize(static_cast<Eigen::Index>(seen_.size() + unseen_.size()));
-    (*q[s])(seen_) =
+    q[s]->resize(static_cast<Eigen::Index>(coupled_.size() + uncoupled_.size()));
+    (*q[s])(coupled_) =
         u_.cwiseProduct(sums.middleCols(static_cast<Eigen::Index>(s) * rank, rank)).rowwise().sum();
-    for (std::size_t j = 0; j < unseen_.size(); ++j)
-      (*q[s])[unseen_[j]] = real[s][real_.size() + j] + moved_by_all(j, real[s], z[s]->pair);
-    for (const auto& [row, vectors] : turns_)
+    for (std::size_t j = 0; j < uncoupled_.size(); ++j)
+      (*q[s])[uncoupled_[j]] = real[s][real_.size() + j] + uncoupled_sum(j, real[s], z[s]->pair);
+    for (const auto& [row, vectors] : rotations_)
       q[s]->segment(row, vectors.rows()) = (vectors * q[s]->segment(row, vectors.rows())).eval();
   }
 }
 
-template double Spectrum::moved(const Roots<double>&, std::size_t, std::size_t, double) const;
-template Complex Spectrum::moved(const Roots<Complex>&, std::size_t, std::size_t, double) const;
+template double Spectrum::uncoupled_coordinate(const Roots<double>&, std::size_t, std::size_t, double) const;
+template Complex Spectrum::uncoupled_coordinate(const Roots<Complex>&, std::size_t, std::size_t,
+                                                double) const;
 
 }  // namespace signorini::modal

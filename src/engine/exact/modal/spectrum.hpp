@@ -24,28 +24,28 @@
 namespace signorini::modal {
 
 /// Separation of equal poles, relative to a pole: below all rounding.
-inline constexpr double parting = 1e-22;
+inline constexpr double pole_separation = 1e-22;
 
 /// D, ascending, as a sum of two numbers, the second of which separates equal poles.
 struct Poles {
   explicit Poles(const Eigen::VectorXd& values);
   Poles() = default;
-  std::vector<double> base, tiny;
+  std::vector<double> base, separation;
   [[nodiscard]] std::size_t size() const { return base.size(); }
   /// D_a - D_b
-  [[nodiscard]] double between(std::size_t a, std::size_t b) const {
-    return (base[a] - base[b]) + (tiny[a] - tiny[b]);
+  [[nodiscard]] double pole_difference(std::size_t a, std::size_t b) const {
+    return (base[a] - base[b]) + (separation[a] - separation[b]);
   }
 };
 
 /// Eigenvalues of one kind: real ones, or those of conjugate pairs above the real axis.
 template <class S>
 struct Roots {
-  std::vector<std::size_t> home;  ///< index of the pole
-  std::vector<S> offset;          ///< distance from that pole
+  std::vector<std::size_t> pole_index;  ///< index of the pole
+  std::vector<S> offset;                ///< distance from that pole
   std::vector<S> value;
   std::vector<S> right, left;  ///< c and d, `rank` numbers for each root; |x| = 1, y^T x = 1
-  [[nodiscard]] std::size_t size() const { return home.size(); }
+  [[nodiscard]] std::size_t size() const { return pole_index.size(); }
 };
 
 /// Amplitudes of all modes of a spectrum; that of a pair represents its conjugate's too.
@@ -62,14 +62,14 @@ struct VectorProducts {
 };
 
 /// Limit of unknowns up to which X and Y are written out: 16 n^2 bytes for a state, 16 MB here.
-inline constexpr std::size_t most_written = 1024;
+inline constexpr std::size_t max_stored_modes = 1024;
 
 class Spectrum {
  public:
-  /// U, V: n x rank; fails if rank > most_rank. `symmetric`: V is U up to positive factors of its columns, so that all
+  /// U, V: n x rank; fails if rank > max_rank. `symmetric`: V is U up to positive factors of its columns, so that all
   /// roots are real.
   Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
-           std::size_t written_up_to = most_written);
+           std::size_t written_up_to = max_stored_modes);
 
   /// Reason why the modes cannot be used; empty: they can.
   [[nodiscard]] const std::string& failure() const { return failure_; }
@@ -90,13 +90,13 @@ class Spectrum {
   [[nodiscard]] const VectorProducts& products() const { return products_; }
   /// x_k^T x_l of real modes, k != l; x_k^T x_k of a real mode and of a pair's.
   [[nodiscard]] double product(std::size_t k, std::size_t l) const;
-  [[nodiscard]] double square(std::size_t k) const { return squares_[k]; }
-  [[nodiscard]] Complex square_of_pair(std::size_t k) const { return pair_squares_[k]; }
+  [[nodiscard]] double norm_squared(std::size_t k) const { return squares_[k]; }
+  [[nodiscard]] Complex pair_norm_squared(std::size_t k) const { return pair_squares_[k]; }
   [[nodiscard]] std::size_t rank() const { return rank_; }
   /// q := X z, for several z at once.
   void from_modes(const std::vector<const Amplitudes*>& z, const std::vector<Eigen::VectorXd*>& q) const;
   /// Size of X and Y, if they are written out.
-  [[nodiscard]] std::size_t written_bytes() const;
+  [[nodiscard]] std::size_t stored_bytes() const;
 
  private:
   using Wide = long double;  // for real roots and their vectors
@@ -107,7 +107,7 @@ class Spectrum {
   /// Newton steps on the characteristic polynomial, and on it with the other roots divided out.
   template <class S>
   struct Correction {
-    S alone, among;
+    S newton, deflated;
   };
   template <class S>
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
@@ -129,20 +129,20 @@ class Spectrum {
   S gather(std::size_t home, S own, Local<S>& local) const;
   template <class S>
   std::optional<S> trace(std::size_t home, S own, Local<S>& local) const;
-  [[nodiscard]] Wide polished(std::size_t home, Wide own, Local<Wide>& local) const;
+  [[nodiscard]] Wide refined_offset(std::size_t home, Wide own, Local<Wide>& local) const;
   template <class S>
   void group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local<S>& local) const;
   template <class S>
   SmallMatrix<S> group_slope(const SmallLu<S>& lu, const Local<S>& local) const;
   template <class S>
-  void settle_home(std::size_t k, std::vector<S>& offset);
+  void reassign_pole(std::size_t k, std::vector<S>& offset);
   template <class S>
   void find_vectors(Roots<S>& roots);
   /// Roots that double precision cannot separate: lists of their places.
-  [[nodiscard]] std::vector<std::vector<std::size_t>> find_together(const Roots<double>& roots) const;
+  [[nodiscard]] std::vector<std::vector<std::size_t>> find_clusters(const Roots<double>& roots) const;
   [[nodiscard]] std::pair<std::size_t, std::size_t> poles_of(const std::vector<std::size_t>& members,
                                                              const Roots<double>& roots) const;
-  bool part_together(const std::vector<std::size_t>& members, Roots<double>& roots);
+  bool split_cluster(const std::vector<std::size_t>& members, Roots<double>& roots);
   template <class S>
   void outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
                      const SmallVector<S>& left, SmallVector<S>& c, SmallVector<S>& d) const;
@@ -152,15 +152,15 @@ class Spectrum {
   template <class S>
   void project(const Roots<S>& roots, const Eigen::VectorXd& q, bool form, std::vector<S>& z) const;
   void project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const;
-  void turn_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v);
-  void take_seen(const Poles& poles, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v);
+  void rotate_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v);
+  void select_coupled(const Poles& poles, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v);
   void order_values();
   void find_squares();
   void find_products();
   template <class S>
   void entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small, const Eigen::MatrixXd& side,
                std::vector<S>& out) const;
-  void write_out();
+  void store_matrices();
   void to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
                         const std::vector<Amplitudes*>& z) const;
   void of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const;
@@ -169,25 +169,26 @@ class Spectrum {
   template <class S>
   void cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
               std::vector<S>& out) const;
-  [[nodiscard]] Eigen::VectorXd seen_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
-                                            std::size_t k) const;
-  void part_close_roots();
+  [[nodiscard]] Eigen::VectorXd coupled_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
+                                               std::size_t k) const;
+  void split_close_roots();
   void find_alike();
   [[nodiscard]] double difference(std::size_t k, std::size_t l) const {
     return (value_base_[k] - value_base_[l]) + (value_offset_[k] - value_offset_[l]);
   }
   template <class S>
-  [[nodiscard]] S moved(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const;
-  [[nodiscard]] double moved_by_all(std::size_t j, const std::vector<double>& real,
-                                    const std::vector<Complex>& pair) const;
-  bool part_kinds(const std::vector<Complex>& offset);
+  [[nodiscard]] S uncoupled_coordinate(const Roots<S>& roots, std::size_t k, std::size_t j,
+                                       double pole) const;
+  [[nodiscard]] double uncoupled_sum(std::size_t j, const std::vector<double>& real,
+                                     const std::vector<Complex>& pair) const;
+  bool split_real_and_pairs(const std::vector<Complex>& offset);
   void test();
 
   std::size_t rank_;
-  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> turns_;  // equal modes: the first one, rotation
-  std::vector<Eigen::Index> seen_, unseen_;                      // indices among all modes
-  Eigen::MatrixXd u_unseen_;
-  std::vector<double> unseen_poles_;
+  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> rotations_;  // equal modes: the first one, rotation
+  std::vector<Eigen::Index> coupled_, uncoupled_;                    // indices among all modes
+  Eigen::MatrixXd u_uncoupled_;
+  std::vector<double> uncoupled_poles_;
   // Data of the seen modes:
   std::size_t n_ = 0;
   Poles poles_;

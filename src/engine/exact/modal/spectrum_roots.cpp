@@ -16,7 +16,7 @@
 namespace signorini::modal {
 namespace {
 
-constexpr int most_sweeps = 200;
+constexpr int max_sweeps = 200;
 constexpr double nearly = 1e-9;  // relative step below which rounding may end the convergence
 constexpr double straight =
     1e-14;                     // relative step on which G0 is linear: its square, times close roots' loss
@@ -51,7 +51,7 @@ void Spectrum::start(std::vector<S>& offset) const {
     for (std::size_t a = 0; a < rank_; ++a) g[a][a] = 1.0;
     for (std::size_t i = 0; i < n_; ++i) {
       if (i >= first && i < last) continue;
-      const double weight = 1.0 / poles_.between(i, first);
+      const double weight = 1.0 / poles_.pole_difference(i, first);
       const double* term = terms_.data() + i * rank_ * rank_;
       for (std::size_t a = 0; a < rank_; ++a)
         for (std::size_t b = 0; b < rank_; ++b) g[a][b] += weight * term[a * rank_ + b];
@@ -64,7 +64,7 @@ void Spectrum::start(std::vector<S>& offset) const {
       for (std::size_t a = 0; a < rank_; ++a) column[a] = v_(at(first + j), at(a));
       if (!lu.singular()) column = lu.solve(column);
       for (std::size_t i = 0; i < count; ++i) {
-        double sum = i == j ? poles_.between(first + i, first) : 0.0;
+        double sum = i == j ? poles_.pole_difference(first + i, first) : 0.0;
         for (std::size_t a = 0; a < rank_; ++a) sum += u_(at(first + i), at(a)) * column[a];
         small(at(i), at(j)) = sum;
       }
@@ -76,16 +76,16 @@ void Spectrum::start(std::vector<S>& offset) const {
       std::sort(value.begin(), value.end(), [](auto a, auto b) { return a.real() < b.real(); });
     }
     const double down =
-        first > 0 ? 0.5 * poles_.between(first, first - 1) : std::abs(poles_.base[last - 1]) + 1e300;
-    const double up = last < n_ ? 0.5 * poles_.between(last, last - 1) : 1e300;
+        first > 0 ? 0.5 * poles_.pole_difference(first, first - 1) : std::abs(poles_.base[last - 1]) + 1e300;
+    const double up = last < n_ ? 0.5 * poles_.pole_difference(last, last - 1) : 1e300;
     for (std::size_t j = 0; j < count; ++j) {
       const double limit = value[j].real() > 0.0 ? up : down, size = std::abs(value[j]);
       const double part = (1.0 + static_cast<double>(j)) / (1.0 + static_cast<double>(count));
       if (size > limit) value[j] *= 2.0 * part * limit / size;
       const std::size_t k = first + j;
-      offset[k] =
-          start_of<S>(value[j] - poles_.between(k, first), k);  // from the group's first pole to its own
-      if (!(size_of(offset[k]) > 0.0)) offset[k] = S(parting * std::max(poles_.base[k], 1e-250));
+      offset[k] = start_of<S>(value[j] - poles_.pole_difference(k, first),
+                              k);  // from the group's first pole to its own
+      if (!(size_of(offset[k]) > 0.0)) offset[k] = S(pole_separation * std::max(poles_.base[k], 1e-250));
     }
   }
 }
@@ -100,7 +100,7 @@ void Spectrum::group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local
     for (std::size_t i = 0; i < local.count; ++i) {
       S sum{};
       for (std::size_t a = 0; a < rank_; ++a) sum += column[a] * u_(at(local.first + i), at(a));
-      if (i == j) sum += S(poles_.between(local.first + i, home)) - own;
+      if (i == j) sum += S(poles_.pole_difference(local.first + i, home)) - own;
       local.s[i][j] = sum;
     }
   }
@@ -122,7 +122,7 @@ S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   S poles{};
   for (std::size_t i = 0; i < n_; ++i) {
     if (i >= local.first && i < local.first + local.count) continue;
-    const S one = inverse(own - S(poles_.between(i, home)));  // 1 / (l - D_i)
+    const S one = inverse(own - S(poles_.pole_difference(i, home)));  // 1 / (l - D_i)
     const auto rough = static_cast<Rough<S>>(one), two = rough * rough;
     const double* term = terms_.data() + i * squares;
     for (std::size_t a = 0; a < rank_; ++a)
@@ -164,18 +164,18 @@ Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) c
   const auto n = static_cast<std::ptrdiff_t>(n_);
   const std::unique_ptr<double[]> lists(new double[4 * n_]);
   double *re = lists.get(), *im = re + n, *square_re = im + n, *square_im = square_re + n;
-  inverse_distances(poles_.base.data(), poles_.tiny.data(), n, poles_.base[home], poles_.tiny[home], own, re,
-                    im);
+  inverse_distances(poles_.base.data(), poles_.separation.data(), n, poles_.base[home],
+                    poles_.separation[home], own, re, im);
   std::fill_n(re + local.first, local.count, 0.0);
   std::fill_n(im + local.first, local.count, 0.0);
   square_all(re, im, n, square_re, square_im);
   for (std::size_t a = 0; a < rank_; ++a)
     for (std::size_t b = 0; b < rank_; ++b) {
       const double* w = weights_.data() + (a * rank_ + b) * n_;
-      local.g[a][b] -= weighted(re, im, w, n);
-      local.slope[a][b] += weighted(square_re, square_im, w, n);
+      local.g[a][b] -= weighted_sum(re, im, w, n);
+      local.slope[a][b] += weighted_sum(square_re, square_im, w, n);
     }
-  return sum_of_all(re, im, n);
+  return complex_sum(re, im, n);
 }
 
 /// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nullopt if a matrix is singular.
@@ -201,13 +201,13 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
   if (!slope) return {S(0.0), S(0.0)};
   S sum{};
   for (std::size_t i = 0; i < n_; ++i) {
-    const S f = (own - offset[i]) + poles_.between(home, home_[i]);
+    const S f = (own - offset[i]) + poles_.pole_difference(home, home_[i]);
     const bool apart = !is_zero(f);
     if (i >= local.first && i < local.first + local.count) {
       if (i != k && apart) sum -= inverse(f);
       continue;
     }
-    const S from_pole = own + poles_.between(home, i);
+    const S from_pole = own + poles_.pole_difference(home, i);
     if (i == k)
       sum += inverse(from_pole);
     else if (apart)  // 1/(l - D_i) - 1/(l - l_i); the terms nearly cancel
@@ -217,7 +217,7 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
 }
 
 /// One Newton step, in extended precision: recovers the digits that close roots lose. local: G0 at the root.
-Spectrum::Wide Spectrum::polished(std::size_t home, Wide own, Local<Wide>& local) const {
+Spectrum::Wide Spectrum::refined_offset(std::size_t home, Wide own, Local<Wide>& local) const {
   const Wide poles = gather(home, own, local);
   const std::optional<Wide> slope = trace(home, own, local);
   if (!slope) return own;
@@ -235,15 +235,17 @@ Spectrum::Wide Spectrum::polished(std::size_t home, Wide own, Local<Wide>& local
 
 /// Moves an offset to the nearest pole, past equal ones.
 template <class S>
-void Spectrum::settle_home(std::size_t k, std::vector<S>& offset) {
+void Spectrum::reassign_pole(std::size_t k, std::vector<S>& offset) {
   std::size_t best = home_[k];
-  const auto distance = [&](std::size_t to) { return size_of(offset[k] - poles_.between(to, home_[k])); };
+  const auto distance = [&](std::size_t to) {
+    return size_of(offset[k] - poles_.pole_difference(to, home_[k]));
+  };
   const double step = real_part(offset[k]);
   const std::size_t now = home_[k];
   for (std::size_t i = now; step > 0.0 && i + 1 < n_ && distance(i + 1) <= distance(i); ++i) best = i + 1;
   for (std::size_t i = now; step < 0.0 && i > 0 && distance(i - 1) <= distance(i); --i) best = i - 1;
   if (!(distance(best) < distance(now))) return;
-  const S moved = offset[k] - poles_.between(best, now);
+  const S moved = offset[k] - poles_.pole_difference(best, now);
   if (!(size_of(moved) > 0.0)) return;
   offset[k] = moved;
   home_[k] = best;
@@ -257,17 +259,17 @@ bool Spectrum::search(std::vector<S>& offset) {
   std::vector<double> last(n_, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> unsettled(n_);
   std::iota(unsettled.begin(), unsettled.end(), std::size_t(0));
-  for (int sweep = 0; !unsettled.empty() && sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; !unsettled.empty() && sweep < max_sweeps; ++sweep) {
     std::vector<std::size_t> left;
     for (const std::size_t k : unsettled) {
       const Correction<S> found = correction(k, offset, shift);
       // If two approaches collide they would repel each other by less than their distance.
       const bool collides =
-          size_of(found.alone) > 1e3 * size_of(found.among) || !std::isfinite(size_of(found.among));
+          size_of(found.newton) > 1e3 * size_of(found.deflated) || !std::isfinite(size_of(found.deflated));
       const S step =
-          collides
-              ? found.alone * (0.3 + 0.1 * static_cast<double>((k + 7 * static_cast<std::size_t>(sweep)) % 5))
-              : found.among;
+          collides ? found.newton *
+                         (0.3 + 0.1 * static_cast<double>((k + 7 * static_cast<std::size_t>(sweep)) % 5))
+                   : found.deflated;
       const double size = size_of(step);
       if (!std::isfinite(size)) {
         failure_ = "the search for eigenvalues left the range of numbers";
@@ -278,10 +280,10 @@ bool Spectrum::search(std::vector<S>& offset) {
       offset[k] = next;
       const double relative = size / size_of(next);
       const std::size_t before = home_[k];
-      settle_home(k, offset);
-      shift[k] = S(poles_.between(k, home_[k])) - offset[k];
-      const bool settled =
-          !collides && (relative <= rounding::of_few || (relative < nearly && relative > 0.25 * last[k]));
+      reassign_pole(k, offset);
+      shift[k] = S(poles_.pole_difference(k, home_[k])) - offset[k];
+      const bool settled = !collides && (relative <= rounding::few_operations ||
+                                         (relative < nearly && relative > 0.25 * last[k]));
       if (!settled || home_[k] != before) left.push_back(k);
       last[k] = relative;
     }
@@ -292,7 +294,7 @@ bool Spectrum::search(std::vector<S>& offset) {
   return false;
 }
 
-bool Spectrum::part_kinds(const std::vector<Complex>& offset) {
+bool Spectrum::split_real_and_pairs(const std::vector<Complex>& offset) {
   struct Found {
     std::size_t home;
     Complex offset;
@@ -315,15 +317,16 @@ bool Spectrum::part_kinds(const std::vector<Complex>& offset) {
   for (std::vector<Found>* list : {&above, &below, &flat}) std::sort(list->begin(), list->end(), by_place);
   for (const Found& a : above) {
     const bool has_twin = std::any_of(below.begin(), below.end(), [&](const Found& b) {
-      const Complex off = a.offset - Complex(b.offset.re, -b.offset.im) + poles_.between(a.home, b.home);
+      const Complex off =
+          a.offset - Complex(b.offset.re, -b.offset.im) + poles_.pole_difference(a.home, b.home);
       return size_of(off) <= paired * size_of(a.offset);
     });
     if (!has_twin) return false;
-    pairs_.home.push_back(a.home);
+    pairs_.pole_index.push_back(a.home);
     pairs_.offset.push_back(a.offset);
   }
   for (const Found& f : flat) {
-    real_.home.push_back(f.home);
+    real_.pole_index.push_back(f.home);
     real_.offset.push_back(f.offset.re);
   }
   return true;
@@ -350,14 +353,16 @@ constexpr double together = 1e-8;
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> Spectrum::find_together(const Roots<double>& roots) const {
+std::vector<std::vector<std::size_t>> Spectrum::find_clusters(const Roots<double>& roots) const {
   const auto apart = [&](std::size_t a, std::size_t b) {
-    return poles_.between(roots.home[a], roots.home[b]) + (roots.offset[a] - roots.offset[b]);
+    return poles_.pole_difference(roots.pole_index[a], roots.pole_index[b]) +
+           (roots.offset[a] - roots.offset[b]);
   };
   std::vector<std::size_t> order(roots.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return roots.offset[a] + poles_.base[roots.home[a]] < roots.offset[b] + poles_.base[roots.home[b]];
+    return roots.offset[a] + poles_.base[roots.pole_index[a]] <
+           roots.offset[b] + poles_.base[roots.pole_index[b]];
   });
   std::vector<std::vector<std::size_t>> lists;
   std::vector<std::size_t> list;
@@ -380,13 +385,13 @@ std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::si
                                                        const Roots<double>& roots) const {
   std::size_t first = n_, last = 0;
   for (const std::size_t k : members) {
-    first = std::min(first, group_begin_[roots.home[k]]);
-    last = std::max(last, group_end_[roots.home[k]]);
+    first = std::min(first, group_begin_[roots.pole_index[k]]);
+    last = std::max(last, group_end_[roots.pole_index[k]]);
   }
-  const std::size_t home = roots.home[members.front()];
+  const std::size_t home = roots.pole_index[members.front()];
   while (last - first < members.size()) {  // extends towards the nearer one
-    const bool down =
-        last == n_ || (first > 0 && poles_.between(home, first - 1) < poles_.between(last, home));
+    const bool down = last == n_ || (first > 0 && poles_.pole_difference(home, first - 1) <
+                                                      poles_.pole_difference(last, home));
     (down ? first : last) = down ? group_begin_[first - 1] : group_end_[last];
   }
   return {first, last};
@@ -463,16 +468,16 @@ std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatri
 }  // namespace
 
 /// False: the small matrices cannot hold so many poles, or are singular in another way.
-bool Spectrum::part_together(const std::vector<std::size_t>& members, Roots<double>& roots) {
-  const std::size_t m = members.size(), home = roots.home[members.front()];
+bool Spectrum::split_cluster(const std::vector<std::size_t>& members, Roots<double>& roots) {
+  const std::size_t m = members.size(), home = roots.pole_index[members.front()];
   Wide own = 0;
   for (const std::size_t k : members)
-    own += (Wide(roots.offset[k]) + poles_.between(roots.home[k], home)) / static_cast<Wide>(m);
+    own += (Wide(roots.offset[k]) + poles_.pole_difference(roots.pole_index[k], home)) / static_cast<Wide>(m);
   const auto [first, last] = poles_of(members, roots);
   Local<Wide> local;
   local.first = first;
   local.count = last - first;
-  if (local.count > most_rank) return false;
+  if (local.count > max_rank) return false;
   (void)gather(home, own, local);
   const SmallLu<Wide> lu(local.g, rank_);
   if (lu.singular()) return false;
@@ -492,7 +497,7 @@ bool Spectrum::part_together(const std::vector<std::size_t>& members, Roots<doub
       }
     outside_group(lu, local, x, y, c, d);
     const Wide mine = own + turn->middle + turn->values[static_cast<Eigen::Index>(k)];
-    roots.home[members[k]] = home;
+    roots.pole_index[members[k]] = home;
     roots.offset[members[k]] = static_cast<double>(mine);
     keep_vectors(roots, members[k], mine, c, d);
   }

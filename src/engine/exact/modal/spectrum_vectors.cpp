@@ -13,7 +13,7 @@ namespace signorini::modal {
 namespace {
 
 constexpr double close_roots = 1e-3;  // relative distance of eigenvalues whose vectors mix by rounding
-constexpr std::size_t most_neighbours = 6;
+constexpr std::size_t max_neighbours = 6;
 constexpr double alike = 1e-5;  // relative distance of eigenvalues below which c and h lose five digits
 
 }  // namespace
@@ -23,17 +23,17 @@ template <class S>
 void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
                       std::vector<S>& out) const {
   out.resize(n_);
-  const std::size_t home = roots.home[k];
+  const std::size_t home = roots.pole_index[k];
   if constexpr (std::is_same_v<S, double>) {
-    cauchy_vector(poles_.base.data(), poles_.tiny.data(), static_cast<std::ptrdiff_t>(n_), poles_.base[home],
-                  poles_.tiny[home], roots.offset[k], small, side.data(), static_cast<std::ptrdiff_t>(rank_),
-                  out.data());
+    cauchy_vector(poles_.base.data(), poles_.separation.data(), static_cast<std::ptrdiff_t>(n_),
+                  poles_.base[home], poles_.separation[home], roots.offset[k], small, side.data(),
+                  static_cast<std::ptrdiff_t>(rank_), out.data());
   } else {
     for (std::size_t i = 0; i < n_; ++i) {
       S sum{};
       for (std::size_t a = 0; a < rank_; ++a)
         sum += small[a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-      out[i] = sum * inverse(S(poles_.between(i, home)) - roots.offset[k]);
+      out[i] = sum * inverse(S(poles_.pole_difference(i, home)) - roots.offset[k]);
     }
   }
 }
@@ -65,16 +65,16 @@ void Spectrum::find_vectors(Roots<S>& roots) {
   roots.left.resize(roots.size() * rank_);
   std::vector<char> known(roots.size(), 0);
   if constexpr (is_real)
-    for (const std::vector<std::size_t>& members : find_together(roots))
-      if (part_together(members, roots))
+    for (const std::vector<std::size_t>& members : find_clusters(roots))
+      if (split_cluster(members, roots))
         for (const std::size_t k : members) known[k] = 1;
   for (std::size_t k = 0; k < roots.size(); ++k) {
-    const std::size_t home = roots.home[k];
+    const std::size_t home = roots.pole_index[k];
     if (known[k] == 0) {
       W own = roots.offset[k];
       Local<W> local;
       if constexpr (is_real)
-        own = polished(home, own, local);
+        own = refined_offset(home, own, local);
       else
         (void)gather(home, own, local);
       const SmallLu<W> lu(local.g, rank_);
@@ -84,7 +84,7 @@ void Spectrum::find_vectors(Roots<S>& roots) {
       outside_group(lu, local, right, left, c, d);
       keep_vectors(roots, k, own, c, d);
     }
-    roots.value[k] = roots.offset[k] + (poles_.base[home] + poles_.tiny[home]);
+    roots.value[k] = roots.offset[k] + (poles_.base[home] + poles_.separation[home]);
   }
 }
 
@@ -121,8 +121,8 @@ void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVe
   }
 }
 
-Eigen::VectorXd Spectrum::seen_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
-                                      std::size_t k) const {
+Eigen::VectorXd Spectrum::coupled_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
+                                         std::size_t k) const {
   std::vector<double> x;
   cauchy(real_, k, small.data() + k * rank_, side, x);
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(n_));
@@ -130,17 +130,17 @@ Eigen::VectorXd Spectrum::seen_vector(const std::vector<double>& small, const Ei
 
 /// Vectors of nearly coinciding eigenvalues are accurate except for components of each other: Y := (1 - E) Y with E = Y
 /// X there.
-void Spectrum::part_close_roots() {
+void Spectrum::split_close_roots() {
   std::vector<std::size_t> order;
   for (const std::size_t k : order_)
     if (k < real_.size()) order.push_back(k);
   for (std::size_t p = 0; p < order.size(); ++p) {
     const std::size_t k = order[p];
-    for (std::size_t m = p + 1; m < std::min(order.size(), p + most_neighbours); ++m) {
+    for (std::size_t m = p + 1; m < std::min(order.size(), p + max_neighbours); ++m) {
       const std::size_t l = order[m];
       if (real_.value[l] - real_.value[k] > close_roots * real_.value[l]) break;
-      close_.push_back({k, l, seen_vector(real_.left, v_, k).dot(seen_vector(real_.right, u_, l))});
-      close_.push_back({l, k, seen_vector(real_.left, v_, l).dot(seen_vector(real_.right, u_, k))});
+      close_.push_back({k, l, coupled_vector(real_.left, v_, k).dot(coupled_vector(real_.right, u_, l))});
+      close_.push_back({l, k, coupled_vector(real_.left, v_, l).dot(coupled_vector(real_.right, u_, k))});
     }
   }
 }
@@ -155,8 +155,8 @@ void Spectrum::find_squares() {
     std::vector<S> x;
     cauchy(roots, k, roots.right.data() + k * rank_, u_, x);
     for (const S& entry : x) sum += entry * entry;
-    for (std::size_t j = 0; j < unseen_.size(); ++j) {
-      const S entry = moved(roots, k, j, unseen_poles_[j]);
+    for (std::size_t j = 0; j < uncoupled_.size(); ++j) {
+      const S entry = uncoupled_coordinate(roots, k, j, uncoupled_poles_[j]);
       sum += entry * entry;
       beside = std::hypot(beside, size_of(entry));
     }
@@ -167,8 +167,8 @@ void Spectrum::find_squares() {
   for (const std::size_t k : order_) {
     const bool seen = k < real_.size();
     squares_.push_back(seen ? square(real_, k) : 1.0);
-    value_base_.push_back(seen ? poles_.base[real_.home[k]] : unseen_poles_[k - real_.size()]);
-    value_offset_.push_back(seen ? real_.offset[k] + poles_.tiny[real_.home[k]] : 0.0);
+    value_base_.push_back(seen ? poles_.base[real_.pole_index[k]] : uncoupled_poles_[k - real_.size()]);
+    value_offset_.push_back(seen ? real_.offset[k] + poles_.separation[real_.pole_index[k]] : 0.0);
   }
   for (std::size_t k = 0; k < pairs_.size(); ++k) pair_squares_.push_back(square(pairs_, k));
   condition_ *= worst;
@@ -180,9 +180,10 @@ void Spectrum::find_alike() {
     for (std::size_t k = l + 1; k < order_.size() && std::abs(difference(k, l)) <= alike * values_[k]; ++k) {
       const std::size_t own = order_[k], other = order_[l];
       if (own >= real_.size() || other >= real_.size()) continue;
-      double product = seen_vector(real_.right, u_, own).dot(seen_vector(real_.right, u_, other));
-      for (std::size_t j = 0; j < unseen_.size(); ++j)
-        product += moved(real_, own, j, unseen_poles_[j]) * moved(real_, other, j, unseen_poles_[j]);
+      double product = coupled_vector(real_.right, u_, own).dot(coupled_vector(real_.right, u_, other));
+      for (std::size_t j = 0; j < uncoupled_.size(); ++j)
+        product += uncoupled_coordinate(real_, own, j, uncoupled_poles_[j]) *
+                   uncoupled_coordinate(real_, other, j, uncoupled_poles_[j]);
       alike_.push_back({k, l, product});
     }
 }
@@ -212,9 +213,9 @@ void Spectrum::find_products() {
         const double* column = u_.data() + a * n_;
         S sum{};
         for (std::size_t i = 0; i < n_; ++i) sum += x[i] * column[i];
-        for (std::size_t j = 0; j < unseen_.size(); ++j)
-          sum += moved(roots, k, j, unseen_poles_[j]) *
-                 u_unseen_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
+        for (std::size_t j = 0; j < uncoupled_.size(); ++j)
+          sum += uncoupled_coordinate(roots, k, j, uncoupled_poles_[j]) *
+                 u_uncoupled_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
         right[k * rank_ + a] = sum;
       }
     }
@@ -235,7 +236,7 @@ void Spectrum::find_products() {
     else
       for (std::size_t a = 0; a < rank_; ++a)
         h[p * rank_ + a] =
-            u_unseen_(static_cast<Eigen::Index>(order_[p] - real_.size()), static_cast<Eigen::Index>(a));
+            u_uncoupled_(static_cast<Eigen::Index>(order_[p] - real_.size()), static_cast<Eigen::Index>(a));
 }
 
 template void Spectrum::cauchy(const Roots<double>&, std::size_t, const double*, const Eigen::MatrixXd&,
@@ -247,7 +248,7 @@ template void Spectrum::find_vectors(Roots<Complex>&);
 
 // X and Y written out as matrices: a product with them is n^2 multiplications instead of n^2 divisions.
 
-std::size_t Spectrum::written_bytes() const {
+std::size_t Spectrum::stored_bytes() const {
   return sizeof(double) * static_cast<std::size_t>(x_.size() + y_.size());
 }
 
@@ -255,16 +256,16 @@ std::size_t Spectrum::written_bytes() const {
 template <class S>
 void Spectrum::entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small,
                        const Eigen::MatrixXd& side, std::vector<S>& out) const {
-  out.assign(seen_.size() + unseen_.size(), S(0.0));
+  out.assign(coupled_.size() + uncoupled_.size(), S(0.0));
   std::vector<S> seen;
   cauchy(roots, k, small.data() + k * rank_, side, seen);
-  for (std::size_t i = 0; i < n_; ++i) out[static_cast<std::size_t>(seen_[i])] = seen[i];
+  for (std::size_t i = 0; i < n_; ++i) out[static_cast<std::size_t>(coupled_[i])] = seen[i];
 }
 
-void Spectrum::write_out() {
+void Spectrum::store_matrices() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
-             n = static_cast<Eigen::Index>(seen_.size() + unseen_.size());
+             n = static_cast<Eigen::Index>(coupled_.size() + uncoupled_.size());
   std::vector<Eigen::Index> place(order_.size());  // places of real_ and unseen_ among amplitudes
   for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<Eigen::Index>(p);
   y_.setZero(reals + 2 * pairs, n);
@@ -273,8 +274,8 @@ void Spectrum::write_out() {
   for (std::size_t k = 0; k < real_.size(); ++k) {
     entries(real_, k, real_.right, u_, one);
     right.col(place[k]) = Eigen::Map<const Eigen::VectorXd>(one.data(), n);
-    for (std::size_t j = 0; j < unseen_.size(); ++j)
-      right(unseen_[j], place[k]) = moved(real_, k, j, unseen_poles_[j]);
+    for (std::size_t j = 0; j < uncoupled_.size(); ++j)
+      right(uncoupled_[j], place[k]) = uncoupled_coordinate(real_, k, j, uncoupled_poles_[j]);
     entries(real_, k, real_.left, v_, one);
     y_.row(place[k]) = Eigen::Map<const Eigen::RowVectorXd>(one.data(), n);
   }
@@ -282,8 +283,9 @@ void Spectrum::write_out() {
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const auto at = reals + 2 * static_cast<Eigen::Index>(k);
     entries(pairs_, k, pairs_.right, u_, entry);
-    for (std::size_t j = 0; j < unseen_.size(); ++j)
-      entry[static_cast<std::size_t>(unseen_[j])] = moved(pairs_, k, j, unseen_poles_[j]);
+    for (std::size_t j = 0; j < uncoupled_.size(); ++j)
+      entry[static_cast<std::size_t>(uncoupled_[j])] =
+          uncoupled_coordinate(pairs_, k, j, uncoupled_poles_[j]);
     for (Eigen::Index i = 0; i < n; ++i) {  // x z + its conjugate
       right(i, at) = 2.0 * entry[static_cast<std::size_t>(i)].re;
       right(i, at + 1) = -2.0 * entry[static_cast<std::size_t>(i)].im;
@@ -297,13 +299,13 @@ void Spectrum::write_out() {
   std::map<std::size_t, Eigen::RowVectorXd> mixed;
   for (const Close& pair : close_) mixed.try_emplace(pair.l, y_.row(place[pair.l]));
   for (const Close& pair : close_) y_.row(place[pair.k]) -= pair.product * mixed.at(pair.l);
-  for (std::size_t j = 0; j < unseen_.size(); ++j) {
+  for (std::size_t j = 0; j < uncoupled_.size(); ++j) {
     const Eigen::Index at = place[real_.size() + j];
-    y_.row(at) = -(right.row(unseen_[j]) * y_).eval();  // none of this row yet, and none of right's column
-    y_(at, unseen_[j]) += 1.0;
-    right(unseen_[j], at) = 1.0;
+    y_.row(at) = -(right.row(uncoupled_[j]) * y_).eval();  // none of this row yet, and none of right's column
+    y_(at, uncoupled_[j]) += 1.0;
+    right(uncoupled_[j], at) = 1.0;
   }
-  for (const auto& [row, vectors] : turns_) {
+  for (const auto& [row, vectors] : rotations_) {
     right.middleRows(row, vectors.rows()) = (vectors * right.middleRows(row, vectors.rows())).eval();
     y_.middleCols(row, vectors.rows()) = (y_.middleCols(row, vectors.rows()) * vectors.transpose()).eval();
   }

@@ -35,10 +35,10 @@ TimeBasis::TimeBasis(const Model& model, double t) : t0_(t) {
   degree_ = driven_ = degree + 1;
 }
 
-void TimeBasis::make_room(const Eigen::VectorXcd& roots, double length) {
+void TimeBasis::reserve_slow_roots(const Eigen::VectorXcd& roots, double length) {
   degree_ = driven_;
   length_ = std::numeric_limits<double>::infinity();
-  if (stands_still()) return;
+  if (is_constant()) return;
   length_ = length;
   double greatest = 0.0;
   for (const std::complex<double>& l : roots)
@@ -59,8 +59,8 @@ Eigen::VectorXd TimeBasis::at(double x) const {
   return b;
 }
 
-Course TimeBasis::of(const Piece& piece) const {
-  Course c = Course::Zero(size());
+TimeCoefficients TimeBasis::of(const Piece& piece) const {
+  TimeCoefficients c = TimeCoefficients::Zero(size());
   Piece polynomial = piece;
   polynomial.amplitude = 0.0;
   polynomial.taylor(t0_, 1.0, degree_ + 1, c.data());
@@ -77,14 +77,14 @@ Course TimeBasis::of(const Piece& piece) const {
   return c;
 }
 
-Course TimeBasis::constant(double value) const {
-  Course c = Course::Zero(size());
+TimeCoefficients TimeBasis::constant(double value) const {
+  TimeCoefficients c = TimeCoefficients::Zero(size());
   c[0] = value;
   return c;
 }
 
-Course TimeBasis::derivative(const Course& c) const {
-  Course d = Course::Zero(size());
+TimeCoefficients TimeBasis::derivative(const TimeCoefficients& c) const {
+  TimeCoefficients d = TimeCoefficients::Zero(size());
   const auto degree = static_cast<Eigen::Index>(degree_);
   for (Eigen::Index j = 1; j <= degree; ++j) d[j - 1] = static_cast<double>(j) * c[j];
   Eigen::Index i = degree + 1;
@@ -99,12 +99,12 @@ Course TimeBasis::derivative(const Course& c) const {
 Eigen::MatrixXd TimeBasis::derivative(const Eigen::MatrixXd& c) const {
   Eigen::MatrixXd d(c.rows(), c.cols());
   for (Eigen::Index row = 0; row < c.rows(); ++row)
-    d.row(row) = derivative(Course(c.row(row).transpose())).transpose();
+    d.row(row) = derivative(TimeCoefficients(c.row(row).transpose())).transpose();
   return d;
 }
 
-ComplexCourse TimeBasis::answer(std::complex<double> l, const ComplexCourse& p) const {
-  ComplexCourse c = ComplexCourse::Zero(size());
+ComplexTimeCoefficients TimeBasis::response(std::complex<double> l, const ComplexTimeCoefficients& p) const {
+  ComplexTimeCoefficients c = ComplexTimeCoefficients::Zero(size());
   const auto degree = static_cast<Eigen::Index>(degree_);
   if (is_slow(l)) {
     for (Eigen::Index j = 0; j < degree; ++j) c[j + 1] = (l * c[j] + p[j]) / static_cast<double>(j + 1);
@@ -123,7 +123,7 @@ ComplexCourse TimeBasis::answer(std::complex<double> l, const ComplexCourse& p) 
   return c;
 }
 
-double TimeBasis::loss(std::complex<double> l, double time) const {
+double TimeBasis::cancellation(std::complex<double> l, double time) const {
   const double size = std::abs(l);
   double most = 0.0;
   if (size > 0.0) {  // j! / (l time)^j relative to one, and 1 / l relative to time
@@ -138,8 +138,8 @@ double TimeBasis::loss(std::complex<double> l, double time) const {
   return most;
 }
 
-TimeBasis::Ripple TimeBasis::taylor(const Course& c, double x0, double h, double turn,
-                                    std::vector<double>& p) const {
+TimeBasis::FastWaveBound TimeBasis::taylor(const TimeCoefficients& c, double x0, double h, double turn,
+                                           std::vector<double>& p) const {
   const std::size_t count = p.size();
   std::fill(p.begin(), p.end(), 0.0);
   double power = 1.0;
@@ -153,7 +153,7 @@ TimeBasis::Ripple TimeBasis::taylor(const Course& c, double x0, double h, double
     }
     p[k] = sum * power;
   }
-  Ripple ripple;
+  FastWaveBound ripple;
   auto i = static_cast<Eigen::Index>(degree_) + 1;
   for (const double w : omega_) {
     const double a = c[i], b = c[i + 1];

@@ -22,8 +22,8 @@
 namespace signorini::modal {
 
 /// One row of coefficients.
-using Course = Eigen::VectorXd;
-using ComplexCourse = Eigen::VectorXcd;
+using TimeCoefficients = Eigen::VectorXd;
+using ComplexTimeCoefficients = Eigen::VectorXcd;
 
 class TimeBasis {
  public:
@@ -33,7 +33,7 @@ class TimeBasis {
 
   /// Reserves coefficients for the responses of roots that are slow on [0, length], if the forcing is not constant; for
   /// later queries. length: of the segment. Unit: time.
-  void make_room(const Eigen::VectorXcd& roots, double length);
+  void reserve_slow_roots(const Eigen::VectorXcd& roots, double length);
 
   [[nodiscard]] Eigen::Index size() const {
     return static_cast<Eigen::Index>(degree_ + 1 + 2 * omega_.size());
@@ -41,37 +41,39 @@ class TimeBasis {
   [[nodiscard]] const std::vector<double>& omega() const { return omega_; }
   [[nodiscard]] std::size_t degree() const { return degree_; }
   /// True if the forcing is constant.
-  [[nodiscard]] bool stands_still() const { return degree_ == 1 && omega_.empty(); }
+  [[nodiscard]] bool is_constant() const { return degree_ == 1 && omega_.empty(); }
   /// b(x)
   [[nodiscard]] Eigen::VectorXd at(double x) const;
-  [[nodiscard]] Course of(const Piece& piece) const;
-  [[nodiscard]] Course constant(double value) const;
+  [[nodiscard]] TimeCoefficients of(const Piece& piece) const;
+  [[nodiscard]] TimeCoefficients constant(double value) const;
   /// Derivative of rows c.
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::MatrixXd& c) const;
-  [[nodiscard]] Course derivative(const Course& c) const;
+  [[nodiscard]] TimeCoefficients derivative(const TimeCoefficients& c) const;
   /// c with c D = l c + p; l = 0 or different from all +-i w: the coefficient of x^D of p is not read. For slow roots
   /// to rounding, within the length given to make_room().
-  [[nodiscard]] ComplexCourse answer(std::complex<double> l, const ComplexCourse& p) const;
+  [[nodiscard]] ComplexTimeCoefficients response(std::complex<double> l,
+                                                 const ComplexTimeCoefficients& p) const;
   /// Ratio of the response's terms to p / l on [0, time], if p is not constant: their relative rounding error is eps
   /// times it. 0: l = 0. A root that is not real, or that grows, belongs to a pair whose terms cancel, and so do their
   /// rates: the remainder grows with the square of time.
-  [[nodiscard]] double loss(std::complex<double> l, double time) const;
+  [[nodiscard]] double cancellation(std::complex<double> l, double time) const;
   /// p[0 .. count): c . b(x0 + h x) in powers of x, count > D. Returns bounds on the waves with w h > turn, which are
   /// left out, and on their rates by time; and on the higher powers of the others.
-  struct Ripple {
+  struct FastWaveBound {
     double value = 0.0, rate = 0.0, rest = 0.0;
   };
-  [[nodiscard]] Ripple taylor(const Course& c, double x0, double h, double turn,
-                              std::vector<double>& p) const;
+  [[nodiscard]] FastWaveBound taylor(const TimeCoefficients& c, double x0, double h, double turn,
+                                     std::vector<double>& p) const;
   /// Integral of b b^T over [x0, x1]: that of (c . b)(d . b) is c . products d.
   [[nodiscard]] Eigen::MatrixXd products(double x0, double x1) const;
 
  private:
   [[nodiscard]] bool is_slow(std::complex<double> l) const {
-    return l == 0.0 || std::abs(l) * length_ <= slow_turn;
+    return l == 0.0 || std::abs(l) * length_ <= max_slow_angle;
   }
 
-  static constexpr double slow_turn = 0.5;  // backwards a ramp's terms are eight times its response there
+  static constexpr double max_slow_angle =
+      0.5;  // backwards a ramp's terms are eight times its response there
   double t0_ = 0.0;
   double length_ = std::numeric_limits<double>::infinity();
   std::size_t degree_ = 1, driven_ = 1;  // driven_: without room for slow roots

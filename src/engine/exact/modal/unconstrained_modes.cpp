@@ -66,7 +66,7 @@ constexpr double doubtful = 100.0;       // factor: such a low mode is indisting
 constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are computed together
 constexpr int more_halvings = 11;  // limit for a bracket with one mode: inverse iteration gains 2000 a solve
 constexpr int quick_solves = 3;
-constexpr int most_quotients = 6;
+constexpr int max_quotients = 6;
 constexpr double worst_product = 1e-4;  // limit for the product of two shapes before orthogonalisation
 
 struct Bracket {
@@ -130,12 +130,12 @@ class Shapes {
     LongVector value;
     orthonormal(one);
     rotate(one, value);
-    for (int i = 0; i < most_quotients; ++i) {
+    for (int i = 0; i < max_quotients; ++i) {
       const Long before = value[0];
       pencil_.factor(before);
       sweep(one);
       rotate(one, value);
-      if (std::abs(value[0] - before) <= rounding::of_few * std::abs(before)) break;
+      if (std::abs(value[0] - before) <= rounding::few_operations * std::abs(before)) break;
     }
     x = one[0];
     square = value[0];
@@ -271,7 +271,7 @@ UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMat
 
   UnconstrainedModes modes;
   modes.free = static_cast<int>(free);
-  modes.square.setZero(static_cast<Eigen::Index>(n));
+  modes.omega_squared.setZero(static_cast<Eigen::Index>(n));
   modes.shapes.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   const auto keep = [&](std::size_t k, const LongVector& x) {
     for (std::size_t i = 0; i < n; ++i)
@@ -299,11 +299,11 @@ UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMat
     }
     for (std::size_t j = 0; j < count; ++j, ++k) {
       keep(k, x[j]);
-      modes.square[static_cast<Eigen::Index>(k)] = static_cast<double>(square[j]);
+      modes.omega_squared[static_cast<Eigen::Index>(k)] = static_cast<double>(square[j]);
     }
   }
   if (k != n || !modes.shapes.allFinite()) return failed("not all modes were found");
-  if (!std::is_sorted(modes.square.data(), modes.square.data() + n) ||
+  if (!std::is_sorted(modes.omega_squared.data(), modes.omega_squared.data() + n) ||
       !orthonormal_from_low_to_high(mass, modes.shapes))
     return failed("the modes that were found are not orthogonal");
   return modes;
@@ -311,7 +311,7 @@ UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMat
 
 namespace {
 
-bool stands_still(const History& history) {
+bool has_constant_excitation(const History& history) {
   return std::all_of(history.pieces().begin(), history.pieces().end(), [](const Piece& piece) {
     return !piece.function && piece.amplitude == 0.0 &&
            std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
@@ -323,22 +323,23 @@ bool stands_still(const History& history) {
 
 bool is_symmetric(const SparseMatrix& a) {
   const SparseMatrix difference = a - SparseMatrix(a.transpose());
-  return difference.norm() <= rounding::of_many * a.norm();
+  return difference.norm() <= rounding::many_operations * a.norm();
 }
 
-bool stands_still(const Model& model) {
+bool has_constant_excitation(const Model& model) {
   return std::all_of(model.loads.begin(), model.loads.end(),
-                     [](const Load& load) { return stands_still(load.history); }) &&
+                     [](const Load& load) { return has_constant_excitation(load.history); }) &&
          std::all_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
-           return stands_still(contact.normal_force) && stands_still(contact.surface_motion);
+           return has_constant_excitation(contact.normal_force) &&
+                  has_constant_excitation(contact.surface_motion);
          });
 }
 
-OpenBasis::OpenBasis(const Model& model) {
+UnconstrainedBasis::UnconstrainedBasis(const Model& model) {
   UnconstrainedModes modes = unconstrained_modes(model.mass, model.stiffness);
   failure_ = std::move(modes.failure);
   if (!failure_.empty()) return;
-  square_ = std::move(modes.square);
+  omega_squared_ = std::move(modes.omega_squared);
   shapes_ = modes.shapes;
   projection_ = (model.mass * modes.shapes).transpose();
   const auto amplitudes_of = [&](const Combination& form) {

@@ -17,7 +17,7 @@
 namespace signorini::modal {
 
 struct UnconstrainedModes {
-  Vector square;           ///< omega^2, ascending; 0 for free motions
+  Vector omega_squared;    ///< omega^2, ascending; 0 for free motions
   Eigen::MatrixXd shapes;  ///< n x n, columns M-orthonormal
   int free = 0;            ///< number of motions without stiffness
   std::string failure;     ///< reason why there are none; empty if there are
@@ -39,16 +39,16 @@ struct UnconstrainedModes {
 /// True if the matrix is symmetric up to rounding.
 [[nodiscard]] bool is_symmetric(const SparseMatrix& a);
 /// True if all loads, compressions and surfaces are constant between their jumps.
-[[nodiscard]] bool stands_still(const Model& model);
+[[nodiscard]] bool has_constant_excitation(const Model& model);
 
-class OpenBasis {
+class UnconstrainedBasis {
  public:
-  explicit OpenBasis(const Model& model);
+  explicit UnconstrainedBasis(const Model& model);
 
   /// Reason why there are no modes; empty: there are.
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// omega^2, ascending.
-  [[nodiscard]] const Vector& square() const { return square_; }
+  [[nodiscard]] const Vector& omega_squared() const { return omega_squared_; }
   /// Forms of contacts and directions of loads, one entry for each mode.
   [[nodiscard]] const Vector& normal(std::size_t contact) const { return normal_[contact]; }
   [[nodiscard]] const Vector& tangent(std::size_t contact) const { return tangent_[contact]; }
@@ -75,7 +75,7 @@ class OpenBasis {
 
  private:
   std::string failure_;
-  Vector square_;
+  Vector omega_squared_;
   RowMatrix shapes_;            // Phi
   Eigen::MatrixXd projection_;  // Phi^T M
   std::vector<Vector> normal_, tangent_, load_;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/history/pieces.hpp"
-#include "model/machine_units.hpp"
+#include "model/internal_units.hpp"
 #include "signorini/smooth.hpp"
 
 using namespace signorini;
@@ -68,8 +68,8 @@ TEST_CASE("a function in a history is as good as its closed form") {
   CHECK_FALSE(own.has_closed_form());
   CHECK(closed.has_closed_form());
   CHECK_THROWS_AS(static_cast<void>(own.integrated()), std::invalid_argument);
-  CHECK(history::negative_at(own.scaled(1.0, -5.0), 0.5) >= 0.0);
-  CHECK(history::negative_at(own, 0.9) < 0.0);
+  CHECK(history::find_negative_time(own.scaled(1.0, -5.0), 0.5) >= 0.0);
+  CHECK(history::find_negative_time(own, 0.9) < 0.0);
 }
 
 TEST_CASE("one history, then another") {

@@ -180,20 +180,19 @@ TEST_SUITE("unit/base/history/history") {
     s.offset = 1.0;
     s.amplitude = 0.5;
     CHECK(history::magnitude(scene::make_history(s, "h"), 100.0) == doctest::Approx(1.5));
-    CHECK(history::negative_at(scene::make_history(s, "h"), 100.0) < 0.0);
+    CHECK(history::find_negative_time(scene::make_history(s, "h"), 100.0) < 0.0);
     s.amplitude = 1.5;
-    CHECK(history::negative_at(scene::make_history(s, "h"), 100.0) == doctest::Approx(pi / 2.0));
+    CHECK(history::find_negative_time(scene::make_history(s, "h"), 100.0) == doctest::Approx(pi / 2.0));
     s.amplitude = -1.5;
-    CHECK(history::negative_at(scene::make_history(s, "h"), 100.0) == doctest::Approx(pi / 6.0));
-    CHECK(history::negative_at(scene::make_history(spec(HistoryType::half_sine, 0.0, 0.3), "h"), 1.0) < 0.0);
+    CHECK(history::find_negative_time(scene::make_history(s, "h"), 100.0) == doctest::Approx(pi / 6.0));
+    CHECK(history::find_negative_time(scene::make_history(spec(HistoryType::half_sine, 0.0, 0.3), "h"), 1.0) <
+          0.0);
     CHECK(history::magnitude(scene::make_history(spec(HistoryType::triangle, 0.5, 0.6), "h"), 1.0) ==
           doctest::Approx(1.0));
   }
 
   TEST_CASE("the greatest impulse within a time") {
-    const auto impulse = [](const History& f, double width) {
-      return history::greatest_impulse(f, 10.0, width);
-    };
+    const auto impulse = [](const History& f, double width) { return history::max_impulse(f, 10.0, width); };
     const History pulse = scene::make_history(spec(HistoryType::rectangle, 0.5, 0.75), "h").scaled(-8.0);
     CHECK(impulse(pulse, 0.1) == doctest::Approx(0.8));
     CHECK(impulse(pulse, 3.0) == doctest::Approx(2.0));
@@ -206,8 +205,8 @@ TEST_SUITE("unit/base/history/history") {
     s.omega = 3.0;
     CHECK(impulse(scene::make_history(s, "h"), 1.0) == doctest::Approx(1.0));
     // A load that has just begun when the run ends is no pulse.
-    CHECK(history::greatest_impulse(scene::make_history(spec(HistoryType::step, 9.999, HUGE_VAL), "h"), 10.0,
-                                    2.0) == doctest::Approx(2.0));
+    CHECK(history::max_impulse(scene::make_history(spec(HistoryType::step, 9.999, HUGE_VAL), "h"), 10.0,
+                               2.0) == doctest::Approx(2.0));
     // Pulses that follow each other count together, as many as are in that time.
     HistorySpec again = spec(HistoryType::rectangle, 0.0, 0.01);
     again.period = 1.0;

@@ -39,7 +39,7 @@ std::vector<std::pair<Contact, std::vector<State>>> all() {
   for (const DataLaw* data : data_laws()) {
     const std::vector<double> constants(data->constants.size(), 20.0);
     Contact c = contact_of(std::make_shared<const UserContactLaw>(data->make(1000.0, constants)));
-    const std::vector<State> own = c.law->own_states();
+    const std::vector<State> own = c.law->user_law_states();
     contacts.emplace_back(std::move(c), own);
   }
   // R^2 + c N - N^2 - T^2 and a memory: the linear part of a guard has the unit of its products.
@@ -53,7 +53,7 @@ std::vector<std::pair<Contact, std::vector<State>>> all() {
                      {},
                      {{{.N = -1.0}, {.N = 1.0}}, {{.T = -1.0}, {.T = 1.0}}}}}}};
   Contact c = contact_of(std::make_shared<const UserContactLaw>(std::move(round)));
-  const std::vector<State> own = c.law->own_states();
+  const std::vector<State> own = c.law->user_law_states();
   contacts.emplace_back(std::move(c), own);
   return contacts;
 }
@@ -114,8 +114,8 @@ TEST_CASE("what a law can do") {
   CHECK(rigid.takes_impulses());
   CHECK_FALSE(split.takes_impulses());
   CHECK(slider.normal_force_given());
-  CHECK_FALSE(slider.gap_if_any(0.5));
-  CHECK(rigid.gap_if_any(0.5) == 0.5);
+  CHECK_FALSE(slider.optional_gap(0.5));
+  CHECK(rigid.optional_gap(0.5) == 0.5);
   CHECK(split.law->name() == rigid.law->name());
   CHECK(compliant.resting_force(std::vector<double>{}) == 0.0);  // its gap is open
 }
@@ -124,13 +124,13 @@ TEST_CASE("a law made of data has states and a memory of its own, and no other c
   for (const DataLaw* data : data_laws()) {
     const std::vector<double> constants(data->constants.size(), 20.0);
     const auto law = std::make_shared<const UserContactLaw>(data->make(1000.0, constants));
-    CHECK(refusal_of(*law).empty());
+    CHECK(validation_error(*law).empty());
     const Contact c = contact_of(law), twin = contact_of(law);
     CHECK(c.law == twin.law);
-    CHECK(c.law->own_states().size() == law->states.size());
+    CHECK(c.law->user_law_states().size() == law->states.size());
     CHECK_FALSE(c.obeys_coulomb());
     CHECK_FALSE(c.anchor_spring());
-    CHECK(c.law->candidates(c, {c.law->own_states()[0], -0.5}, {}).size() == law->states.size());
+    CHECK(c.law->candidates(c, {c.law->user_law_states()[0], -0.5}, {}).size() == law->states.size());
     for (const DataLawConstant& constant : data->constants)
       CHECK(scene::find_key("contacts[]", constant.key));
   }

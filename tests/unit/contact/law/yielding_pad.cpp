@@ -18,9 +18,9 @@ Contact pad() {
   return c;
 }
 
-ContactState off(double p) { return {own_state(0, State::open), p}; }
-ContactState elastic(double p) { return {own_state(1, State::closed), p}; }
-ContactState crushed(double p) { return {own_state(2, State::slip_minus), p}; }
+ContactState off(double p) { return {user_law_state(0, State::open), p}; }
+ContactState elastic(double p) { return {user_law_state(1, State::closed), p}; }
+ContactState crushed(double p) { return {user_law_state(2, State::slip_minus), p}; }
 
 ContactMotion at(double gap, double N, double vn = 0.0) {
   ContactMotion m;
@@ -73,11 +73,11 @@ TEST_CASE("yielding pad: the dent is what unloading leaves, and only crushing mo
     jet.motion[0] = m;
     return contact::next_state(c, state, guard, jet);
   };
-  CHECK(next(off(-0.1), Guard::own_1, at(-0.1, 0.0, -1.0)) == elastic(-0.1));
-  CHECK(next(elastic(-0.1), Guard::own_1, at(-0.1, 0.0, 1.0)) == off(-0.1));
-  CHECK(next(elastic(-0.1), Guard::own_2, at(-0.12, -20.0, -1.0)) == crushed(-0.1));
-  const ContactState unloads = next(crushed(-0.1), Guard::own_1, at(-0.35, -20.0));
-  CHECK(unloads.state == own_state(1, State::closed));
+  CHECK(next(off(-0.1), Guard::user_1, at(-0.1, 0.0, -1.0)) == elastic(-0.1));
+  CHECK(next(elastic(-0.1), Guard::user_1, at(-0.1, 0.0, 1.0)) == off(-0.1));
+  CHECK(next(elastic(-0.1), Guard::user_2, at(-0.12, -20.0, -1.0)) == crushed(-0.1));
+  const ContactState unloads = next(crushed(-0.1), Guard::user_1, at(-0.35, -20.0));
+  CHECK(unloads.state == user_law_state(1, State::closed));
   CHECK(unloads.anchor == doctest::Approx(-0.33));
   CHECK(contact::rows(c, unloads).normal.value(at(-0.35, -20.0)) == doctest::Approx(0.0));  // N stays
 }

@@ -143,7 +143,7 @@ TEST_CASE("what is told to go one way does, on lines that are bent more and less
       *history.push(t, h) = 3.0 + slope * t + bent * (2.0 * uniform(random) - 1.0);
     }
     history.prepare(degree);
-    if (!history.clearly_goes_one_way(0)) continue;
+    if (!history.clearly_monotone(0)) continue;
     ++proofs;
     const events::Bernstein p = history.polynomial(0);
     const double way = p.value(1.0) > p.value(0.0) ? 1.0 : -1.0;

@@ -45,11 +45,11 @@ TEST_SUITE_BEGIN("unit/engine/events/first_fall");
 
 TEST_CASE("what is not a number is said to be so, not halved for ever") {
   const double nan = std::nan(""), inf = HUGE_VAL;
-  CHECK(fall({nan, 1.0, -3.0}).kind == events::FirstRoot::Kind::lost);
-  CHECK(fall({1.0, nan, -3.0}).kind == events::FirstRoot::Kind::lost);
-  CHECK(fall({1.0, -inf, inf}).kind == events::FirstRoot::Kind::lost);
+  CHECK(fall({nan, 1.0, -3.0}).kind == events::FirstRoot::Kind::not_finite);
+  CHECK(fall({1.0, nan, -3.0}).kind == events::FirstRoot::Kind::not_finite);
+  CHECK(fall({1.0, -inf, inf}).kind == events::FirstRoot::Kind::not_finite);
   const double a[] = {1.0, -3.0};
-  CHECK(events::first_root(a, 1, inf).kind == events::FirstRoot::Kind::lost);
+  CHECK(events::first_root(a, 1, inf).kind == events::FirstRoot::Kind::not_finite);
 }
 
 TEST_CASE("simple falls, rises and none") {

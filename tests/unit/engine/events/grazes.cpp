@@ -1,5 +1,5 @@
 // Guards that come back into their tolerance and leave it: what is a graze, and what is not.
-#include "engine/events/near_events.hpp"
+#include "engine/events/graze_detector.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,11 +25,11 @@ class Followed {
     for (; t_ < end - 0.05; t_ += 0.1) {
       fill(history_.push(t_ + 0.1), t_ + 0.1);
       history_.prepare(std::min(++steps_, 2));
-      grazes.see(history_, limit);
+      grazes.update(history_, limit);
     }
     return *this;
   }
-  events::Grazes grazes;
+  events::GrazeDetector grazes;
 
  private:
   void fill(double* out, double t) const {

@@ -1,5 +1,5 @@
 // Gaps that come near to zero and open again.
-#include "engine/events/near_events.hpp"
+#include "engine/events/graze_detector.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,14 +24,14 @@ std::vector<events::NearHit> near_hits_of(const std::function<double(double)>& g
     std::fill_n(out, guards.size(), 1.0);
     out[contact::guard_slot(1, 0)] = gap(t);
   };
-  events::NearHits hits;
+  events::NearHitDetector hits;
   hits.start(guards, levels);
   fill(history.restart(0.0), 0.0);
   int steps = 0;
   for (double t = 0.1; t < end; t += 0.1) {
     fill(history.push(t, 0.1), t);
     history.prepare(std::min(++steps, 3));
-    hits.see(history, limit);
+    hits.update(history, limit);
   }
   return hits.list();
 }

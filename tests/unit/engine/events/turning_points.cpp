@@ -13,7 +13,7 @@ namespace {
 struct OneForce {
   motion::Series series;
   std::vector<motion::ContactSeries> contacts{1};
-  events::TurningPoints turns{1};
+  events::TurningPointDetector turns{1};
 
   explicit OneForce(const std::vector<double>& N) {
     const std::size_t degree = N.size() - 1;
@@ -91,14 +91,14 @@ TEST_CASE(
 
 TEST_CASE("a part of a step that begins at a peak has it, for nobody looks there") {
   OneForce rising({0.0, 1.0});
-  rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, events::TurningPoints::Ends::part);
+  rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, events::TurningPointDetector::Ends::part);
   CHECK(rising.turns.times().empty());
   for (const double slope : {-1e-3, 0.0, 1e-3}) {  // the peak was a little before, or is a little after
     CAPTURE(slope);
     OneForce peak({0.0, slope, -1.0});
     peak.series.forces(0, 0) = 1.0;
     peak.contacts[0].fill(Contact{}, 0, peak.series, 2);
-    peak.turns.find(peak.contacts, peak.series, 0.0, 1.0, events::TurningPoints::Ends::part);
+    peak.turns.find(peak.contacts, peak.series, 0.0, 1.0, events::TurningPointDetector::Ends::part);
     REQUIRE(peak.turns.times().size() == 1);
     CHECK(peak.turns.times()[0] == doctest::Approx(1.0 + std::max(0.0, slope)).epsilon(1e-12));
   }
@@ -118,7 +118,7 @@ TEST_CASE("what only seems to exceed all before is no turn: it would stand for t
       for (int k = 0; k < 3; ++k)
         lower.series.forces(0, k) = std::vector<double>{level - sharp * at * at, 2.0 * sharp * at,
                                                         -sharp}[static_cast<std::size_t>(k)];
-      lower.turns.begins(0, motion::ContactSeries::N, -1e9, 0.0, 0.0);  // lower than all that comes
+      lower.turns.find_at_start(0, motion::ContactSeries::N, -1e9, 0.0, 0.0);  // lower than all that comes
       lower.contacts[0].fill(Contact{}, 0, lower.series, 2);
       CHECK(lower.times().empty());
     }
@@ -128,15 +128,17 @@ TEST_CASE("a peak between two parts of a step is the beginning of the second, an
   for (const double sign : {1.0, -1.0}) {
     CAPTURE(sign);
     OneForce rising({0.0, sign});
-    rising.turns.find(rising.contacts, rising.series, 0.0, 1.0, events::TurningPoints::Ends::first_part);
+    rising.turns.find(rising.contacts, rising.series, 0.0, 1.0,
+                      events::TurningPointDetector::Ends::first_part);
     CHECK(rising.turns.times().empty());
-    events::TurningPoints& turns = rising.turns;
-    CHECK_FALSE(turns.begins(0, motion::ContactSeries::N, sign, 0.5 * sign, 3.0));  // it rises on
-    const auto peak = turns.begins(0, motion::ContactSeries::N, sign, -0.5 * sign, 3.0);
+    events::TurningPointDetector& turns = rising.turns;
+    CHECK_FALSE(turns.find_at_start(0, motion::ContactSeries::N, sign, 0.5 * sign, 3.0));  // it rises on
+    const auto peak = turns.find_at_start(0, motion::ContactSeries::N, sign, -0.5 * sign, 3.0);
     REQUIRE(peak);
     CHECK(peak->time == 3.0);
-    CHECK_FALSE(turns.begins(0, motion::ContactSeries::N, sign, -0.5 * sign, 5.0));  // as high as before
-    CHECK_FALSE(turns.begins(0, motion::ContactSeries::N, 0.5 * sign, -0.5 * sign, 5.0));  // lower
+    CHECK_FALSE(
+        turns.find_at_start(0, motion::ContactSeries::N, sign, -0.5 * sign, 5.0));  // as high as before
+    CHECK_FALSE(turns.find_at_start(0, motion::ContactSeries::N, 0.5 * sign, -0.5 * sign, 5.0));  // lower
   }
 }
 
@@ -184,16 +186,16 @@ TEST_CASE("what its rate keeps within all that was before is not looked at, and 
 }
 
 TEST_CASE("a value beyond all before has turned where it goes back, unless it is beyond by its rounding") {
-  const events::TurningPoints::Range range{-2.0, 3.0};
-  CHECK(range.is_left(3.5, -1e-20, 0.0));
-  CHECK(range.is_left(-2.5, 1e-20, 0.4));
-  CHECK_FALSE(range.is_left(3.5, 1.0, 0.0));  // it goes on
-  CHECK_FALSE(range.is_left(3.5, 0.0, 0.0));
-  CHECK_FALSE(range.is_left(-2.5, -1.0, 0.0));
-  CHECK_FALSE(range.is_left(3.0, -1.0, 0.0));  // as far as before
-  CHECK_FALSE(range.is_left(-2.0, 1.0, 0.0));
-  CHECK_FALSE(range.is_left(3.5, -1.0, 0.6));
-  CHECK_FALSE(range.is_left(-2.5, 1.0, 0.6));
+  const events::TurningPointDetector::Range range{-2.0, 3.0};
+  CHECK(range.is_exceeded(3.5, -1e-20, 0.0));
+  CHECK(range.is_exceeded(-2.5, 1e-20, 0.4));
+  CHECK_FALSE(range.is_exceeded(3.5, 1.0, 0.0));  // it goes on
+  CHECK_FALSE(range.is_exceeded(3.5, 0.0, 0.0));
+  CHECK_FALSE(range.is_exceeded(-2.5, -1.0, 0.0));
+  CHECK_FALSE(range.is_exceeded(3.0, -1.0, 0.0));  // as far as before
+  CHECK_FALSE(range.is_exceeded(-2.0, 1.0, 0.0));
+  CHECK_FALSE(range.is_exceeded(3.5, -1.0, 0.6));
+  CHECK_FALSE(range.is_exceeded(-2.5, 1.0, 0.6));
   CHECK(range.width(0.0) == 5.0);
   CHECK(range.width(4.0) == 6.0);
   CHECK(range.width(-4.0) == 7.0);

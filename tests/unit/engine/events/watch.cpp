@@ -16,7 +16,7 @@ std::vector<double> falls(const std::function<double(double)>& g, bool at_zero, 
   decide::GuardStart start;
   start.kind = Guard::separation;
   start.at_zero = at_zero;
-  events::Watch watch;
+  events::GuardMonitor watch;
   watch.start({start}, decide::GuardForms(1), {level});
   events::StepHistory history(1);
   *history.restart(0.0) = g(0.0);
@@ -53,12 +53,12 @@ TEST_CASE("an event is late by the level of a guard that has not risen, and of n
   of_second[1].form.T = 1.0;
   decide::GuardForms forms(2);
   forms.set(1, of_second);
-  events::Watch watch;
-  CHECK(watch.leeway(1, of_second[0]) == 0.0);  // before any segment
+  events::GuardMonitor watch;
+  CHECK(watch.allowed_depth(1, of_second[0]) == 0.0);  // before any segment
   watch.start(guards, forms, std::vector<double>(guards.size(), 1e-6));
-  CHECK(watch.leeway(1, of_second[0]) == 1e-6);
-  CHECK(watch.leeway(0, of_second[0]) == 0.0);
-  CHECK(watch.leeway(1, of_second[1]) == 0.0);
+  CHECK(watch.allowed_depth(1, of_second[0]) == 1e-6);
+  CHECK(watch.allowed_depth(0, of_second[0]) == 0.0);
+  CHECK(watch.allowed_depth(1, of_second[1]) == 0.0);
   events::StepHistory history(guards.size());
   double* start = history.restart(0.0);
   std::fill_n(start, guards.size(), 1.0);
@@ -66,7 +66,7 @@ TEST_CASE("an event is late by the level of a guard that has not risen, and of n
   std::fill_n(history.push(1.0), guards.size(), 1.0);  // rises above its level
   history.prepare(1);
   CHECK(watch.check(history, 1.0).empty());
-  CHECK(watch.leeway(1, of_second[0]) == 0.0);
+  CHECK(watch.allowed_depth(1, of_second[0]) == 0.0);
 }
 
 TEST_CASE("a guard that starts at zero and rises fires only after it has clearly risen") {
@@ -94,7 +94,7 @@ TEST_CASE("a guard that starts at zero and rises fires only after it has clearly
 }
 
 TEST_CASE("idle guards never fall") {
-  events::Watch watch;
+  events::GuardMonitor watch;
   watch.start({decide::GuardStart{}}, decide::GuardForms(1), {1.0});
   events::StepHistory history(1);
   *history.restart(0.0) = 1.0;
@@ -107,7 +107,7 @@ TEST_CASE("what was taken not to fall waits: deeper it falls, and once it has ri
   const auto found = [](const std::function<double(double)>& g) {
     decide::GuardStart clear;
     clear.kind = Guard::sliding;
-    events::Watch watch;
+    events::GuardMonitor watch;
     watch.start({clear}, decide::GuardForms(1), {1e-9});
     events::StepHistory history(1);
     *history.restart(0.0) = g(0.0);
@@ -117,7 +117,7 @@ TEST_CASE("what was taken not to fall waits: deeper it falls, and once it has ri
       history.prepare(std::min(i, 5));
       for (const events::ZeroCrossing& fall : watch.check(history, 1.0)) {
         result.push_back(history.begin() + fall.x * 0.05);
-        if (result.size() == 1) watch.wait(0, 1e-3);
+        if (result.size() == 1) watch.set_waiting(0, 1e-3);
       }
     }
     return result;

@@ -27,8 +27,8 @@ TEST_CASE("the power of a motion: the short rule to rounding up to its turn, the
   };
   CHECK(exact::short_gauss_rule().count == 6);
   for (const double phase : {0.0, 0.4, 1.3, 2.9}) {
-    CHECK(std::abs(mean(exact::short_gauss_rule(), exact::short_turn, phase) -
-                   exact(exact::short_turn, phase)) < 1e-15);
+    CHECK(std::abs(mean(exact::short_gauss_rule(), exact::short_angle, phase) -
+                   exact(exact::short_angle, phase)) < 1e-15);
     CHECK(std::abs(mean(exact::gauss_rule(), 2.5, phase) - exact(2.5, phase)) < 1e-15);
   }
   CHECK(std::abs(mean(exact::short_gauss_rule(), 2.5, 0.4) - exact(2.5, 0.4)) > 1e-10);

@@ -122,7 +122,7 @@ TEST_CASE("a friction force within its own error opens from stick; one beyond it
     CHECK(std::abs(last.t - truth.events[2].t) < 1e-8);
     if (told) CHECK(std::abs(run.events[1].t - truth.events[1].t) < 1e-8);
     if (!told) CHECK(early < *last.t_uncertainty);
-    CHECK(run.report.witness.violated == 0);
+    CHECK(run.report.law_checks.violated == 0);
   }
 }
 

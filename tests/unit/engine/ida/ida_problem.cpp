@@ -36,8 +36,8 @@ TEST_CASE("no tolerance of a force lies below the rounding of the difference tha
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
   ida::IdaProblem problem(model, structure, tolerance);
   decide::Decision decision;
-  decision.mode = {{State::stick, 0.0}};
-  const events::Watch watch;
+  decision.states = {{State::stick, 0.0}};
+  const events::GuardMonitor watch;
   problem.start({1.0, &decision, &forcing}, watch);
   std::vector<double> y(8, 0.0), w(8);
   y[0] = -3.0;
@@ -59,8 +59,8 @@ TEST_CASE(
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
   ida::IdaProblem problem(model, structure, tolerance);
   decide::Decision decision;
-  decision.mode = {{State::stick, 0.0}};
-  const events::Watch watch;
+  decision.states = {{State::stick, 0.0}};
+  const events::GuardMonitor watch;
   problem.start({1.0, &decision, &forcing}, watch);
   std::vector<double> y(8, 0.0), w(8);
   y[3] = -0.5;
@@ -79,7 +79,7 @@ TEST_CASE("the acceleration of a held degree of freedom is exactly what its cont
   const linear::SystemMatrices structure(model);
   const ida::Layout layout(model);
   ida::IdaLinearSolver solver(model, structure, layout);
-  solver.set_mode({{State::stick, 0.0}});
+  solver.set_contact_states({{State::stick, 0.0}});
   for (int i = 1; i <= 20; ++i) {
     CAPTURE(i);
     solver.set_cj(0.37 * i * i);

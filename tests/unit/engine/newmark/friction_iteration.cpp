@@ -21,7 +21,7 @@ TEST_CASE(
     "a block slides as average acceleration has it, and stops at the end of the step in which it would "
     "turn") {
   Stretch s(block(), {{"run.engine", "friction-iteration"}, {"run.dt", "0.3"}});
-  REQUIRE(s.decision.mode[0].state == State::slip_plus);
+  REQUIRE(s.decision.states[0].state == State::slip_plus);
   std::vector<double> ends, u, v;
   motion::WorkIntegrals works(1);
   const engine::Step last = s.go([&](const engine::Step& step) {
@@ -43,8 +43,8 @@ TEST_CASE(
   }
   // Held from 0.9 on: v = 0 at 1.2, and the mean velocity moves it by 0.3 (0.1 + 0) / 2.
   REQUIRE(last.kind == engine::Step::Kind::event);
-  REQUIRE(last.adopted);
-  CHECK((*last.adopted)[0].state == State::stick);
+  REQUIRE(last.engine_states);
+  CHECK((*last.engine_states)[0].state == State::stick);
   CHECK(last.triggered.empty());
   CHECK(ends[3] == doctest::Approx(1.2).epsilon(1e-15));
   CHECK(u[3] == doctest::Approx(0.51).epsilon(1e-14));
@@ -56,7 +56,7 @@ TEST_CASE(
   CHECK(inside.v[0] == doctest::Approx(0.05).epsilon(1e-13));
   CHECK(inside.T({}, 0) == doctest::Approx(2.0).epsilon(1e-13));
   REQUIRE(s.pass(last));
-  CHECK(s.decision.mode[0].state == State::stick);
+  CHECK(s.decision.states[0].state == State::stick);
   const engine::Step rest = s.go();
   CHECK(rest.end == 3.0);
   CHECK(s.at(3.0).u[0] == doctest::Approx(0.51).epsilon(1e-14));

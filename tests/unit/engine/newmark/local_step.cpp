@@ -45,7 +45,7 @@ TEST_CASE("at every contact, turned as it may be, the end of a step is that of t
         CAPTURE(number);
         CAPTURE(h);
         CAPTURE(k);
-        const motion::Point* near = step.near(k, at.forcing, at.from, h, h, whole, longer);
+        const motion::Point* near = step.local_end(k, at.forcing, at.from, h, h, whole, longer);
         REQUIRE(near != nullptr);
         const ContactMotion a = motion::motion_of(m.contacts[k], k, at.forcing, h, *near),
                             b = motion::motion_of(m.contacts[k], k, at.forcing, h, end);
@@ -80,7 +80,7 @@ TEST_CASE(
   REQUIRE(step.take(at.forcing, at.from, h, h, false, end));
   const std::size_t k = 750;
   const auto off = [&]() -> double {
-    const motion::Point* near = step.near(k, at.forcing, at.from, h, h, whole, longer);
+    const motion::Point* near = step.local_end(k, at.forcing, at.from, h, h, whole, longer);
     if (near == nullptr) return -1.0;
     const auto dof = m.contacts[k].normal.terms[0].first;
     return std::abs(near->a[dof] - end.a[dof]) / end.a.cwiseAbs().maxCoeff();
@@ -89,7 +89,7 @@ TEST_CASE(
   CHECK(before > 1e-9);
   int times = 0;
   for (; times < 10; ++times) {
-    step.look_farther();
+    step.double_radius();
     const double now = off();
     if (now < 0.0) break;
     CHECK(now < before);

@@ -195,7 +195,7 @@ TEST_CASE(
         REQUIRE(whole.take(s.forcing, from, last.begin + h, h, false, to));
         const ContactMotion m =
             motion::motion_of(s.model.contacts[contact], contact, s.forcing, last.begin + h, to);
-        rounding = rounding::of_many * s.decision.form(slot).magnitude(m);
+        rounding = rounding::many_operations * s.decision.form(slot).magnitude(m);
         return s.decision.form(slot).value(m);
       };
       const double h = last.end - last.begin, apart = 1e-11;

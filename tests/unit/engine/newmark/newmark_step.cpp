@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "motion/consistent.hpp"
+#include "motion/consistent_motion.hpp"
 #include "motion/point.hpp"
 #include "signorini/simulate.hpp"
 #include "unit/linear/rubbing_row.hpp"
@@ -34,8 +34,8 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
     const Model m = make_model();
     const linear::SystemMatrices structure(m);
     motion::StateSystems systems(m, structure);
-    const contact::ContactStates mode{{State::slip_plus, 0.0}};
-    const motion::StateSystemPtr system = systems.of(mode);
+    const contact::ContactStates contact_states{{State::slip_plus, 0.0}};
+    const motion::StateSystemPtr system = systems.system_of(contact_states);
     REQUIRE(system);
     const motion::Forcing forcing(m, 0.0, motion::Side::after);
     motion::Point from{m.u0, m.v0, Vector::Zero(2)}, to;
@@ -53,7 +53,7 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
         CHECK(to.v[i] == doctest::Approx(v).epsilon(1e-13));
       }
       CHECK(to.forces[1] == -0.4 * to.forces[0]);  // to the last bit
-      CHECK(motion::imbalance(m, structure, forcing, h, to) <
+      CHECK(motion::equilibrium_residual(m, structure, forcing, h, to) <
             1e-12 * (1.0 + 1e3 * to.u.cwiseAbs().maxCoeff()));
     }
   }
@@ -68,7 +68,7 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
         "test.toml"));
     const linear::SystemMatrices structure(m);
     motion::StateSystems systems(m, structure);
-    const motion::StateSystemPtr system = systems.of({});
+    const motion::StateSystemPtr system = systems.system_of({});
     REQUIRE(system);
     const motion::Forcing forcing(m, 0.0, motion::Side::after);
     motion::Point from{m.u0, m.v0, Vector::Zero(0)}, to;
@@ -96,10 +96,10 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
     const motion::Forcing forcing(m, 0.0, motion::Side::after);
     motion::Point from{m.u0, m.v0, Vector::Zero(2), Vector::Zero(2)}, to;
     for (int i = 0; i < 5; ++i)
-      for (const contact::ContactStates& mode : {stick, slip}) {
-        const motion::StateSystemPtr system = systems.of(mode);
+      for (const contact::ContactStates& contact_states : {stick, slip}) {
+        const motion::StateSystemPtr system = systems.system_of(contact_states);
         REQUIRE(system);
-        step.set({static_cast<int>(mode[0].state)}, system->rows());
+        step.set({static_cast<int>(contact_states[0].state)}, system->rows());
         REQUIRE(step.take(forcing, from, 0.01, 0.01, true, to));
         REQUIRE(step.take(forcing, from, 0.02, 0.01, true, to));
       }
@@ -117,31 +117,31 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
     };
     // Every step factorised; avoided; as a band, once for each odd length.
     for (const auto& [masses, widest] :
-         {Kind{9, 0}, Kind{77, 0}, Kind{77, linear::CondensedMatrix::widest}}) {
+         {Kind{9, 0}, Kind{77, 0}, Kind{77, linear::CondensedMatrix::max_width}}) {
       const Model m = rubbing_row(masses);
       const linear::SystemMatrices structure(m);
       const motion::Forcing forcing(m, 0.0, motion::Side::after);
       newmark::NewmarkStep step(m, structure, widest);
       const Eigen::Index n = m.size(), forces = 2 * static_cast<Eigen::Index>(m.contacts.size());
       motion::Point from{m.u0, m.v0, Vector::Zero(forces), Vector::LinSpaced(n, -1.0, 1.0)}, to;
-      contact::ContactStates mode = rubbing_mode(m, 11);
+      contact::ContactStates contact_states = rubbing_mode(m, 11);
       const double dt = 0.01;
       int states = 0;
       for (int i = 0; i < 24; ++i) {
-        State& changed = mode[static_cast<std::size_t>(5 * i) % mode.size()].state;
+        State& changed = contact_states[static_cast<std::size_t>(5 * i) % contact_states.size()].state;
         changed = changed == State::stick  ? State::slip_minus
                   : changed == State::open ? State::stick
                                            : State::open;
         newmark::NewmarkStep::Key key;
-        for (const State s : contact::states_of(mode)) key.push_back(static_cast<int>(s));
-        step.set(key, linear::rows_of(m, mode));
+        for (const State s : contact::states_of(contact_states)) key.push_back(static_cast<int>(s));
+        step.set(key, linear::rows_of(m, contact_states));
         ++states;
         const auto check = [&](double h, bool kept) {
           CAPTURE(h);
           CAPTURE(i);
           REQUIRE(step.take(forcing, from, h, h, kept, to));
           const double force = 1.0 + 1e3 * to.u.cwiseAbs().maxCoeff();
-          CHECK(motion::imbalance(m, structure, forcing, h, to) < 1e-12 * force);
+          CHECK(motion::equilibrium_residual(m, structure, forcing, h, to) < 1e-12 * force);
           const Vector u = from.u + h * from.v + 0.25 * h * h * (from.a + to.a);
           CHECK((to.u - u).cwiseAbs().maxCoeff() < 1e-14);
           for (std::size_t k = 0; k < m.contacts.size(); ++k) {

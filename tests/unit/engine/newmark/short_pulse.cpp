@@ -78,7 +78,7 @@ TEST_CASE(
     const double begin = any(random), end = begin + 16.0 * dt * std::pow(any(random), 3);
     CAPTURE(piece.omega);
     CAPTURE((end - begin) / dt);
-    const double h = newmark::step_within(model, begin, end, dt);
+    const double h = newmark::segment_step_length(model, begin, end, dt);
     const auto rule = [&](double step) {
       double sum = 0.0;
       for (double t = begin; t < end;) {

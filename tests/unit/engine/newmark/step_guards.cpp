@@ -14,13 +14,13 @@ namespace {
 
 /// A decision as far as guards ask for it.
 decide::Decision decided(const Model& model, motion::StateSystems& systems,
-                         const contact::ContactStates& mode, std::size_t waiting) {
+                         const contact::ContactStates& contact_states, std::size_t waiting) {
   decide::Decision decision;
-  decision.mode = mode;
-  decision.system = systems.of(mode);
-  decision.forms = decide::GuardForms(mode.size());
-  for (std::size_t k = 0; k < mode.size(); ++k) {
-    decision.forms.set(k, contact::guards(model.contacts[k], mode[k]));
+  decision.states = contact_states;
+  decision.system = systems.system_of(contact_states);
+  decision.forms = decide::GuardForms(contact_states.size());
+  for (std::size_t k = 0; k < contact_states.size(); ++k) {
+    decision.forms.set(k, contact::guards(model.contacts[k], contact_states[k]));
     for (const GuardForm& guard : decision.forms[k])
       decision.guards.push_back({guard.kind, false, 0, 1e-9 * static_cast<double>(k)});
   }
@@ -56,26 +56,27 @@ TEST_CASE(
   motion::StateSystems systems(model, structure);
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
   newmark::StepGuards seen(model);
-  contact::ContactStates mode = rubbing_mode(model, 1234567);
+  contact::ContactStates contact_states = rubbing_mode(model, 1234567);
   const double h = 0.03;
   double t = 0.0;
   int dips = 0, falls = 0, at_rest = 0;
   for (int round = 0; round < 12; ++round) {
     CAPTURE(round);
     for (std::size_t k = 0; round > 0 && k < 3; ++k)
-      mode[(7 * static_cast<std::size_t>(round) + 11 * k) % mode.size()].state = k == 0   ? State::stick
-                                                                                 : k == 1 ? State::open
-                                                                                          : State::slip_plus;
-    const auto waiting = static_cast<std::size_t>(5 * round) % mode.size();
-    const decide::Decision decision = decided(model, systems, mode, waiting);
+      contact_states[(7 * static_cast<std::size_t>(round) + 11 * k) % contact_states.size()].state =
+          k == 0   ? State::stick
+          : k == 1 ? State::open
+                   : State::slip_plus;
+    const auto waiting = static_cast<std::size_t>(5 * round) % contact_states.size();
+    const decide::Decision decision = decided(model, systems, contact_states, waiting);
     seen.start({10.0, &decision, &forcing, round > 0});
-    seen.weigh(moving(model, t), t);
+    seen.evaluate(moving(model, t), t);
     for (int step = 0; step < 3; ++step, t += h) {
-      seen.turn();
+      seen.begin_next_step();
       const motion::Point points[] = {moving(model, t - h), moving(model, t), moving(model, t + h)};
-      seen.weigh(points[2], t + h);
+      seen.evaluate(points[2], t + h);
       const double h_before = step == 0 ? 0.0 : h;
-      const std::vector<std::size_t> noticed = seen.noticed(h, h_before);
+      const std::vector<std::size_t> noticed = seen.candidate_slots(h, h_before);
       for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
         CAPTURE(slot);
         const decide::GuardStart& guard = decision.guards[slot];
@@ -89,13 +90,13 @@ TEST_CASE(
         for (int i = 0; i < 3; ++i)
           value[i] = decision.form(slot).value(
               motion::motion_of(model.contacts[k], k, forcing, t + (i - 1) * h, points[i]));
-        const events::GuardPath path = seen.path(slot, h);
+        const events::GuardCubic path = seen.path(slot, h);
         CHECK(path.g0 == doctest::Approx(value[1]).epsilon(1e-13).scale(10.0));
         CHECK(path.g1 == doctest::Approx(value[2]).epsilon(1e-13).scale(10.0));
         if (seen.has_rate(slot)) {
           // The law of a closed contact, by hand: N' = kn g' (+ cn g''), T' = kt ut' or -s f N'.
           const ContactMotion m = motion::motion_of(model.contacts[k], k, forcing, t + h, points[2]);
-          const Rows rows = signorini::contact::rows(model.contacts[k], mode[k]);
+          const Rows rows = signorini::contact::rows(model.contacts[k], contact_states[k]);
           ContactMotion d;
           d.gap = m.vn;
           d.ut = m.vt;
@@ -113,7 +114,7 @@ TEST_CASE(
         falls += path.g1 <= 0.0 ? 1 : 0;
         at_rest += listed ? 0 : 1;
       }
-      seen.see(t + h, points[2]);
+      seen.update_active_guards(t + h, points[2]);
       const std::size_t slot = contact::guard_slot(waiting, 0);
       if (decision.guards[slot].at_zero && seen.path(slot, h).g1 > seen.level(slot, t + h, points[2]))
         CHECK(seen.active_guards().armed(slot));
@@ -129,8 +130,8 @@ TEST_CASE("what was dismissed dips no more, until the next step") {
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
-  const contact::ContactStates mode(2, ContactState{State::open, 0.0});
-  const decide::Decision decision = decided(model, systems, mode, 0);
+  const contact::ContactStates contact_states(2, ContactState{State::open, 0.0});
+  const decide::Decision decision = decided(model, systems, contact_states, 0);
   newmark::StepGuards seen(model);
   seen.start({10.0, &decision, &forcing, false});
   motion::Point point{Vector::Zero(4), Vector::Zero(4), Vector::Zero(4), Vector::Zero(4)};
@@ -139,17 +140,17 @@ TEST_CASE("what was dismissed dips no more, until the next step") {
     point.u[dof] = 0.02 * factor;  // the gap is 0.01
     point.v[dof] = -1.0 * factor;
   }
-  seen.weigh(point, 0.0);
-  seen.turn();
+  seen.evaluate(point, 0.0);
+  seen.begin_next_step();
   point.v = -point.v;
-  seen.weigh(point, 0.1);
+  seen.evaluate(point, 0.1);
   const std::size_t slot = contact::guard_slot(1, 0);
   REQUIRE(seen.dip(slot, 0.1, 0.0));
   CHECK(*seen.dip(slot, 0.1, 0.0) == doctest::Approx(0.5));
   seen.dismiss(slot);
   CHECK_FALSE(seen.dip(slot, 0.1, 0.0));
-  seen.turn();
-  seen.weigh(point, 0.2);
+  seen.begin_next_step();
+  seen.evaluate(point, 0.2);
   CHECK_FALSE(seen.dip(slot, 0.1, 0.0));  // it rises all along
 }
 

@@ -39,7 +39,7 @@ TEST_CASE(
           "rotation about (5.25, -2.5)");
     CHECK(assembly::is_rigid(moved(map, 2.0 * size, size, 0.1 * size, 3.0, 4.0), map));
   }
-  CHECK(assembly::greatest_translation(moved(map, 0.0, 0.0, 0.5, 0.0, 0.0), map) ==
+  CHECK(assembly::max_translation(moved(map, 0.0, 0.0, 0.5, 0.0, 0.0), map) ==
         doctest::Approx(0.5 * std::hypot(18.0, 6.0)).epsilon(1e-14));
 }
 

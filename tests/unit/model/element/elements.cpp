@@ -33,14 +33,14 @@ element::ElementVector motion_of(const element::FiniteElement& e, const std::arr
   const auto unknowns = e.unknowns();
   element::ElementVector u(static_cast<Eigen::Index>(unknowns.size()));
   for (std::size_t j = 0; j < unknowns.size(); ++j)
-    u[static_cast<Eigen::Index>(j)] = ends[3 * unknowns[j].place + unknowns[j].component];
+    u[static_cast<Eigen::Index>(j)] = ends[3 * unknowns[j].local_node + unknowns[j].component];
   return u;
 }
 
 void check_contract(const element::LineElement& e) {
   const auto n = static_cast<Eigen::Index>(e.unknowns().size());
   const double length = std::hypot(span_x, span_y);
-  const element::ElementMatrix k = e.stiffness(), m = e.mass(), g = e.geometric({2.0, 3.0});
+  const element::ElementMatrix k = e.stiffness(), m = e.mass(), g = e.geometric_stiffness({2.0, 3.0});
   for (const element::ElementMatrix* a : {&k, &m, &g}) {
     REQUIRE(a->rows() == n);
     REQUIRE(a->cols() == n);
@@ -50,7 +50,7 @@ void check_contract(const element::LineElement& e) {
   CHECK(e.member() == 2);
   CHECK(e.extent() == doctest::Approx(length).epsilon(1e-15));
   CHECK(e.density() == line_rho);
-  CHECK(e.has_geometric());
+  CHECK(e.has_geometric_stiffness());
 
   // As one body it resists nothing, and heat does no work; its weight is rho L g, however it comes about.
   const element::ElementVector turned = motion_of(e, {0.0, 0.0, 1.0, -span_y, span_x, 1.0});
@@ -61,7 +61,7 @@ void check_contract(const element::LineElement& e) {
   const element::ElementVector gravity = e.translation({3.0, -5.0});
   CHECK(e.translation({1.0, 0.0}).dot(m * gravity) == doctest::Approx(3.0 * line_rho * length));
   CHECK(e.translation({0.0, 1.0}).dot(m * gravity) == doctest::Approx(-5.0 * line_rho * length));
-  const element::ElementVector spread = e.spread({3.0 * line_rho, -5.0 * line_rho});
+  const element::ElementVector spread = e.load_vector({3.0 * line_rho, -5.0 * line_rho});
   CHECK((spread - m * gravity).norm() <= 1e-13 * spread.norm());
   // The turning of a spread load about a: half its length times what is across.
   CHECK(spread.dot(turned) == doctest::Approx(0.5 * length * line_rho * (3.0 * -span_y - 5.0 * span_x)));
@@ -86,16 +86,17 @@ void check_contract(const element::LineElement& e) {
   const element::ElementVector raised =
       motion_of(e, {0.0, 0.0, 1.0 / length, -span_y / length, span_x / length,
                     1.0 / length});  // b up by 1, turned with it
-  CHECK(raised.dot(e.geometric({6.0, 6.0}) * raised) == doctest::Approx(6.0 / length));
-  CHECK(e.cut(OutputQuantity::V, {0.3, 0.0}, {6.0, 6.0}).deflection.dot(raised) ==
+  CHECK(raised.dot(e.geometric_stiffness({6.0, 6.0}) * raised) == doctest::Approx(6.0 / length));
+  CHECK(e.section_force(OutputQuantity::V, {0.3, 0.0}, {6.0, 6.0}).deflection.dot(raised) ==
         doctest::Approx(6.0 / length));
-  CHECK(e.cut(OutputQuantity::M, {0.5, 0.0}, {6.0, 6.0}).deflection.dot(raised) == doctest::Approx(3.0));
-  CHECK(e.cut(OutputQuantity::V, {0.3, 0.0}, {}).deflection.isZero(0.0));
-  CHECK(e.cut(OutputQuantity::N, {0.3, 0.0}, {6.0, 6.0}).deflection.isZero(0.0));
+  CHECK(e.section_force(OutputQuantity::M, {0.5, 0.0}, {6.0, 6.0}).deflection.dot(raised) ==
+        doctest::Approx(3.0));
+  CHECK(e.section_force(OutputQuantity::V, {0.3, 0.0}, {}).deflection.isZero(0.0));
+  CHECK(e.section_force(OutputQuantity::N, {0.3, 0.0}, {6.0, 6.0}).deflection.isZero(0.0));
 
   // N where it is stretched by e: EA e, at every place of it.
   for (const double x : {0.0, 0.3, 1.0}) {
-    const element::Cut cut = e.cut(OutputQuantity::N, {x, 0.0}, {});
+    const element::SectionForce cut = e.section_force(OutputQuantity::N, {x, 0.0}, {});
     CHECK(cut.forces.dot(k * expanded) == doctest::Approx(line_EA * strain));
     CHECK(cut.load[0] == doctest::Approx(-x * span_x));
     CHECK(cut.load[1] == doctest::Approx(-x * span_y));
@@ -114,18 +115,18 @@ TEST_SUITE("unit/model/element/elements") {
   TEST_CASE("a bar has translations alone, a beam has a rotation of its own where it is hinged") {
     const element::BarElement bar(line_data());
     CHECK(bar.unknowns().size() == 4);
-    CHECK_FALSE(bar.has_own());
+    CHECK_FALSE(bar.has_internal_unknowns());
     for (const bool a : {false, true})
       for (const bool b : {false, true}) {
         const element::BeamElement beam(line_data(a, b));
         const auto unknowns = beam.unknowns();
         REQUIRE(unknowns.size() == 6);
         for (std::size_t j = 0; j < 6; ++j) {
-          CHECK(unknowns[j].place == j / 3);
+          CHECK(unknowns[j].local_node == j / 3);
           CHECK(unknowns[j].component == j % 3);
-          CHECK(unknowns[j].own == ((j == 2 && a) || (j == 5 && b)));
+          CHECK(unknowns[j].internal == ((j == 2 && a) || (j == 5 && b)));
         }
-        CHECK(beam.has_own() == (a || b));
+        CHECK(beam.has_internal_unknowns() == (a || b));
       }
   }
 
@@ -164,18 +165,23 @@ TEST_SUITE("unit/model/element/elements") {
     // Of v_a, rz_a, v_b, rz_b in the scene's axes.
     const auto row = [&](const element::LineShapes& h) {
       const double s = span_y / length, c = span_x / length;
-      return motion_of(beam, {-s * h.a, c * h.a, length * h.turn_a, -s * h.b, c * h.b, length * h.turn_b});
+      return motion_of(beam,
+                       {-s * h.a, c * h.a, length * h.rotation_a, -s * h.b, c * h.b, length * h.rotation_b});
     };
     for (const double x : {0.15, 0.5, 0.83}) {
       const double step = 1e-5;
-      const element::LineShapes before = element::cubic_at(x - step), after = element::cubic_at(x + step);
+      const element::LineShapes before = element::hermite_shapes(x - step),
+                                after = element::hermite_shapes(x + step);
       const element::ElementVector slope = (row(after) - row(before)) / (2.0 * step * length);
-      CHECK((beam.cut(OutputQuantity::V, {x, 0.0}, {6.0, 6.0}).deflection - 6.0 * slope).norm() <= 1e-8);
+      CHECK((beam.section_force(OutputQuantity::V, {x, 0.0}, {6.0, 6.0}).deflection - 6.0 * slope).norm() <=
+            1e-8);
       // Of a cubic Simpson's rule is exact: what lies between a and x.
       const element::ElementVector inside =
           x * length / 6.0 *
-          (row(element::cubic_at(0.0)) + 4.0 * row(element::cubic_at(0.5 * x)) + row(element::cubic_at(x)));
-      CHECK((beam.cut(OutputQuantity::V, {x, 0.0}, {}).acceleration + line_rho * inside).norm() <= 1e-14);
+          (row(element::hermite_shapes(0.0)) + 4.0 * row(element::hermite_shapes(0.5 * x)) +
+           row(element::hermite_shapes(x)));
+      CHECK((beam.section_force(OutputQuantity::V, {x, 0.0}, {}).acceleration + line_rho * inside).norm() <=
+            1e-14);
     }
   }
 
@@ -183,8 +189,8 @@ TEST_SUITE("unit/model/element/elements") {
     for (const bool a : {false, true})
       for (const bool b : {false, true}) {
         const auto v = [&](double s) {  // v_a, rz_a, v_b, rz_b
-          const element::LineShapes h = element::cubic_at(s, a, b);
-          return h.a * 0.3 + h.turn_a * -0.8 + h.b * 1.1 + h.turn_b * 0.6;
+          const element::LineShapes h = element::hermite_shapes(s, a, b);
+          return h.a * 0.3 + h.rotation_a * -0.8 + h.b * 1.1 + h.rotation_b * 0.6;
         };
         const auto curvature = [&](double s) { return (v(s - 1e-3) - 2.0 * v(s) + v(s + 1e-3)) / 1e-6; };
         CHECK(v(0.0) == doctest::Approx(0.3).epsilon(1e-14));

@@ -23,7 +23,7 @@ std::vector<bool> boundary_unknowns(const PlaneSystem& system) {
 
 /// Hooke's law in its inverse form: strains of stresses, heat aside.
 Eigen::Vector3d strains_of(const element::PlaneMaterial& m, const Eigen::Vector3d& s) {
-  const double z = m.strain ? m.nu * (s[0] + s[1]) : 0.0;  // stress out of the plane
+  const double z = m.plane_strain ? m.nu * (s[0] + s[1]) : 0.0;  // stress out of the plane
   return {(s[0] - m.nu * (s[1] + z)) / m.E, (s[1] - m.nu * (s[0] + z)) / m.E,
           2.0 * (1.0 + m.nu) / m.E * s[2]};
 }
@@ -48,7 +48,7 @@ void check_patch(PlaneShape shape, bool curved, bool strain) {
 /// Lame's ring under inner pressure p: radial displacement.
 double lame(const element::PlaneMaterial& m, double a, double b, double p, double r) {
   const double A = p * a * a / (b * b - a * a), B = A * b * b;
-  if (m.strain) return (1.0 + m.nu) / m.E * ((1.0 - 2.0 * m.nu) * A * r + B / r);
+  if (m.plane_strain) return (1.0 + m.nu) / m.E * ((1.0 - 2.0 * m.nu) * A * r + B / r);
   return ((1.0 - m.nu) * A * r + (1.0 + m.nu) * B / r) / m.E;
 }
 
@@ -73,11 +73,11 @@ RingErrors ring_errors(PlaneShape shape, int n, bool strain) {
     if (group.name != "inner") continue;
     for (const auto& edge : group.edges)
       for (const mesh::EdgePoint& point : mesh::edge_points()) {
-        const mesh::EdgeValues v = mesh::edge_shapes_at(edge.nodes.size(), point.s);
+        const mesh::EdgeValues v = mesh::edge_shape_functions(edge.nodes.size(), point.s);
         double dx = 0.0, dy = 0.0;
         for (std::size_t i = 0; i < edge.nodes.size(); ++i) {
-          dx += v.slopes[i] * system.node(edge.nodes[i]).x;
-          dy += v.slopes[i] * system.node(edge.nodes[i]).y;
+          dx += v.derivatives[i] * system.node(edge.nodes[i]).x;
+          dy += v.derivatives[i] * system.node(edge.nodes[i]).y;
         }
         for (std::size_t i = 0; i < edge.nodes.size(); ++i) {  // into the body: (-dy, dx)
           f[2 * edge.nodes[i]] -= p * material.thickness * point.weight * v.values[i] * dy;
@@ -90,8 +90,8 @@ RingErrors ring_errors(PlaneShape shape, int n, bool strain) {
   for (std::size_t i = 0; i < system.elements.size(); ++i) {
     const auto& e = system.mesh.elements[i];
     const Eigen::VectorXd own = system.of_element(i, u);
-    for (const mesh::IntegrationPoint& q : mesh::points_of(e.shape)) {
-      const mesh::ShapeValues v = mesh::shapes_at(e.shape, q.a, q.b);
+    for (const mesh::IntegrationPoint& q : mesh::integration_points(e.shape)) {
+      const mesh::ShapeValues v = mesh::shape_functions(e.shape, q.a, q.b);
       Eigen::Vector2d x(0.0, 0.0), w(0.0, 0.0);
       for (std::size_t k = 0; k < e.nodes.size(); ++k) {
         const auto j = static_cast<Eigen::Index>(k);
@@ -116,7 +116,7 @@ TEST_CASE("a patch of distorted elements holds any constant stress") {
       CAPTURE(name_of(shape));
       CAPTURE(strain);
       check_patch(shape, false, strain);
-      if (mesh::has_middles(shape)) check_patch(shape, true, strain);
+      if (mesh::has_midside_nodes(shape)) check_patch(shape, true, strain);
     }
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("rigid motions, weight, area, mass, inertia and heat are those of the 
       double spread = 0.0, heat = 0.0;
       const auto swell = system.sampled([](double px, double py) { return element::PlaneVector{px, py}; });
       for (std::size_t i = 0; i < system.elements.size(); ++i) {
-        spread += system.of_element(i, ux).dot(system.elements[i]->spread({3.0, 5.0}));
+        spread += system.of_element(i, ux).dot(system.elements[i]->load_vector({3.0, 5.0}));
         heat += system.elements[i]->strain_work(system.of_element(i, swell));
         CHECK(std::abs(system.elements[i]->strain_work(system.of_element(i, turn))) <= 1e-11 * material.E);
       }
@@ -159,7 +159,7 @@ TEST_CASE("a ring under pressure: displacements of order 2 and 3, energies of or
   for (const PlaneShape shape : all_plane_shapes)
     for (const bool strain : {false, true}) {
       CAPTURE(name_of(shape));
-      const int degree = mesh::has_middles(shape) ? 2 : 1;
+      const int degree = mesh::has_midside_nodes(shape) ? 2 : 1;
       const RingErrors coarse = ring_errors(shape, 6, strain), fine = ring_errors(shape, 12, strain);
       const double place = std::log2(coarse.place / fine.place);
       const double energy = std::log2(coarse.energy / fine.energy);

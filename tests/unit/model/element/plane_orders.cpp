@@ -18,7 +18,7 @@ struct Exponential {
   element::PlaneMaterial material;
   [[nodiscard]] double G() const { return material.E / (2.0 * (1.0 + material.nu)); }
   [[nodiscard]] double kappa() const {
-    return material.strain ? 3.0 - 4.0 * material.nu : (3.0 - material.nu) / (1.0 + material.nu);
+    return material.plane_strain ? 3.0 - 4.0 * material.nu : (3.0 - material.nu) / (1.0 + material.nu);
   }
   [[nodiscard]] element::PlaneVector displacement(double x, double y) const {
     const std::complex<double> z(x, y), e = std::exp(z);
@@ -52,7 +52,7 @@ StressErrors stress_errors(PlaneShape shape, int n, bool strain) {
       held[static_cast<std::size_t>(2 * k)] = held[static_cast<std::size_t>(2 * k + 1)] = true;
     }
   const Eigen::VectorXd u = system.solve(Eigen::VectorXd::Zero(system.size()), held, u0);
-  const Eigen::Matrix3d compliance = exact.material.stresses().inverse();
+  const Eigen::Matrix3d compliance = exact.material.elasticity_matrix().inverse();
   const PlaneShape points = mesh::corner_count(shape) == 3 ? PlaneShape::t6 : PlaneShape::q8;
   double error = 0.0, whole = 0.0;
   std::vector<Eigen::Vector3d> mean(system.mesh.nodes.size(), Eigen::Vector3d::Zero());
@@ -60,14 +60,14 @@ StressErrors stress_errors(PlaneShape shape, int n, bool strain) {
   for (std::size_t e = 0; e < system.elements.size(); ++e) {
     const element::PlaneElement& element = *system.elements[e];
     const Eigen::VectorXd own = system.of_element(e, u);
-    for (const mesh::IntegrationPoint& p : mesh::points_of(points)) {
-      const mesh::ShapeValues shapes = mesh::shapes_at(shape, p.a, p.b);
+    for (const mesh::IntegrationPoint& p : mesh::integration_points(points)) {
+      const mesh::ShapeValues shapes = mesh::shape_functions(shape, p.a, p.b);
       Eigen::Vector2d at(0.0, 0.0);
       Eigen::Matrix2d j = Eigen::Matrix2d::Zero();
       for (std::size_t k = 0; k < element.nodes().size(); ++k) {
         const auto& node = system.node(element.nodes()[k]);
         at += shapes.values[static_cast<Eigen::Index>(k)] * Eigen::Vector2d(node.x, node.y);
-        j += Eigen::Vector2d(node.x, node.y) * shapes.slopes.row(static_cast<Eigen::Index>(k));
+        j += Eigen::Vector2d(node.x, node.y) * shapes.gradients.row(static_cast<Eigen::Index>(k));
       }
       const Eigen::Vector3d wanted = exact.stress(at[0], at[1]);
       const Eigen::Vector3d off = element.stress_rows(p.a, p.b) * own - wanted;
@@ -101,7 +101,7 @@ TEST_CASE(
     for (const PlaneShape shape : all_plane_shapes) {
       CAPTURE(strain);
       CAPTURE(name_of(shape));
-      const double order = mesh::has_middles(shape) ? 2.0 : 1.0;
+      const double order = mesh::has_midside_nodes(shape) ? 2.0 : 1.0;
       const StressErrors coarse = stress_errors(shape, 6, strain), fine = stress_errors(shape, 12, strain);
       CAPTURE(coarse.energy);
       CAPTURE(fine.energy);

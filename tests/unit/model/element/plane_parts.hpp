@@ -108,7 +108,7 @@ inline constexpr std::array all_plane_shapes = {PlaneShape::t3, PlaneShape::t6, 
     mesh.nodes[i].y += 0.14 * std::cos(2.0 + 5.0 * k);
   }
   for (const auto& e : mesh.elements) {
-    if (!mesh::has_middles(shape)) continue;
+    if (!mesh::has_midside_nodes(shape)) continue;
     for (std::size_t i = 0; i < mesh::corner_count(e.shape); ++i) {
       const auto nodes = mesh::edge_nodes(e, i);
       const auto &a = mesh.nodes[static_cast<std::size_t>(nodes[0])],

@@ -97,7 +97,7 @@ TEST_SUITE("unit/model/element/third_element") {
     const Vector grown = answer(assembly, heat);
     const double e = 1.2e-5 * 40.0, turn = -e * sheet.mesh.node(1).y / sheet.mesh.node(1).x;
     for (int i = 0; i < map.size(); ++i) {
-      const auto [node, c] = map.where[static_cast<std::size_t>(i)];
+      const auto [node, c] = map.locations[static_cast<std::size_t>(i)];
       const element::MeshNode& at = sheet.mesh.node(node);
       CHECK(grown[i] ==
             doctest::Approx(c == 0 ? e * at.x - turn * at.y : e * at.y + turn * at.x).epsilon(1e-9));

@@ -35,15 +35,16 @@ class Triangle final : public element::FiniteElement {
   [[nodiscard]] element::ElementMatrix stiffness() const override {
     return extent() * strains().transpose() * stresses() * strains();
   }
-  [[nodiscard]] element::ElementVector spread(const element::PlaneVector& load) const override {
+  [[nodiscard]] element::ElementVector load_vector(const element::PlaneVector& load) const override {
     return extent() / 3.0 * translation(load);
   }
   [[nodiscard]] double strain_work(const element::ElementVector& motion) const override {
     return extent() * Eigen::Vector3d(1.0, 1.0, 0.0).dot(stresses() * (strains() * motion));
   }
-  [[nodiscard]] element::Cut cut(OutputQuantity /*quantity*/, const element::PlaneVector& /*at*/,
-                                 const element::AxialForces& /*forces*/) const override {
-    return element::Cut(6);
+  [[nodiscard]] element::SectionForce section_force(OutputQuantity /*quantity*/,
+                                                    const element::PlaneVector& /*at*/,
+                                                    const element::AxialForces& /*forces*/) const override {
+    return element::SectionForce(6);
   }
   [[nodiscard]] std::vector<element::ElementLine> lines() const override { return {{0, 1}, {1, 2}, {2, 0}}; }
 

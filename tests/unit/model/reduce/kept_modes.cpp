@@ -32,9 +32,9 @@ TEST_CASE("modes of a chain up to a cutoff, and what the others answer, in close
   const reduce::KeptModes modes =
       reduce::modes_up_to(0.5 * (omega(4) + omega(5)), mass, stiffness, Eigen::MatrixXd(n, 0));
   REQUIRE(modes.squares.size() == 4);
-  CHECK(modes.left_out == n - 4);
+  CHECK(modes.truncated_modes == n - 4);
   CHECK(modes.free == 0);
-  CHECK(modes.first_left_out == doctest::Approx(omega(5)).epsilon(1e-12));
+  CHECK(modes.first_truncated == doctest::Approx(omega(5)).epsilon(1e-12));
   for (int j = 0; j < 4; ++j) {
     CHECK(std::sqrt(modes.squares[j]) == doctest::Approx(omega(j + 1)).epsilon(1e-12));
     for (int i = 0; i < n; ++i)
@@ -51,7 +51,7 @@ TEST_CASE("modes of a chain up to a cutoff, and what the others answer, in close
     for (int i = 0; i < n; ++i) shape[i] = std::sqrt(2.0 / (n + 1)) * std::sin(M_PI * j * (i + 1) / (n + 1));
     expected += shape * shape.dot(f) / (omega(j) * omega(j));
   }
-  CHECK((reduce::ResidualFlexibility(mass, stiffness, modes).answer(f) - expected).norm() <
+  CHECK((reduce::ResidualFlexibility(mass, stiffness, modes).response(f) - expected).norm() <
         1e-13 * expected.norm());
 }
 

@@ -35,7 +35,7 @@ Scene cantilever() {
 /// Greatest displacement along the form for a unit force along `force`; K regular.
 double give(const Model& model, const Combination& form, const Combination& force) {
   const Eigen::MatrixXd k(model.stiffness);
-  return form.dot(Vector(base::solve_dense(k, assembly::full(force, model.size()))));
+  return form.dot(Vector(base::solve_dense(k, assembly::dense_vector(force, model.size()))));
 }
 
 /// The same for a structure with free motions, the whole of which are taken out by inertia (independently of
@@ -54,8 +54,8 @@ double give_elastic(const Model& model, const Combination& form, const Combinati
 
 /// That of the reduced model; its K is diagonal, zero on free modes.
 double give_reduced(const Model& model, const Combination& form, const Combination& force) {
-  const Vector k = model.stiffness.diagonal(), f = assembly::full(force, model.size()),
-               g = assembly::full(form, model.size());
+  const Vector k = model.stiffness.diagonal(), f = assembly::dense_vector(force, model.size()),
+               g = assembly::dense_vector(form, model.size());
   double sum = 0.0;
   for (int i = 0; i < model.size(); ++i)
     if (k[i] > 0.0) sum += f[i] * g[i] / k[i];
@@ -73,8 +73,8 @@ TEST_CASE("above all frequencies nothing is left out") {
   CHECK(model.size() == whole.size());
   CHECK(model.reduction->modes == 51);
   CHECK(model.reduction->free_modes == 3);
-  CHECK(model.reduction->left_out == 0);
-  CHECK(model.reduction->first_left_out == 0.0);
+  CHECK(model.reduction->truncated_modes == 0);
+  CHECK(model.reduction->first_truncated == 0.0);
   CHECK(model.reduction->massless_shapes == 0);
   CHECK(model.omega_max == doctest::Approx(whole.omega_max).epsilon(1e-9));
   CHECK(model.alpha == whole.alpha);
@@ -177,9 +177,9 @@ TEST_CASE("what is reported: frequencies on both sides of the cutoff, shares, ri
   const Model model = build_model(cut(pipeline(), 1000.0));
   const Reduction& r = *model.reduction;
   CHECK(r.cutoff == 1000.0);
-  CHECK(r.modes + r.left_out == 51);
+  CHECK(r.modes + r.truncated_modes == 51);
   CHECK(r.highest_kept <= 1000.0);
-  CHECK(r.first_left_out > 1000.0);
+  CHECK(r.first_truncated > 1000.0);
   REQUIRE(r.shares.size() == 6);  // two contacts, gravity, one load
   CHECK(r.shares[0].label == "normal of contact 'first'");
   CHECK(r.shares[3].label == "tangent of contact 'second'");
@@ -219,7 +219,7 @@ TEST_CASE("check describes the full structure, and the cost of the reduced one")
 TEST_CASE(
     "Rayleigh damping of each mode stays what it was; static shapes creep where all modes left out do") {
   // beta omega = 2 of the first mode left out: critical damping, between the last two.
-  const double first = build_model(cut(pipeline(), 1000.0)).reduction->first_left_out;
+  const double first = build_model(cut(pipeline(), 1000.0)).reduction->first_truncated;
   for (const double beta : {2e-4, 1.99 / first, 2.01 / first}) {
     CAPTURE(beta);
     Scene scene = pipeline();
@@ -272,7 +272,7 @@ TEST_CASE("rigid contacts meet shapes with mass only, and each has an effective 
     const Model model = build_model(cut(scene, cutoff));
     CHECK(model.reduction->massive_shapes == 2);
     CHECK(model.reduction->massless_shapes >= 2);
-    CHECK(model.reduction->highest_massive > model.reduction->first_left_out);
+    CHECK(model.reduction->highest_massive > model.reduction->first_truncated);
     for (const Combination* form : {&model.contacts[0].normal, &model.contacts[0].tangent}) {
       double response = 0.0;
       for (const auto& [dof, factor] : form->terms) {
@@ -283,10 +283,10 @@ TEST_CASE("rigid contacts meet shapes with mass only, and each has an effective 
       // Nothing was cut off: what the massless shapes have along the form is rounding.
       const Vector f =
           model.reduction->shapes.transpose() *
-          assembly::full(form == &model.contacts[0].normal ? build_model(scene).contacts[0].normal
-                                                           : build_model(scene).contacts[0].tangent,
-                         static_cast<int>(model.reduction->dofs.size()));
-      CHECK((f - assembly::full(*form, model.size())).cwiseAbs().maxCoeff() <= 1e-9);
+          assembly::dense_vector(form == &model.contacts[0].normal ? build_model(scene).contacts[0].normal
+                                                                   : build_model(scene).contacts[0].tangent,
+                                 static_cast<int>(model.reduction->dofs.size()));
+      CHECK((f - assembly::dense_vector(*form, model.size())).cwiseAbs().maxCoeff() <= 1e-9);
     }
   }
 }
@@ -319,7 +319,7 @@ TEST_CASE("a large structure: Lanczos iteration finds the modes that a dense dec
   const auto kept = std::upper_bound(expected.begin(), expected.end(), 3000.0);
   CHECK(model.reduction->modes == 3 + static_cast<int>(kept - expected.begin()));
   CHECK(model.reduction->highest_kept == doctest::Approx(*(kept - 1)).epsilon(1e-4));
-  CHECK(model.reduction->first_left_out == doctest::Approx(*kept).epsilon(1e-4));
+  CHECK(model.reduction->first_truncated == doctest::Approx(*kept).epsilon(1e-4));
 }
 
 namespace {
@@ -350,9 +350,9 @@ TEST_CASE("a large structure of equal parts: each repeated mode is found as ofte
     const Reduction& r = *model.reduction;
     CHECK(r.dofs.size() == 540);
     CHECK(r.modes == 60 * kept);
-    CHECK(r.left_out == 60 * (9 - kept));
+    CHECK(r.truncated_modes == 60 * (9 - kept));
     CHECK(r.highest_kept == doctest::Approx(omega[kept - 1]).epsilon(1e-9));
-    CHECK(r.first_left_out == doctest::Approx(omega[kept]).epsilon(1e-9));
+    CHECK(r.first_truncated == doctest::Approx(omega[kept]).epsilon(1e-9));
     for (const std::size_t c : {0u, 1u, 40u, 119u})  // normals and tangents: alike at all of them
       CHECK(r.shares[c].compliance == doctest::Approx(all.reduction->shares[c % 2].compliance).epsilon(1e-9));
   }
@@ -361,14 +361,14 @@ TEST_CASE("a large structure of equal parts: each repeated mode is found as ofte
 TEST_CASE(
     "a large free structure, a cutoff far below its modes: the first left out is that of other cutoffs") {
   Scene scene = beam(12.0, 150, 9e6, 2e6, 0.4);
-  const double first = build_model(cut(scene, 100.0)).reduction->first_left_out;
+  const double first = build_model(cut(scene, 100.0)).reduction->first_truncated;
   CHECK(first ==
         doctest::Approx(4.730040744862704 * 4.730040744862704 * std::sqrt(2e6 / 0.4) / 144.0).epsilon(1e-6));
   for (const double cutoff : {1e-2, 1.0, 10.0}) {
     INFO(cutoff);
     const Model model = build_model(cut(scene, cutoff));
     CHECK(model.reduction->modes == 3);
-    CHECK(model.reduction->first_left_out == doctest::Approx(first).epsilon(1e-8));
+    CHECK(model.reduction->first_truncated == doctest::Approx(first).epsilon(1e-8));
   }
 }
 

@@ -13,12 +13,12 @@ namespace {
 modes::Frequencies stuck(const Model& model, int count) {
   const std::vector<bool> all(model.contacts.size(), true);
   return modes::lowest_frequencies(model.mass, model.damping, model.stiffness,
-                                   modes::hold_contacts(model.contacts, all), count);
+                                   modes::constrain_contacts(model.contacts, all), count);
 }
 
 modes::Frequencies closed(const Model& model, int count) {
   return modes::lowest_frequencies(model.mass, model.damping, model.stiffness,
-                                   modes::close_contacts(model.contacts), count);
+                                   modes::constrain_normals(model.contacts), count);
 }
 
 modes::Frequencies open(const Model& model, int count) {

@@ -201,10 +201,10 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
 }
 
 TEST_CASE("comparison: what is no number is greater than any limit") {
-  compare::Greatest greatest;
-  greatest.take(1.0, 1.0, "a");
-  greatest.take(std::nan(""), 2.0, "b");
-  greatest.take(3.0, 3.0, "c");
+  compare::MaxDifference greatest;
+  greatest.update(1.0, 1.0, "a");
+  greatest.update(std::nan(""), 2.0, "b");
+  greatest.update(3.0, 3.0, "c");
   CHECK(std::isnan(greatest.value));
   CHECK(greatest.where == "b");
   CHECK_FALSE(greatest.value <= 1e300);

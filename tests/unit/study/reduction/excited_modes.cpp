@@ -69,7 +69,7 @@ TEST_CASE(
     REQUIRE(others.squares.size() > 0);
     REQUIRE(others.squares.size() <= left);
     for (const Combination* form : {&model.contacts[0].normal, &model.contacts[0].tangent}) {
-      const Vector f = assembly::full(*form, model.size());
+      const Vector f = assembly::dense_vector(*form, model.size());
       for (const double power : {1.0, 2.0}) {  // sum of psi psi.f / omega^(2 power)
         const auto answer = [&](const Eigen::MatrixXd& shapes, const Eigen::VectorXd& squares) {
           return Vector(shapes * squares.array().pow(-power).matrix().cwiseProduct(shapes.transpose() * f));

@@ -230,12 +230,12 @@ TEST_CASE("strobe: a period that is none of the loads is doubted, a multiple of 
   const Model model = build_model(scene);
   const double T = 3.141592653589793 / 2.0;
   const auto doubt = [&](double period) {
-    return sweep::strobe_doubt(sweep::parse_strobe(std::to_string(period), scene, model), scene);
+    return sweep::strobe_warning(sweep::parse_strobe(std::to_string(period), scene, model), scene);
   };
   const auto exact = [&](double turns) {
     sweep::StroboscopicMap strobe;
     strobe.period = turns * T;
-    return sweep::strobe_doubt(strobe, scene);
+    return sweep::strobe_warning(strobe, scene);
   };
   CHECK(exact(1.0).empty());
   CHECK(exact(3.0).empty());
@@ -243,7 +243,7 @@ TEST_CASE("strobe: a period that is none of the loads is doubted, a multiple of 
   CHECK(doubt(1.5).find("--strobe loads") != std::string::npos);
   CHECK(doubt(1.5707).find("1.5707963") != std::string::npos);
   const Scene belted = parse_scene(belt, "belt.toml");
-  CHECK(sweep::strobe_doubt(sweep::parse_strobe("1.5", belted, build_model(belted)), belted).empty());
+  CHECK(sweep::strobe_warning(sweep::parse_strobe("1.5", belted, build_model(belted)), belted).empty());
 }
 
 TEST_CASE("strobe: rows keep their points on disk") {

@@ -67,7 +67,7 @@ TEST_CASE("lanes: pairs of modes against their formula") {
     const modal::ModeEnds ends{l.data(), y0.data(), r0.data(), y1.data(), r1.data()};
     const Eigen::Index k = n - 1;
     VectorXd yy = VectorXd::Zero(n), mixed = yy;
-    const double lost = modal::meet_before(ends, alpha, k, shared.data(), yy.data(), mixed.data());
+    const double lost = modal::pair_integrals(ends, alpha, k, shared.data(), yy.data(), mixed.data());
     double expected = 0.0, crossed = 0.0;
     for (Eigen::Index i = 0; i < k; ++i) {
       const double d = l[i] - l[k], e = 1.0 / (d * d + 2.0 * alpha * alpha * (l[k] + l[i]));
@@ -83,7 +83,7 @@ TEST_CASE("lanes: pairs of modes against their formula") {
       crossed += normal[k] * tangent[i] * mix + tangent[k] * normal[i] * (both - mix);
     }
     CHECK(std::abs(lost - expected) < 1e-10);
-    CHECK(std::abs(modal::crossed_before(normal.data(), tangent.data(), k, yy.data(), mixed.data()) -
+    CHECK(std::abs(modal::cross_integral(normal.data(), tangent.data(), k, yy.data(), mixed.data()) -
                    crossed) < 1e-12);
     CHECK(yy[k] == 0.0);  // nothing is written beyond
     CHECK(mixed[k] == 0.0);
@@ -113,9 +113,9 @@ TEST_CASE("lanes: sums over poles against plain loops") {
       sum += one * w[i];
       all += one;
     }
-    CHECK(modal::size_of(modal::weighted(re.data(), im.data(), w.data(), n) - sum) <
+    CHECK(modal::size_of(modal::weighted_sum(re.data(), im.data(), w.data(), n) - sum) <
           1e-13 * (1.0 + modal::size_of(sum)));
-    CHECK(modal::size_of(modal::sum_of_all(re.data(), im.data(), n) - all) <
+    CHECK(modal::size_of(modal::complex_sum(re.data(), im.data(), n) - all) <
           1e-13 * (1.0 + modal::size_of(all)));
   }
 }

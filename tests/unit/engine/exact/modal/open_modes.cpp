@@ -36,7 +36,7 @@ SparseMatrix identity(int n) {
 
 double off_diagonal(const modal::UnconstrainedModes& modes, const SparseMatrix& stiffness) {
   Eigen::MatrixXd k = modes.shapes.transpose() * (stiffness * modes.shapes);
-  k.diagonal() -= modes.square;
+  k.diagonal() -= modes.omega_squared;
   return k.cwiseAbs().maxCoeff();
 }
 
@@ -57,10 +57,10 @@ TEST_CASE("open modes: a free chain") {
   REQUIRE(modes.failure == "");
   CHECK(modes.free == 1);
   CHECK(off_identity(modes, identity(n)) < 1e-14 * n);
-  CHECK(off_diagonal(modes, k) < 1e-14 * n * modes.square[n - 1]);
+  CHECK(off_diagonal(modes, k) < 1e-14 * n * modes.omega_squared[n - 1]);
   for (int i = 0; i < n; ++i) {
     const double omega = 200.0 * std::sin(std::numbers::pi * 0.5 * i / static_cast<double>(n));
-    CHECK(std::sqrt(modes.square[i]) == doctest::Approx(omega).epsilon(1e-12));
+    CHECK(std::sqrt(modes.omega_squared[i]) == doctest::Approx(omega).epsilon(1e-12));
   }
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("open modes: the pipeline floats freely, all its modes are orthogonal"
   REQUIRE(modes.failure == "");
   CHECK(modes.free == 3);
   CHECK(off_identity(modes, model.mass) < 1e-13);
-  CHECK(off_diagonal(modes, model.stiffness) < 1e-14 * modes.square[model.size() - 1]);
+  CHECK(off_diagonal(modes, model.stiffness) < 1e-14 * modes.omega_squared[model.size() - 1]);
 }
 
 TEST_CASE("open modes: what is not a structure of their kind is named") {

@@ -103,7 +103,7 @@ void check_against_dense(const Case& c) {
   VectorXd product;
   spectrum.from_modes({&z}, {&product});
   const MatrixXd a = c.dense();
-  CHECK((product - a * q).norm() < rounding::of_elimination * spectrum.condition() * a.norm() * q.norm());
+  CHECK((product - a * q).norm() < rounding::elimination * spectrum.condition() * a.norm() * q.norm());
   for (std::size_t k = 0; k < spectrum.real().size(); ++k)
     for (std::size_t l = 0; l < k; ++l) {
       VectorXd x, y;
@@ -161,7 +161,8 @@ TEST_CASE("spectrum: X L Y is the matrix, rows show what the modes show") {
     spectrum.of_form(form, row);
     double shown = 0.0;
     for (std::size_t k = 0; k < z.real.size(); ++k) shown += row.real[k] * z.real[k];
-    for (std::size_t k = 0; k < z.pair.size(); ++k) shown += modal::whole(row.pair[k] * z.pair[k]);
+    for (std::size_t k = 0; k < z.pair.size(); ++k)
+      shown += modal::real_contribution(row.pair[k] * z.pair[k]);
     CHECK(shown == doctest::Approx(form.dot(q)).epsilon(1e-10));
     for (std::size_t k = 0; k < z.real.size(); ++k) z.real[k] *= spectrum.real()[k];
     for (std::size_t k = 0; k < z.pair.size(); ++k) z.pair[k] *= spectrum.pairs()[k];
@@ -180,8 +181,8 @@ TEST_CASE("spectrum: written out or not, the same products") {
           summed(modal::Poles(c.d), c.u, c.v, symmetric, 0);
       REQUIRE(written.failure() == "");
       REQUIRE(summed.failure() == "");
-      CHECK(written.written_bytes() == sizeof(double) * 2 * static_cast<std::size_t>(n * n));
-      CHECK(summed.written_bytes() == 0);
+      CHECK(written.stored_bytes() == sizeof(double) * 2 * static_cast<std::size_t>(n * n));
+      CHECK(summed.stored_bytes() == 0);
       const VectorXd q = VectorXd::Random(n);
       for (const bool form : {false, true}) {
         modal::Amplitudes a, b;
@@ -228,7 +229,7 @@ TEST_CASE("spectrum: products of vectors from c and h are those of the vectors")
     spectrum.from_modes({&one}, {&x[k]});
   }
   for (std::size_t k = 0; k < count; ++k) {
-    CHECK(spectrum.square(k) == doctest::Approx(x[k].squaredNorm()).epsilon(1e-12));
+    CHECK(spectrum.norm_squared(k) == doctest::Approx(x[k].squaredNorm()).epsilon(1e-12));
     for (std::size_t l = 0; l < k; ++l)
       CHECK(std::abs(spectrum.product(k, l) - x[k].dot(x[l])) < 1e-9 * x[k].norm() * x[l].norm());
   }

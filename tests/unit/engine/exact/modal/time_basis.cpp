@@ -30,7 +30,7 @@ TEST_SUITE_BEGIN("unit/engine/exact/modal/time_basis");
 TEST_CASE("a history in the basis, its derivative and its series") {
   const Model model = driven();
   const modal::TimeBasis basis(model, 1.25);
-  const modal::Course c = basis.of(model.loads[0].history.piece(1.25)), rate = basis.derivative(c);
+  const modal::TimeCoefficients c = basis.of(model.loads[0].history.piece(1.25)), rate = basis.derivative(c);
   CHECK(basis.degree() == 3);
   for (const double x : {0.0, 0.4, 2.0}) {
     CHECK(c.dot(basis.at(x)) == doctest::Approx(history_text(1.25 + x)).epsilon(1e-13));
@@ -38,7 +38,7 @@ TEST_CASE("a history in the basis, its derivative and its series") {
     CHECK(rate.dot(basis.at(x)) == doctest::Approx(slope).epsilon(1e-8));
   }
   std::vector<double> p(31);
-  const modal::TimeBasis::Ripple slow = basis.taylor(c, 0.4, 0.7, 4.0, p);
+  const modal::TimeBasis::FastWaveBound slow = basis.taylor(c, 0.4, 0.7, 4.0, p);
   CHECK(slow.value == 0.0);
   CHECK(slow.rest < 1e-12);
   for (const double x : {0.0, 0.3, 1.0}) {
@@ -61,7 +61,7 @@ TEST_CASE("a history in the basis, its derivative and its series") {
     CHECK(rest < 20.0 * most);
   }
   // A wave that turns too far is left out, and bounded.
-  const modal::TimeBasis::Ripple fast = basis.taylor(c, 0.4, 2.0, 4.0, p);
+  const modal::TimeBasis::FastWaveBound fast = basis.taylor(c, 0.4, 2.0, 4.0, p);
   CHECK(fast.value == doctest::Approx(1.5).epsilon(1e-13));
   CHECK(fast.rate == doctest::Approx(6.0).epsilon(1e-13));
   double sum = 0.0;
@@ -73,12 +73,12 @@ TEST_CASE("a history in the basis, its derivative and its series") {
 TEST_CASE("answers solve z' = l z + p, with frequency and without") {
   const Model model = driven();
   const modal::TimeBasis basis(model, 0.0);
-  const modal::Course c = basis.of(model.loads[0].history.piece(0.0));
+  const modal::TimeCoefficients c = basis.of(model.loads[0].history.piece(0.0));
   const std::complex<double> factor(0.7, -0.2);
-  const modal::ComplexCourse p = factor * c.cast<std::complex<double>>();
+  const modal::ComplexTimeCoefficients p = factor * c.cast<std::complex<double>>();
   for (const std::complex<double> l : {std::complex<double>(-0.5, 3.0), {-2.0, 0.0}, {0.0, 0.0}}) {
-    const modal::ComplexCourse z = basis.answer(l, p);
-    const modal::Course re = z.real(), im = z.imag();
+    const modal::ComplexTimeCoefficients z = basis.response(l, p);
+    const modal::TimeCoefficients re = z.real(), im = z.imag();
     for (const double x : {0.0, 0.8, 2.5}) {
       const auto b = basis.at(x);
       const std::complex<double> rate(basis.derivative(re).dot(b), basis.derivative(im).dot(b));
@@ -95,7 +95,7 @@ TEST_CASE("answers of slow roots are small where the motion is, to rounding") {
   load.history = History(Piece{0.0, {0.0, 3.0}, 0.0, 0.0, 0.0});
   model.loads.push_back(load);
   modal::TimeBasis basis(model, 0.0);
-  const modal::Course ramp = basis.of(model.loads[0].history.piece(0.0));
+  const modal::TimeCoefficients ramp = basis.of(model.loads[0].history.piece(0.0));
   const double x = 0.01;
   const auto slow_series = [&](std::complex<double> l) {
     std::complex<double> sum = 0.0, term = 0.5;
@@ -108,13 +108,13 @@ TEST_CASE("answers of slow roots are small where the motion is, to rounding") {
   Eigen::VectorXcd roots(4);
   roots << std::complex<double>(-2.0, 0.0), std::complex<double>(0.3, 40.0), 0.0,
       std::complex<double>(-9.0, 800.0);
-  basis.make_room(roots, x);
+  basis.reserve_slow_roots(roots, x);
   CHECK(basis.degree() > 12);  // 0.4^13 / 13! = 1e-15
   const Eigen::VectorXd b = basis.at(x);
-  modal::Course c = modal::Course::Zero(basis.size());
+  modal::TimeCoefficients c = modal::TimeCoefficients::Zero(basis.size());
   c.head(ramp.size()) = ramp;
   for (Eigen::Index k = 0; k < roots.size(); ++k) {
-    const modal::ComplexCourse z = basis.answer(roots[k], c.cast<std::complex<double>>());
+    const modal::ComplexTimeCoefficients z = basis.response(roots[k], c.cast<std::complex<double>>());
     const std::complex<double> value = (z.transpose() * b)(0);
     const double terms = (z.cwiseAbs().transpose() * b)(0);
     const bool slow = std::abs(roots[k]) * x < 0.5;
@@ -128,18 +128,18 @@ TEST_CASE("answers of slow roots are small where the motion is, to rounding") {
     }
   }
   // Room for a longer stretch is found anew; constants need none.
-  basis.make_room(roots, 1.0);
+  basis.reserve_slow_roots(roots, 1.0);
   CHECK(basis.degree() == 2);
-  CHECK(std::abs(basis.answer(-2.0, ramp.cast<std::complex<double>>())[0] - (-0.75)) < 1e-15);
+  CHECK(std::abs(basis.response(-2.0, ramp.cast<std::complex<double>>())[0] - (-0.75)) < 1e-15);
   modal::TimeBasis still(Model{}, 0.0);
-  still.make_room(roots, x);
-  CHECK(still.stands_still());
+  still.reserve_slow_roots(roots, x);
+  CHECK(still.is_constant());
 }
 
 TEST_CASE("integrals of products") {
   const Model model = driven();
   const modal::TimeBasis basis(model, 0.0);
-  const modal::Course c = basis.of(model.loads[0].history.piece(0.0));
+  const modal::TimeCoefficients c = basis.of(model.loads[0].history.piece(0.0));
   double sum = 0.0;  // Simpson
   const int n = 20000;
   for (int i = 0; i <= n; ++i) {
@@ -151,13 +151,13 @@ TEST_CASE("integrals of products") {
 
 TEST_CASE("what answers lose to rounding") {
   const modal::TimeBasis still(Model{}, 0.0);
-  CHECK(still.loss(0.0, 2.0) == 0.0);
-  CHECK(still.loss({-0.01, 0.0}, 2.0) == doctest::Approx(50.0));
-  CHECK(still.loss({0.01, 0.0}, 2.0) == doctest::Approx(2500.0));  // beside -0.01: cosh 0.02 - 1
-  CHECK(still.loss({0.0, 0.01}, 2.0) == doctest::Approx(2500.0));  // cos 0.02 - 1, twice
+  CHECK(still.cancellation(0.0, 2.0) == 0.0);
+  CHECK(still.cancellation({-0.01, 0.0}, 2.0) == doctest::Approx(50.0));
+  CHECK(still.cancellation({0.01, 0.0}, 2.0) == doctest::Approx(2500.0));  // beside -0.01: cosh 0.02 - 1
+  CHECK(still.cancellation({0.0, 0.01}, 2.0) == doctest::Approx(2500.0));  // cos 0.02 - 1, twice
   const modal::TimeBasis waves(driven(), 0.0);
-  CHECK(waves.loss({0.0, 4.0}, 2.0) > 1e12);   // resonance
-  CHECK(waves.loss({-0.4, 4.0}, 2.0) < 10.0);  // with damping
+  CHECK(waves.cancellation({0.0, 4.0}, 2.0) > 1e12);   // resonance
+  CHECK(waves.cancellation({-0.4, 4.0}, 2.0) < 10.0);  // with damping
 }
 
 TEST_SUITE_END();

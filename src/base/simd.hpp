@@ -1,0 +1,36 @@
+// simd.hpp: compiles a function twice, for two and four doubles per instruction; selected at program start.
+//
+//   SIGNORINI_WIDE_LANES void f(...) { loops over Four }      same bits on every machine:
+//   each lane holds a result of its own, or a sum is taken in the same four parts; no fused multiply-add
+//
+// For functions outside templates; functions that they call must be inlined. If the compiler or a sanitizer does not
+// support the selection, only the narrow version exists.
+#pragma once
+
+namespace signorini::base {
+
+#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define SIGNORINI_WIDE_LANES __attribute__((target_clones("avx2", "default")))
+#else
+#define SIGNORINI_WIDE_LANES
+#endif
+
+using Double4 = double __attribute__((vector_size(32)));
+
+/// Vector type of doubles at any address. A template argument would lose the alignment attribute of a vector type.
+template <class T>
+struct [[gnu::packed, gnu::may_alias]] UnalignedLanes {
+  T v;
+};
+template <class T>
+[[gnu::always_inline]] inline const UnalignedLanes<T>& lanes_at(const double* from) {
+  return *reinterpret_cast<const UnalignedLanes<T>*>(from);
+}
+template <class T>
+[[gnu::always_inline]] inline UnalignedLanes<T>& lanes_at(double* to) {
+  return *reinterpret_cast<UnalignedLanes<T>*>(to);
+}
+[[gnu::always_inline]] inline double sum_of_lanes(const Double4& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+
+}  // namespace signorini::base

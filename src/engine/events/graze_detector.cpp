@@ -1,0 +1,113 @@
+#include "engine/events/graze_detector.hpp"
+
+#include <algorithm>
+
+namespace signorini::events {
+namespace {
+// Samples of a step's polynomial: it has at most five turning points, and is known to a tolerance only.
+constexpr int looks = 8;
+}  // namespace
+
+void GrazeDetector::start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels) {
+  guards_.assign(guards.size(), GuardHistory{});
+  for (std::size_t slot = 0; slot < guards.size(); ++slot) {
+    guards_[slot].guard = guards[slot].kind;
+    guards_[slot].level = levels[slot];
+    guards_[slot].dip = dip_fraction * levels[slot] + guards[slot].noise;
+  }
+}
+
+void GrazeDetector::update(const StepHistory& history, double limit) {
+  for (std::size_t slot = 0; slot < guards_.size(); ++slot) {
+    GuardHistory& guard = guards_[slot];
+    if (guard.guard == Guard::none) continue;
+    // If the last value is twice the bend that the older values can cause, the guard stays above half of it on the
+    // step.
+    if (guard.high == guard.level && !guard.low && history.clearly_positive(slot) &&
+        history.last(slot) > 2.0 * guard.level)
+      continue;
+    const Bernstein p = history.polynomial(slot);
+    if (p.at_least(guard.level)) {
+      if (guard.low) record(slot);
+      guard.low = false;
+      guard.high = guard.level;
+      continue;
+    }
+    for (int look = 0; look <= looks; ++look) {
+      const double x = limit * look / looks, value = p.value(x);
+      if (value >= guard.level) {
+        if (guard.low) record(slot);
+        guard.low = false;
+      } else if (value < guard.high - guard.dip && (!guard.low || value < guard.lowest)) {
+        guard.low = true;
+        guard.lowest = value;
+        guard.t_lowest = history.begin() + x * (history.end() - history.begin());
+      }
+      guard.high = std::min(guard.level, std::max(guard.high, value));
+    }
+  }
+}
+
+void GrazeDetector::end(const std::vector<std::size_t>& fallen) {
+  for (std::size_t slot = 0; slot < guards_.size(); ++slot)
+    if (guards_[slot].low && guards_[slot].high < guards_[slot].level &&
+        std::find(fallen.begin(), fallen.end(), slot) == fallen.end())
+      record(slot);
+  guards_.clear();
+}
+
+void GrazeDetector::record(std::size_t slot) {
+  if (!first_ || guards_[slot].t_lowest < first_->t)
+    first_ = Graze{guards_[slot].t_lowest, slot, guards_[slot].guard};
+}
+
+namespace {
+
+constexpr double near_levels = 1e4;  // chosen: error of a run of that many steps
+constexpr int looks_a_step = 8;      // a step's polynomial has at most five turning points
+constexpr std::size_t max_near_hits = 100000;
+
+}  // namespace
+
+void NearHitDetector::start(const std::vector<decide::GuardStart>& guards,
+                            const std::vector<double>& levels) {
+  gaps_.clear();
+  for (std::size_t slot = 0; slot < guards.size(); ++slot)
+    if (guards[slot].kind == Guard::closing) gaps_.push_back({slot, levels[slot], 0.0, 0, {}, {}});
+}
+
+void NearHitDetector::update(const StepHistory& history, double limit) {
+  for (GapHistory& gap : gaps_) {
+    // If the last value is twice the bend that the older values can cause, the gap stays above half of it on the step.
+    if (history.clearly_positive(gap.slot) && history.last(gap.slot) > 2.0 * near_levels * gap.level) {
+      gap.sample_count = 0;
+      gap.high = history.last(gap.slot);
+      continue;
+    }
+    const Bernstein p = history.polynomial(gap.slot);
+    for (int i = gap.sample_count == 0 ? 0 : 1; i <= looks_a_step; ++i) {
+      const double x = limit * i / looks_a_step;
+      update_gap(gap, {history.begin() + x * (history.end() - history.begin()), p.value(x)});
+    }
+  }
+}
+
+void NearHitDetector::update_gap(GapHistory& gap, const GapSample& now) {
+  const GapSample a = gap.before, b = gap.last;
+  gap.before = b;
+  gap.last = now;
+  gap.high = std::max(gap.high, a.gap);
+  if (++gap.sample_count < 3 || !(a.gap > b.gap && b.gap <= now.gap) || list_.size() == max_near_hits) return;
+  const double left = b.t - a.t, right = now.t - b.t;
+  const double up_left = (a.gap - b.gap) / left, up_right = (now.gap - b.gap) / right;
+  const double bend = (up_left + up_right) / (left + right);
+  const double off = (up_left * right - up_right * left) / (left + right) / (2.0 * bend);
+  const double least = b.gap - bend * off * off;
+  if (!(gap.high > gap.level)) return;
+  gap.high = 0.0;
+  if (least < near_levels * gap.level)
+    list_.push_back(
+        {b.t + off, static_cast<int>(contact::contact_of_guard(gap.slot)), std::max(0.0, least), bend});
+}
+
+}  // namespace signorini::events

@@ -1,0 +1,69 @@
+#include "model/modes/constrained_structure.hpp"
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "model/assembly/parts.hpp"
+#include "model/statics/static_system.hpp"
+
+namespace signorini::modes {
+namespace {
+
+constexpr double fixed_twice = 1e-12;  // relative to the largest compliance: the motion is already fixed by
+                                       // another contact
+
+}  // namespace
+
+Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n) {
+  Eigen::MatrixXd t(n, static_cast<Eigen::Index>(forms.size()));
+  for (std::size_t j = 0; j < forms.size(); ++j)
+    t.col(static_cast<Eigen::Index>(j)) = assembly::dense_vector(forms[j], n);
+  return t;
+}
+
+SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q) {
+  Eigen::MatrixXd result = q.transpose() * (a * q);
+  const Eigen::MatrixXd across = q.cwiseAbs();
+  const Eigen::MatrixXd size = across.transpose() * (SparseMatrix(a.cwiseAbs()) * across);
+  result = (result.array().abs() > rounding::many_operations * size.array()).select(result, 0.0);
+  return result.sparseView();
+}
+
+SparseMatrix with_constraint_springs(const SparseMatrix& k, const std::vector<Combination>& forms) {
+  std::vector<assembly::LineSpring> springs;
+  for (const Combination& form : forms) springs.push_back({form, statics::structural_stiffness(k, form)});
+  return assembly::with_springs(k, springs);
+}
+
+ConstrainedStructure::ConstrainedStructure(const SparseMatrix& k, const std::vector<Combination>& fixed)
+    : solver_(with_constraint_springs(k, fixed)) {
+  if (fixed.empty()) return;
+  for (const assembly::Part& part : assembly::Parts({&k}, fixed)) {
+    const std::vector<Combination> own = part.forms(fixed);
+    if (own.empty()) continue;
+    ConstraintBlock grip{part.dofs(), form_columns(own, part.size()), {}};
+    Eigen::MatrixXd kt(grip.t.rows(), grip.t.cols());
+    for (Eigen::Index j = 0; j < kt.cols(); ++j) {
+      Vector force = Vector::Zero(k.rows());
+      force(grip.dofs) = grip.t.col(j);
+      kt.col(j) = solver_.solve(force)(grip.dofs);
+    }
+    // Two contacts may fix the same motion: the pseudo-inverse counts it once.
+    const base::EigenPairs g = base::symmetric_eigen(grip.t.transpose() * kt);
+    Eigen::VectorXd inverse = g.values;
+    const double greatest = inverse[inverse.size() - 1];
+    for (double& value : inverse) value = value > fixed_twice * greatest ? 1.0 / value : 0.0;
+    grip.correction = kt * g.vectors * inverse.asDiagonal() * g.vectors.transpose();
+    constraint_blocks_.push_back(std::move(grip));
+  }
+}
+
+Vector ConstrainedStructure::solve(const Vector& b) const {
+  Vector u = solver_.solve(b);
+  for (const ConstraintBlock& grip : constraint_blocks_) {
+    const Vector own = u(grip.dofs);
+    u(grip.dofs) = own - grip.correction * (grip.t.transpose() * own);
+  }
+  return u;
+}
+
+}  // namespace signorini::modes

@@ -1,0 +1,44 @@
+// constrained_structure.hpp: static response of a structure with constraints from contacts.
+//
+//   K u + T r = b,   T^T u = 0
+//
+// K: n x n, springs included, without null motions that respect T^T u = 0; T: n x m, fixed forms. Springs along T make
+// K regular and do not change u.
+#pragma once
+
+#include <vector>
+
+#include "model/assembly/springs.hpp"
+
+namespace signorini::modes {
+
+class ConstrainedStructure {
+ public:
+  ConstrainedStructure(const SparseMatrix& k, const std::vector<Combination>& fixed);
+
+  [[nodiscard]] Vector solve(const Vector& b) const;
+  /// True: K with the springs along T is positive definite, and so is K on the motions with T^T u = 0.
+  [[nodiscard]] bool definite() const { return solver_.ok() && solver_.smallest_pivot() > 0.0; }
+
+ private:
+  /// The forms that act on one part of the structure: T on it, and K^-1 T (T^T K^-1 T)^-1.
+  struct ConstraintBlock {
+    std::vector<int> dofs;
+    Eigen::MatrixXd t, correction;
+  };
+  assembly::SymmetricSolver solver_;
+  std::vector<ConstraintBlock> constraint_blocks_;
+};
+
+/// K with springs along the forms, as stiff as the structure.
+[[nodiscard]] SparseMatrix with_constraint_springs(const SparseMatrix& k,
+                                                   const std::vector<Combination>& forms);
+
+/// Q^T A Q for symmetric A; terms that cancel become zero, because rounding would be the only entry left to compare
+/// with.
+[[nodiscard]] SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q);
+
+/// The forms as columns, n x m.
+[[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n);
+
+}  // namespace signorini::modes

@@ -1,0 +1,146 @@
+// branch_continuation.hpp: follows one branch of orbits, point by point.
+//
+//   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
+//   (special_points.hpp)
+//
+// In a family of orbits the walk follows the middle one (branch_newton.hpp).
+//
+// If no step is short enough, for instance where a guard grazes, a transient searches for the orbit a little further
+// on. Where another branch begins, the walk stores a junction:
+//
+//   flip            (Phi + I) v = 0: the orbit of twice the period leaves along v
+//   branch point    two directions t, w with dG/dy t = dG/dy w = 0: the other branch leaves along w and -w
+#pragma once
+
+#include "orbit/branch_newton.hpp"
+
+namespace signorini::orbit {
+
+/// Beginning of another branch.
+struct Junction {
+  BranchMap map;      ///< map of the other branch
+  CorrectedPoint at;  ///< point of the branch that it leaves
+  Vector away;        ///< coordinates at the section, dT/T if T is unknown, s
+  std::string kind;
+  int from = 1;        ///< number of the branch that it leaves
+  int generation = 1;  ///< number of switches that led there
+};
+
+class BranchContinuation {
+ public:
+  /// Adds points and sequences to `branch`. All arguments except map must outlive the object.
+  BranchContinuation(const BranchOptions& options, BranchMap map, Branch& branch, int number, int generation,
+                     const std::function<void(const BranchPoint&)>& seen)
+      : options_(options),
+        map_(std::move(map)),
+        branch_(branch),
+        number_(number),
+        generation_(generation),
+        seen_(seen) {}
+  BranchContinuation(const BranchContinuation&) = delete;
+  BranchContinuation& operator=(const BranchContinuation&) = delete;
+
+  /// Follows the branch from the map's first orbit.
+  void follow();
+  /// Follows the branch from a junction.
+  void follow_from(const Junction& junction);
+
+  [[nodiscard]] const std::string& end() const { return end_; }
+  [[nodiscard]] bool complete() const { return complete_; }
+  /// Mark of the last point.
+  [[nodiscard]] std::optional<BranchCheckpoint> mark();
+  [[nodiscard]] std::vector<Junction>& junctions() { return junctions_; }
+
+ private:
+  [[nodiscard]] bool begin(CorrectedPoint& here);
+  [[nodiscard]] bool begin_from(const Junction& junction, CorrectedPoint& here, Vector& t);
+  void walk_from_start();
+  void continue_branch(CorrectedPoint here, Vector t);
+  [[nodiscard]] CorrectedPoint step(const CorrectedPoint& here, const Vector& t, double ds, bool last) const;
+  [[nodiscard]] bool is_time_shift(const CorrectedPoint& here, const Vector& t) const;
+  [[nodiscard]] bool restart(CorrectedPoint& here, double sign);
+  [[nodiscard]] bool has_passed(const CorrectedPoint& at);
+  [[nodiscard]] bool may_continue(const CorrectedPoint& here, const CorrectedPoint& next, double along);
+  void report_end(const CorrectedPoint& here, double along);
+  [[nodiscard]] bool search_beyond_gap(const CorrectedPoint& here, CorrectedPoint& next, Vector& t);
+  [[nodiscard]] bool returns(const CorrectedPoint& here);
+  bool move_to_representative(CorrectedPoint& here, const Vector& t);
+  void look_ahead(const std::optional<SecantPoint>& place, CorrectedPoint& next);
+  void choose_new_section(CorrectedPoint& here, std::optional<SecantPoint>& before);
+  [[nodiscard]] Vector direction(const std::optional<SecantPoint>& place, CorrectedPoint& here,
+                                 const Vector& before);
+  bool add(const CorrectedPoint& here, const std::string& special);
+  /// A special point between two others, and its position.
+  struct LocatedPoint {
+    double part = 0.0;  // fraction of the step
+    std::string kind;
+    CorrectedPoint at;
+    Vector t;
+    /// For a change of the sequence, if another one follows within the step: the farthest place found before that.
+    std::optional<CorrectedPoint> behind = {};
+    double behind_part = 1.0;
+  };
+  [[nodiscard]] std::vector<LocatedPoint> located(const CorrectedPoint& here, CorrectedPoint& next,
+                                                  const Vector& t, double& length);
+  [[nodiscard]] std::vector<LocatedPoint> between(const CorrectedPoint& here, CorrectedPoint& next,
+                                                  const Vector& t, double& length);
+  [[nodiscard]] bool changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
+                                    const std::vector<LocatedPoint>& points) const;
+  [[nodiscard]] bool bends(const SecantPoint& from, CorrectedPoint& to, const Vector* before,
+                           bool onward) const;
+  [[nodiscard]] bool too_long(const CorrectedPoint& here, CorrectedPoint& next, const Vector& t,
+                              double length, std::vector<LocatedPoint>& points) const;
+  [[nodiscard]] std::optional<SecantPoint> cross(std::vector<LocatedPoint> points, const CorrectedPoint& here,
+                                                 CorrectedPoint& next, const Vector& t, double& length);
+  [[nodiscard]] std::optional<LocatedPoint> zero_of(const SpecialKind& kind, const CorrectedPoint& here,
+                                                    const CorrectedPoint& next, const Vector& t,
+                                                    double ds) const;
+  [[nodiscard]] std::optional<LocatedPoint> end_of_sequence(const CorrectedPoint& here,
+                                                            const CorrectedPoint& next, const Vector& t,
+                                                            double ds) const;
+  void keep_mark(const CorrectedPoint& here, const Vector& t);
+  void offer_mark();
+  void keep_junction(const LocatedPoint& point);
+  [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
+  [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
+  [[nodiscard]] double value(const CorrectedPoint& at) const { return map_.parameter(at.state.s); }
+  /// Runs a walk; a refused scene ends it.
+  void guarded(const std::function<void()>& walk);
+
+  const BranchOptions& options_;
+  BranchMap map_;
+  BranchNewton newton_{map_};
+  Branch& branch_;
+  int number_, generation_;
+  const std::function<void(const BranchPoint&)>& seen_;
+  std::vector<Junction> junctions_;
+  std::string end_;
+  bool complete_ = false;
+  /// The last orbit found behind a gap or a change of the sequence, and the place the walk came from.
+  struct FoundBeyond {
+    CorrectedPoint at;
+    double section, sign;
+  };
+  std::optional<FoundBeyond> found_beyond_;
+  // Limit of successive steps that ended at another branch, as beside a graze where an unbounded multiplier leaves
+  // Newton's method no room; then the branch is searched further on. Chosen value.
+  static constexpr int max_jumps = 4;
+  int jumps_ = 0;
+  bool crossed_gap_ = false;  // it was found again at least once
+  bool turned_back_ = false;  // it walks from found_beyond_ in the opposite direction
+  std::optional<BranchState> last_;
+  double last_section_ = 0.0;
+  std::size_t last_points_ = 0;
+  bool towards_to_ = true;
+  int points_ = 0;
+  bool located_ = false;  // the last point is a located one
+  bool folds_ = false;    // the parameter turns between the last two points, without a located fold
+  bool turning_ = false;  // the tangent differs from the way of the branch (direction())
+  double ahead_ =
+      0.0;  // t_s of the tangent at the last point, in the section of the step that led there; 0: unknown
+  bool doubled_ = false;  // it began at a flip
+  double half_section_ = 0.0;
+  Vector half_;  // for a doubled branch: z(T/2) - z at the last point
+};
+
+}  // namespace signorini::orbit

@@ -1,0 +1,76 @@
+// recomputed_motion.hpp: recomputes the motion of an engine whose steps are not series.
+//
+//   u, v and states are computed independently, to rounding; the engine provides the guards that reached zero
+//   t_k:   g(t_k) = 0 for the first such guard, by Newton's method starting from the engine's time
+//   then   the decision at t_k is repeated
+//
+// If the guard has no zero nearby, or the decided states differ from the engine's, the motion continues from the
+// engine's state (`taken`). So the sequence always is the engine's, and integration errors of the engine do not
+// accumulate in the derivatives; a chain of events would amplify such errors like changes of the parameter.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "decide/contact_state_solver.hpp"
+#include "engine/exact/modal/modal_engine.hpp"
+#include "run/run_listener.hpp"
+#include "run/touch_tracker.hpp"
+#include "sensitivity/tangent_series.hpp"
+
+namespace signorini::sensitivity {
+
+class RecomputedMotion {
+ public:
+  /// The motion at a time after now(), in its current mode.
+  using MotionAt = std::function<SeriesPoint(double t)>;
+
+  /// All arguments except run must outlive the object.
+  RecomputedMotion(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
+                   const RunSpec& run);
+
+  void begin(const decide::Decision& start);
+  /// Begins a stretch now, with the engine's forcing.
+  void start(const motion::Forcing& forcing);
+  /// Decision of that stretch: without guards, since only the engine ends it.
+  [[nodiscard]] const decide::Decision& stretch() const { return stretch_; }
+  [[nodiscard]] const motion::Forcing& forcing() const { return *forcing_; }
+  [[nodiscard]] double t() const { return now_.jet.t; }
+  /// Modes of the model; null: modes cannot follow it.
+  [[nodiscard]] modal::ModalSystem* modes();
+  [[nodiscard]] engine::Stepper& engine(bool in_modes);
+  /// The motion at t, from a separate series.
+  [[nodiscard]] SeriesPoint at(double t);
+
+  /// Time of the instant; nullopt: its guard does not reach zero there.
+  [[nodiscard]] std::optional<double> time_of(const run::RunInstant& instant, const MotionAt& at) const;
+  /// The instant at t, with the motion u and v; the engine's own instant if its state is taken. It lives as long as
+  /// this object.
+  [[nodiscard]] run::RunInstant pass(const run::RunInstant& instant, double t, const SeriesPoint& before);
+  /// The engine's own instant, and its state.
+  [[nodiscard]] run::RunInstant adopt_engine_state(const run::RunInstant& instant);
+
+  [[nodiscard]] long fallback_count() const { return fallback_count_; }
+  /// Largest |t_k - the engine's time|.
+  [[nodiscard]] double correction() const { return correction_; }
+
+ private:
+  const Model& model_;
+  const linear::SystemMatrices& structure_;
+  motion::StateSystems& systems_;
+  double t_end_;
+  decide::ContactStateSolver decider_;
+  std::unique_ptr<modal::ModalEngine> modal_;
+  std::unique_ptr<exact::ExactEngine> series_;
+  std::unique_ptr<exact::ExactEngine> event_search_;  // searches for the time of an event
+  run::TouchTracker touches_;
+  decide::Decision now_, stretch_;
+  contact::ContactStates states_before_;
+  Vector v_before_;
+  std::optional<motion::Forcing> forcing_;
+  long fallback_count_ = 0;
+  double correction_ = 0.0;
+};
+
+}  // namespace signorini::sensitivity

@@ -1,0 +1,34 @@
+// optional_values.hpp: optional figures of a run, in tables and JSON.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/json.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini::study {
+
+/// Value for a cell; empty if absent.
+template <class Value>
+[[nodiscard]] std::optional<double> number_of(const std::optional<Value>& value) {
+  if (!value) return std::nullopt;
+  return static_cast<double>(*value);
+}
+
+/// JSON value; null if absent.
+template <class Value>
+[[nodiscard]] base::Json json_of(const std::optional<Value>& value) {
+  return value ? base::Json(*value) : base::Json();
+}
+
+// The unit of a key of the scene, by its path, with the scene's unit names.
+//
+//   key_unit("contacts.left.normal_stiffness", units) == "kN/m",   key_unit("contacts.*.friction", units) == ""
+
+/// Empty for a plain number, and if the path is not a key.
+[[nodiscard]] std::string key_unit(const std::string& path, const Units& units);
+/// "PATH [UNIT]", or the path alone.
+[[nodiscard]] std::string key_with_unit(const std::string& path, const Units& units);
+
+}  // namespace signorini::study

@@ -1,0 +1,77 @@
+// verification_runs.hpp: results of IDA, three runs of newmark and exact, for comparison (verify.hpp).
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/verify/richardson.hpp"
+#include "study/verify/verify.hpp"
+
+namespace signorini::verify {
+
+class VerificationRuns {
+ public:
+  static constexpr std::size_t runs = 3;
+
+  /// The model must outlive the object.
+  VerificationRuns(const Model& model, double t_end);
+
+  /// Adds a run of newmark; the last three count.
+  void add(double dt_of_run, ObservedRun run);
+  /// True if the sequence and the orders of the last three runs have settled, as far as IDA's sequence is certain.
+  [[nodiscard]] bool settled();
+  /// Fills in verdict, sentence, kinds, events.
+  void evaluate(Verification& result);
+
+  ObservedRun ida;
+  const Certificate* certificate = nullptr;
+  std::optional<ObservedRun> exact;
+  std::vector<ObservedRun> newmark;  ///< h, h/2, h/4
+  std::vector<double> dt;
+
+ private:
+  /// A series of one quantity, with the rows of events or of output times at which it was taken.
+  struct Series {
+    std::string name;
+    std::vector<StepTriple> values;
+    std::vector<std::size_t> rows;
+  };
+  struct Kind {
+    std::string name, unit;
+    std::vector<Series> series;
+    ConvergenceOrder order;
+    double scale = 0.0;
+  };
+  /// Time up to which three sequences are equal, and equal to IDA's.
+  struct Sequence {
+    double until = 0.0;
+    std::string reason;        ///< empty: to the end
+    bool differs = false;      ///< IDA's sequence is certain to be a different one
+    double exact_until = 0.0;  ///< time up to which exact's sequence equals IDA's
+  };
+
+  [[nodiscard]] Sequence sequence() const;
+  [[nodiscard]] std::vector<Kind> kinds(double until) const;
+  [[nodiscard]] Kind event_times(double until) const;
+  void add_columns(double until, std::vector<Kind>& kinds) const;
+  /// Rows of IDA's events that are changes, and the same event in another run.
+  [[nodiscard]] std::vector<std::optional<double>> times_in(const certify::EventSequence& track) const;
+  [[nodiscard]] std::vector<bool> rows_at_events(double until) const;
+  [[nodiscard]] Observation observation(const Series& series, std::size_t i, bool is_event,
+                                        const Extrapolation& extrapolated, std::size_t column) const;
+  [[nodiscard]] VerifiedKind verified(const Kind& kind, Verification& result) const;
+  void add_extremes(Verification& result) const;
+  static void count(const Observation& o, const std::string& where, VerifiedKind& kind);
+  void conclude(const Sequence& sequence, Verification& result) const;
+  [[nodiscard]] std::string differences(const Verification& result) const;
+
+  const Model& model_;
+  double t_end_;
+  std::vector<std::string> names_;
+  std::vector<ObservedColumn> columns_;
+};
+
+}  // namespace signorini::verify

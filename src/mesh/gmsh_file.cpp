@@ -184,8 +184,10 @@ class GmshReader {
       const long tag = words_.integer("a physical tag");
       std::string name = words_.quoted("the name of a physical group");
       if (dimension < 2 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
-        words_.fail(fmt::format(
-            "found a physical group named \"{}\", expected more than digits: numbers are nodes", name));
+        words_.fail(
+            fmt::format("found a physical group named \"{}\", expected a name with other characters than "
+                        "digits: numbers stand for nodes",
+                        name));
       content_.names[{dimension, tag}] = std::move(name);
     }
   }
@@ -419,22 +421,20 @@ class BodyBuilder {
     const auto number = [&](std::size_t i) {
       return content_.nodes[static_cast<std::size_t>(line.nodes[i])].number;
     };
-    throw SceneError(
-        line.place, key_,
-        fmt::format("line {} from node {} to node {} is no edge of an element: expected lines of "
-                    "the mesh's own edges",
-                    line.number, number(0), number(1)));
+    throw SceneError(line.place, key_,
+                     fmt::format("line {} from node {} to node {} is no edge of an element: expected lines "
+                                 "along edges of the mesh",
+                                 line.number, number(0), number(1)));
   }
 
   /// A curve inside a body must be a set of nodes: the body is on both of its sides.
   void check_boundaries() const {
     for (const PlaneMesh::Group& g : mesh_.groups)
       if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())
-        throw SceneError(
-            inside->second->place, key_,
-            fmt::format("line {} of the physical curve \"{}\" has elements on both sides, other lines "
-                        "of it bound the body: give the two parts groups of their own",
-                        inside->second->number, g.name));
+        throw SceneError(inside->second->place, key_,
+                         fmt::format("line {} of the physical curve \"{}\" has elements on both sides, other "
+                                     "lines of it bound the body: give each part its own group",
+                                     inside->second->number, g.name));
   }
 
   const GmshContent& content_;

@@ -114,7 +114,7 @@ class TableReader {
       fail(fmt::format("found {}, expected two or more",
                        base::count_text(table_.times.size(), values_only ? "value" : "row")));
     if (layout_.peer && table_.times.size() != points_)
-      fail(fmt::format("found {}, expected {} as NPTS says", base::count_text(table_.times.size(), "value"),
+      fail(fmt::format("found {}, expected {} as in NPTS", base::count_text(table_.times.size(), "value"),
                        points_));
     return std::move(table_);
   }

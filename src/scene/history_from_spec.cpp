@@ -141,15 +141,15 @@ History make_history(const HistorySpec& spec, const std::string& key) try {
   return f.scaled(spec.amplitude, spec.offset);
 } catch (const std::invalid_argument&) {  // from History: rounding has merged starts
   throw SceneError(spec.place, key,
-                   "found times that are one to a double, or beyond all doubles, where the history starts, "
-                   "ends, is shifted or begins anew; expected times that can be told apart");
+                   "found times of the history (start, end, shift or period) that rounding merges, or that "
+                   "overflow; expected distinct, finite times");
 }
 
 History make_integral(const HistorySpec& spec, const std::string& key) {
   History f = make_history(spec, key);
   if (!f.has_closed_form())
     throw SceneError(spec.place, key,
-                     "found a function of one's own, expected a history whose integral is known");
+                     "found a user-defined function, expected a history whose integral is known");
   return f.integrated();
 }
 

@@ -74,7 +74,7 @@ class Change {
         segment += c;
         continue;
       }
-      if (segment.empty()) fail("expected path=value, the path being names with a dot between");
+      if (segment.empty()) fail("expected path=value; the path is names separated by dots");
       if (segments_.size() == most_parts) fail("found a path of more than 16 parts");
       segments_.push_back(segment);
       segment.clear();

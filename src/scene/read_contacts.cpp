@@ -425,7 +425,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   }
   if (given && !history.is_constant())
     table.fail("normal_force",
-               "found a history beside normal_stiffness, expected the number that is carried at rest");
+               "found a history beside normal_stiffness, expected a number: the load at rest");
   contact.law = Law::compliant;
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");

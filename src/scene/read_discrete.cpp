@@ -101,7 +101,7 @@ void read_hanger(Table& table, Spring& spring) {
   spring.preload = cold ? *cold : hot + spring.stiffness * *travel;
   if (!stiff && *travel == 0.0)
     hanger.fail("travel",
-                "found 0, expected a travel that is not zero, over which the load goes from cold to hot");
+                "found 0, expected a travel other than zero, over which the load changes from cold to hot");
   if (!stiff) spring.stiffness = (*cold - hot) / *travel;
   if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness))
     contradict({{table, "hanger"}, hot_key, cold_key, travel_key, stiffness_key},
@@ -109,10 +109,11 @@ void read_hanger(Table& table, Spring& spring) {
                            "if the node moves against direction (travel > 0), so cold > hot needs travel > 0",
                            spring.stiffness));
   if (!(spring.preload >= 0.0))
-    contradict({travel_key, hot_key, cold_key, stiffness_key},
-               fmt::format("the load while nothing has moved would be {:.6g}, expected >= 0: it is "
-                           "hot + stiffness travel",
-                           spring.preload));
+    contradict(
+        {travel_key, hot_key, cold_key, stiffness_key},
+        fmt::format(
+            "the load in the undeformed state would be {:.6g}, expected >= 0: it is hot + stiffness travel",
+            spring.preload));
   hanger.finish();
   table.record("hanger", hanger.record().inline_table());
 }

@@ -84,14 +84,17 @@ void refuse_given_names(const std::vector<Table>& tables, const std::vector<Load
     for (std::size_t k = 0; k < loads.size(); ++k)
       if (loads[k].name.empty() && name == fmt::format("load {}", k + 1))
         tables[i].fail(
-            "name", fmt::format("found \"{}\", which load {} has without a name, expected another name", name,
-                                k + 1));
+            "name",
+            fmt::format(
+                "found \"{}\", the generated name of load {}, which has no name; expected another name", name,
+                k + 1));
     for (const char* kind : {"base motion", "preload of spring ", "initial strain of member ",
                              "temperature of member ", "temperature of body "})
       if (name.starts_with(kind))
         tables[i].fail(
             "name",
-            fmt::format("found \"{}\", but loads of that kind are called so, expected another name", name));
+            fmt::format("found \"{}\", which begins like the generated names of loads; expected another name",
+                        name));
   }
 }
 
@@ -232,7 +235,8 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   layout.peer = extension == ".at2";
   for (const char* key : {"column", "time_step"})
-    if (layout.peer && table.has(key)) table.fail(key, "has no meaning for a PEER file, which says its own");
+    if (layout.peer && table.has(key))
+      table.fail(key, "has no meaning for a PEER file, whose format defines it");
   if (table.has("column") && table.has("time_step"))
     table.fail("column", "cannot be combined with time_step; give only one of them");
   if (const toml::node* node = table.raw("column")) {
@@ -266,7 +270,7 @@ void read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& sc
   if (rows.unit && role != Role::acceleration)
     table.fail("file", "found a file of accelerations, expected one of values in the scene's units");
   if (rows.unit && !rows.in_g && table.has("unit"))
-    table.fail("unit", "found \"g\", expected none: the file says that its values are in another unit");
+    table.fail("unit", "found \"g\", expected no unit: the file gives its values in another unit");
   if (rows.unit && !table.has("unit")) {
     for (double& value : rows.values) value *= *rows.unit * metric_acceleration(scene.units);
   }
@@ -318,7 +322,8 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   const auto period = table.optional_number("period");
   if (!period) return;
   const bool tabulated = spec.type == HistoryType::table;
-  if (!tabulated && !spec.start_given) table.fail("period", "needs a start, from which it counts");
+  if (!tabulated && !spec.start_given)
+    table.fail("period", "needs a start, because the period counts from it");
   const double start = tabulated ? spec.times.front() : spec.start;
   const double length = (tabulated ? spec.times.back() : std::isinf(spec.end) ? start : spec.end) - start;
   if (*period < length * (1.0 - rounding::few_operations))

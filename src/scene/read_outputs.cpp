@@ -83,7 +83,7 @@ void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {
   read_quantity(table, output, "\"N\", \"T\", \"gap\", \"slip\", \"loss\"");
   if (output.quantity == OutputQuantity::gap && contact.capabilities().normal_force_given)
     table.fail("quantity",
-               fmt::format("found \"gap\" of contact \"{}\", a slider, which has none", contact.name));
+               fmt::format("found \"gap\" of contact \"{}\", a slider, which has no gap", contact.name));
 }
 
 /// A number, or a table with a unit.
@@ -123,10 +123,10 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
   for (const Entry& entry : entries_of(terms.node())) {
     const std::size_t i = check_known(entry.name, names, "output", entry.place(), terms.path(entry.name));
     if (scene.outputs[i].quantity == OutputQuantity::loss)
-      terms.fail(entry.name, "is a loss, which has no part in a combination: it has no value between rows");
+      terms.fail(entry.name, "is a loss, which a combination cannot contain: it has no value between rows");
     if (!sum_of_motions(scene.outputs[i]))
       terms.fail(entry.name,
-                 "is a greatest value, of an envelope or of both fibres, which has no part in a combination");
+                 "is a greatest value (envelope or both fibres), which a combination cannot contain");
     output.terms.push_back(read_term(terms, entry, scene));
     const OutputTerm &first = output.terms.front(), &term = output.terms.back();
     if (!same_unit(unit_of_term(first, scene.outputs), unit_of_term(term, scene.outputs)))

@@ -180,7 +180,7 @@ void read_reduction(Table& top, Scene& scene, ResolvedScene& record) {
   spec.place = table.place();
   for (const char* cutoff : {"cutoff_frequency", "cutoff_omega"})
     if (table.has("tolerance") && table.has(cutoff))
-      table.fail("tolerance", std::string("stands beside ") + cutoff + ", expected one of the two");
+      table.fail("tolerance", std::string("cannot be combined with ") + cutoff + "; give only one of them");
   if (const auto tolerance = table.optional_number("tolerance")) {
     spec.tolerance = *tolerance;
   } else if (const auto frequency = table.optional_number("cutoff_frequency")) {
@@ -222,7 +222,7 @@ void read_units(Table& top, Scene& scene, ResolvedScene& record) {
   const double fitting = si_factor(units.mass) * si_factor(units.length) / (time * time);
   if (!same(si_factor(units.force), fitting)) {
     const std::string product = fmt::format("{} {}/{}^2", units.mass, units.length, units.time);
-    std::string answer = "no unit of force that is known here (N, kN, MN)";
+    std::string answer = "none of the units of force (N, kN, MN)";
     for (const std::string name : {"N", "kN", "MN"}) {
       if (same(si_factor(name), fitting)) answer = "\"" + name + "\"";
     }

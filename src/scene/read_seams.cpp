@@ -143,8 +143,7 @@ void read_springs_of(Table& table, SeamLaw& law) {
   if (law.contact.friction.stribeck_velocity)
     table.fail("friction",
                "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding point has "
-               "no mass, so "
-               "friction that falls with its rate leaves its motion undecided");
+               "no mass, so its motion is not unique if friction decreases with its rate");
 }
 
 /// Does not record the key; its reader does.
@@ -235,10 +234,9 @@ void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& 
   const std::string first = mesh_name(seam.nodes.front().node, scene);
   std::erase_if(seam.nodes, [&](const mesh::MortarNode& k) { return master.contains(k.node); });
   if (seam.nodes.empty())
-    table.fail("master",
-               fmt::format("node {} and all others belong to both boundaries: expected meshes that share no "
-                           "nodes there, but for the tip of a crack",
-                           first));
+    table.fail("master", fmt::format("node {} and all others belong to both boundaries: expected meshes that "
+                                     "share no nodes there, except at the tip of a crack",
+                                     first));
 }
 
 /// Reads and checks the mortar of a table.
@@ -265,14 +263,15 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
   if (!seam.negative.empty())
     table.fail(
         "slave",
-        fmt::format("node {} lies at the end of a quadratic edge of which the master covers a part, and "
-                    "would have no length: end the master at a node of the slave, or exchange the two",
+        fmt::format("node {} lies at the end of a quadratic edge that the master covers only in part, so no "
+                    "length belongs to it: end the master at a node of the slave, or exchange the two",
                     base::join_quoted(mesh_names(seam.negative, scene), 3)));
   if (!seam.corners.empty())
-    table.fail("slave",
-               fmt::format("the boundary has a corner of more than 45 degrees at node {}: give each side a "
-                           "seam of its own",
-                           base::join_quoted(mesh_names(seam.corners, scene), 3)));
+    table.fail(
+        "slave",
+        fmt::format(
+            "the boundary has a corner of more than 45 degrees at node {}: give each side its own seam",
+            base::join_quoted(mesh_names(seam.corners, scene), 3)));
   if (seam.nodes.empty()) table.fail("master", "it faces no part of the slave boundary");
   leave_out_shared(table, scene, seam);
   return seam;
@@ -326,8 +325,9 @@ void read_tied(Table& table, const std::string& name, Scene& scene) {
     table.fail("law", "found \"tied\", expected a law with contacts: [matrices] are not tied");
   const Boundary slave = find_side(table, "slave", table.text("slave"), scene);
   if (table.has("line") || is_word(table, "master", "ground"))
-    table.fail("law",
-               "found \"tied\" to what rests: expected a boundary as master, or [[supports]] on the slave");
+    table.fail(
+        "law",
+        "found \"tied\" to a fixed surface: expected a boundary as master, or [[supports]] on the slave");
   const mesh::MortarSeam mortar = read_mortar(table, slave, scene);
   for (const mesh::MortarNode& k : mortar.nodes) {
     TieSpec tie{name, k.node, k.master, table.place()};

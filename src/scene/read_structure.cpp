@@ -49,7 +49,7 @@ std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
     std::fill(elements.begin(), elements.end(), count(*node));
   }
   if (arcs && *std::min_element(elements.begin(), elements.end()) < 2)
-    table.fail("elements", "found 1, expected at least 2 on an arc, which they follow as chords");
+    table.fail("elements", "found 1, expected at least 2 on an arc, because elements are chords of the arc");
   std::vector<std::string> texts;
   for (const int n : elements) texts.push_back(std::to_string(n));
   table.record("elements", toml_array(texts));
@@ -373,7 +373,7 @@ void read_rigid(Table& top, Scene& scene, ResolvedScene& record) {
     if (!bodies.add(body.name)) table.fail("name", fmt::format("found \"{}\" twice", body.name));
     for (const BodySpec& other : scene.bodies)
       if (other.name == body.name)
-        table.fail("name", fmt::format("found \"{}\", which one of [[bodies]] is called", body.name));
+        table.fail("name", fmt::format("found \"{}\", which is the name of one of [[bodies]]", body.name));
     table.require("nodes", "");
     body.place = table.place("nodes");
     body.nodes = read_node_names(table, "nodes", space);
@@ -382,7 +382,7 @@ void read_rigid(Table& top, Scene& scene, ResolvedScene& record) {
     std::erase(body.nodes, body.centre);
     if (body.nodes.empty())
       table.fail("nodes",
-                 "found the centre alone, expected other nodes; a point with inertia stands in [[masses]]");
+                 "found only the centre, expected other nodes; give a point with inertia in [[masses]]");
     PointMass mass;
     mass.place = table.place();
     mass.key = table.path();

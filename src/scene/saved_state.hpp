@@ -38,7 +38,7 @@ struct SavedStates {
 //
 //   t,contact,state,gap,ut,vt,slip,N,T   further columns are ignored
 //
-// A continued motion does not depend on these rows; the witness compares it with them (src/law_check).
+// A continued motion does not depend on these rows; the law checker compares it with them (src/law_check).
 
 /// The rows at t. Empty: there are none, or the file is not that of a run.
 [[nodiscard]] std::vector<SavedState::FinalContact> read_final_contacts(const std::filesystem::path& path,

@@ -87,8 +87,7 @@ void check_name(const std::string& name, const SourcePlace& place, const std::st
   }
   if (name.front() == ' ' || name.back() == ' ' || name.find("  ") != std::string::npos)
     refuse(place, path,
-           fmt::format("found \"{}\", expected a name without a blank at an end and without two in a row",
-                       name));
+           fmt::format("found \"{}\", expected a name without leading, trailing or double blanks", name));
 }
 
 void check_reference(const std::string& name, const SourcePlace& place, const std::string& path) {

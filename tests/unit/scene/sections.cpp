@@ -189,7 +189,7 @@ TEST_CASE("hangers: two of cold load, travel and stiffness") {
         {"preload = 3.0", Override{"springs.1.hanger", "{ hot = 12.0, cold = 14.0, travel = 0.02 }"},
          "cannot be combined with hanger"},
         {"stiffness = 10.0\nhanger = { hot = 12.0, travel = -1.0 }", Override{"springs.1.stiffness", "13.0"},
-         "nothing has moved would be -1"}}) {
+         "undeformed state would be -1"}}) {
     CAPTURE(keys);
     CAPTURE(change.path);
     CHECK_THROWS_WITH_AS((void)parse_scene(spring(keys), "test.toml", {change}), doctest::Contains(message),

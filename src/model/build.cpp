@@ -91,9 +91,9 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   bool loaded = false;
   for (const Load& load : model.loads) loaded = loaded || load.is_static;
   if (scene.matrices && !loaded)
-    throw SceneError(scene.initial.place, "run.initial",
-                     "with [matrices] a static start needs loads with a constant history that say what the "
-                     "weight is");
+    throw SceneError(
+        scene.initial.place, "run.initial",
+        "with [matrices] a static start needs loads with a constant history, which define the weight");
   statics::Equilibrium found =
       scene.run.geometric
           ? second_pass(scene, map, model, pressed)
@@ -151,7 +151,9 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
 /// Finds the initial state and the frozen forces, with the geometric stiffness that follows from them.
 void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.matrices)
-    throw SceneError(scene.run.geometric_place, "run.geometric", "has nothing to act on beside [matrices]");
+    throw SceneError(scene.run.geometric_place, "run.geometric",
+                     "has no effect with [matrices]: remove it, and add the geometric stiffness of the "
+                     "static forces to matrices.stiffness");
   FirstPass first;
   if (scene.run.geometric && !scene.initial.is_frictional) {
     first = first_pass(scene, map, model);
@@ -312,8 +314,8 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
     separate_undamped(model);
     if (scene.reduction)
       model.warnings.emplace_back(
-          "reduction.tolerance: this is the whole model; run, compare, study, sweep and verify look for the "
-          "cutoff by trial runs first");
+          "reduction.tolerance: this command uses the full model; run, compare, study, sweep and verify find "
+          "the cutoff by trial runs first");
   }
   add_results(scene, map, borrowed, model);
   return model;

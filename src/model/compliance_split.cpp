@@ -44,13 +44,13 @@ std::vector<Row> rows_of(const Scene& scene, const Model& model) {
     if (!along_n || (c.has_friction() && !along_t))
       refuse_borrowing(
           scene, k, "law",
-          fmt::format("{} has no mass, but the contact's {} moves parts with mass alone: expected mass on "
-                      "both, on none, or law = \"compliant\"",
+          fmt::format("{} has no mass, but the contact's {} moves only parts with mass: expected mass along "
+                      "both directions, along neither, or law = \"compliant\"",
                       (along_n ? along_n : along_t)->displacement, along_n ? "tangent" : "normal"));
     if (scene.contacts[k].restitution != 0.0 || scene.contacts[k].capture_velocity)
-      refuse_borrowing(
-          scene, k, scene.contacts[k].restitution != 0.0 ? "restitution" : "capture_velocity",
-          fmt::format("{} has no mass, so nothing rebounds there: expected none", along_n->displacement));
+      refuse_borrowing(scene, k, scene.contacts[k].restitution != 0.0 ? "restitution" : "capture_velocity",
+                       fmt::format("{} has no mass, so nothing rebounds there: expected no such key",
+                                   along_n->displacement));
     rows.push_back({k, true, along_n});
     if (along_t) rows.push_back({k, false, along_t});
   }
@@ -82,10 +82,9 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
     const Row& row = rows[static_cast<std::size_t>(most)];
     refuse_borrowing(
         scene, row.contact, "law",
-        fmt::format(
-            "{} has no mass, and other rigid contacts act there, too, so nobody can say which of them "
-            "carries the force; leave one out, or give them law = \"compliant\"",
-            row.dof->displacement));
+        fmt::format("{} has no mass, and other rigid contacts act there, too, so the share of each in the "
+                    "force is undetermined; remove one, or give them law = \"compliant\"",
+                    row.dof->displacement));
   }
   square = size.asDiagonal() * square * size.asDiagonal();
   const Eigen::MatrixXd inverse = base::solve_dense(square, Eigen::MatrixXd::Identity(m, m));
@@ -243,8 +242,8 @@ void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& m
   if (!scene.initial.saved) return;
   if (model.saved_contacts.empty())
     throw SceneError(scene.initial.place, "run.initial",
-                     "the run has no row of contacts.csv at this time of the same contacts, from which rigid "
-                     "contacts on parts without mass continue: expected one of its output times");
+                     "contacts.csv of that run has no rows of the same contacts at this time, which rigid "
+                     "contacts on parts without mass need: expected one of its output times");
   Vector given(springs.shifts.cols());
   for (std::size_t j = 0; j < springs.rows.size(); ++j) {
     const auto [k, normal] = springs.rows[j];
@@ -274,11 +273,10 @@ void check_unique_forces(const Scene& scene, Model& model) {
     if (coupled >= nn)
       refuse_borrowing(
           scene, f.contacts[i], "friction",
-          fmt::format(
-              "the forces of this contact are not unique while it slides: its friction force displaces it "
-              "along the normal {:.4g} times as far as its normal force does, expected less than 1; expected "
-              "friction below {:.4g}, mass at the contact, or law = \"compliant\"",
-              coupled / nn, nn / std::abs(nt)));
+          fmt::format("the forces of this contact are not unique while it slides: along the normal, its "
+                      "friction force displaces it {:.4g} times as far as its normal force (unique below 1); "
+                      "expected friction below {:.4g}, mass at the contact, or law = \"compliant\"",
+                      coupled / nn, nn / std::abs(nt)));
   }
   if (f.contacts.size() < 2) return;
   const Eigen::MatrixXd coupling = f.nt * f.friction.asDiagonal();

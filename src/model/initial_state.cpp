@@ -49,15 +49,15 @@ void check_saved_contacts(const Scene& scene) {
   }
   for (const auto& [name, T] : scene.initial.saved->shears)
     if (!contacts.contains(name))
-      refuse_saved(scene.initial, fmt::format("the saved state has a contact '{}' and the scene none", name));
+      refuse_saved(scene.initial,
+                   fmt::format("the saved state has contact '{}', but the scene does not", name));
   for (const SavedState::UserLawMemory& own : scene.initial.saved->user_law_states) {
     const auto same = std::find_if(scene.contacts.begin(), scene.contacts.end(),
                                    [&](const ContactSpec& contact) { return contact.name == own.contact; });
     if (same == scene.contacts.end() || own.state >= same->contact_law()->user_law_states().size())
-      refuse_saved(scene.initial,
-                   fmt::format("the saved state has contact '{}' in state {} of a law of its own, "
-                               "which the scene has not",
-                               own.contact, own.state));
+      refuse_saved(scene.initial, fmt::format("the saved state has contact '{}' in state {} of a "
+                                              "user-defined law, which the scene does not have",
+                                              own.contact, own.state));
   }
 }
 
@@ -93,7 +93,7 @@ InitialState saved_state(const Scene& scene, const assembly::DofMap& map) {
     for (const char* of : {".slip", ".slip_rate", ".surface"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
     if (values.contains(name) && !name.starts_with("support "))
-      refuse_saved(spec, fmt::format("the saved state has {} and the scene not", name));
+      refuse_saved(spec, fmt::format("the saved state has {}, but the scene does not", name));
   return state;
 }
 
@@ -124,11 +124,10 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
   if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
     return std::nullopt;  // a tied seam
   if (map.is_tied(number))
-    throw SceneError(
-        c.place, key,
-        fmt::format("found a motion of node '{}', which follows from others as part of a rigid body, "
-                    "expected one of {}",
-                    c.node, given_for(map, number)));
+    throw SceneError(c.place, key,
+                     fmt::format("found a motion of node '{}', which follows from other motions because it "
+                                 "is part of a rigid body; expected one of {}",
+                                 c.node, given_for(map, number)));
   if (number < 0) return std::nullopt;
   return GivenPlace{named->rate, number};
 }
@@ -280,8 +279,8 @@ void solve_pendulum_start(const Scene& scene, Model& model, const std::function<
     return;
   }
   throw SceneError(scene.initial.place, "run.initial",
-                   "what pendulums bear does not settle: with each force that they bear the structure "
-                   "stands elsewhere, and presses them otherwise");
+                   "the static loads of the pendulums do not converge: each set of loads gives another "
+                   "equilibrium, which gives other loads");
 }
 
 std::vector<double> saved_pendulum_forces(const Scene& scene) {
@@ -411,13 +410,13 @@ void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
     if (model.contacts[k].friction.is_load_dependent())
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("friction"),
-                       "initial = \"frictional\" does not know friction that depends on the normal force; "
+                       "initial = \"frictional\" does not support friction that depends on the normal force; "
                        "use one coefficient, "
                        "or initial = \"static\"");
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
     if (model.contacts[k].initial_shear != 0.0)
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
-                       "has no meaning beside initial = \"frictional\", which finds it");
+                       "has no meaning beside initial = \"frictional\", which computes it");
   std::vector<bool> acts;
   const std::vector<statics::Stage> stages = stages_of(scene, model, acts);
   statics::FrictionalEquilibrium found =
@@ -425,8 +424,8 @@ void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model
   if (scene.run.geometric) found = second_pass_frictional(scene, acts, std::move(found), map, model);
   for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
     if (stages[i].load.isZero(0.0) && !(scene.run.geometric && presses(scene.initial.stages[i], model)))
-      found.start.undetermined.push_back(
-          fmt::format("stage '{}' loads nothing: what it names is zero at t = 0", stages[i].name));
+      found.start.undetermined.push_back(fmt::format(
+          "stage '{}' applies no load: all loads that it names are zero at t = 0", stages[i].name));
   model.u0 = std::move(found.u);
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;

@@ -55,7 +55,7 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
     if (dof.massless && held[i] == 0.0)
       throw SceneError(
           assembly::place_of_dof(scene, map, i), "",
-          fmt::format("{} has neither mass nor stiffness nor damping, so nothing decides its motion",
+          fmt::format("{} has neither mass nor stiffness nor damping, so its motion is undetermined",
                       dof.displacement));
     if (dof.massless) continue;
     const double diagonal = assembly.mass.coeff(i, i);
@@ -121,9 +121,9 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
                     describe(null), energy));
   throw SceneError(
       place, "",
-      fmt::format("nothing decides the {}: it moves no mass, and no stiffness, damping or contact "
-                  "holds it",
-                  describe(null)));
+      fmt::format(
+          "the {} is undetermined: it moves no mass, and no stiffness, damping or contact restrains it",
+          describe(null)));
 }
 
 namespace {
@@ -291,19 +291,19 @@ std::vector<std::string> unconnected_rotations(const Scene& scene, const assembl
   for (const Spring& spring : scene.springs) {
     if (spring.rotation_stiffness == 0.0 && spring.rotation_damping == 0.0) continue;
     for (const std::string& node : {spring.node, spring.against})
-      if (!node.empty() && turning.idle(node)) name(moved, "a spring of rotations", node);
+      if (!node.empty() && turning.idle(node)) name(moved, "a rotational spring", node);
   }
   for (const Support& support : scene.supports)
     if (support.rz && turning.idle(support.node) && turning.of_plane_elements(support.node))
       name(held, support.key, support.node);
   std::vector<std::string> warnings;
   for (const auto& [what, nodes] : moved)
-    warnings.push_back(fmt::format("{} at {}: no element turns with {}, so nothing else feels it", what,
-                                   nodes_of(nodes), nodes.size() == 1 ? "it" : "them"));
+    warnings.push_back(fmt::format("{} at {} has no effect on the structure: no element rotates with {}",
+                                   what, nodes_of(nodes), nodes.size() == 1 ? "it" : "them"));
   for (const auto& [key, nodes] : held)
     warnings.push_back(
-        fmt::format("{}.fix: rz at {} holds nothing, since elements of bodies have no rotations; to clamp a "
-                    "body hold ux and uy of several nodes",
+        fmt::format("{}.fix: rz at {} has no effect, because elements of bodies have no rotations; to clamp "
+                    "a body, fix ux and uy of several nodes",
                     key, nodes_of(nodes)));
   return warnings;
 }

@@ -102,7 +102,7 @@ class ModelWarnings {
           std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });
       if (idle && history::magnitude(load.history, scene_.run.t_end) > 0.0)
         found_.push_back(load.name +
-                         " acts only along directions that supports or rigid bodies hold: it moves nothing");
+                         " acts only along directions that supports or rigid bodies fix: it moves nothing");
     }
   }
 
@@ -130,8 +130,8 @@ class ModelWarnings {
     }
     if (falling_.empty()) return;
     found_.push_back(
-        fmt::format("nothing stops the fall from {}: the static loads push the structure there along the "
-                    "normal, away from the ground; is the normal reversed?",
+        fmt::format("no contact stops the structure from leaving {}: the static loads push it there along "
+                    "the normal, away from the ground; is the normal reversed?",
                     names(model_, falling_)));
   }
 
@@ -248,11 +248,11 @@ class ModelWarnings {
     for (const Load& load : model_.loads) {
       if (load.kind != LoadKind::temperature || load.history.is_constant() || load.history.value(0.0) == 0.0)
         continue;
-      found_.push_back(fmt::format(
-          "{} comes suddenly at t = 0, since its history is not constant: the static start is "
-          "without it, and the structure will oscillate. With initial = \"frictional\" a stage in "
-          "[[run.stages]] with loads = [\"temperature\"] starts in equilibrium with it",
-          load.name));
+      found_.push_back(
+          fmt::format("{} acts suddenly at t = 0, because its history is not constant: the static start "
+                      "omits it, and the structure will oscillate. With initial = \"frictional\" a stage in "
+                      "[[run.stages]] with loads = [\"temperature\"] starts in equilibrium with it",
+                      load.name));
     }
   }
 

@@ -53,8 +53,9 @@ void refuse_buckled(const Scene& scene, const assembly::DofMap& map, const Model
   const std::vector<double> factors = factors_at(scene, map, model, states, 1);
   if (factors.empty() || factors.front() > 1.0) return;
   const std::string what =
-      factors.front() > 0.0 ? fmt::format("the lowest load factor is {:.9g}", factors.front())
-                            : std::string("it buckles under any part of them, however small (load factor 0)");
+      factors.front() > 0.0
+          ? fmt::format("the lowest load factor is {:.9g}", factors.front())
+          : std::string("it buckles under any fraction of them, however small (load factor 0)");
   throw SceneError(scene.run.geometric_place, asked_by,
                    fmt::format("the structure buckles under its static loads: with the contacts that are "
                                "closed at the start {}, expected a load factor above 1",
@@ -84,8 +85,8 @@ void apply_prestress(const Scene& scene, Prestress forces, assembly::DofMap& map
   const assembly::GeometricStiffness own = assembly::assemble_geometric_stiffness(scene, map);
   if (own.matrix.nonZeros() == 0)
     model.warnings.emplace_back(
-        "run.geometric changes nothing: the static loads leave no axial force in members and no forces on "
-        "rigid bodies that could turn");
+        "run.geometric has no effect: the static loads cause no axial force in members, and no force on a "
+        "rigid body that can rotate");
   model.stiffness = SparseMatrix(model.stiffness + own.matrix);
   assembly::add_geometric_supports(scene, map, own.moving, model.loads);
 }

@@ -38,10 +38,10 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
     for (const auto& [dof, factor] : form->terms)
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
         refuse(scene, k, varies ? "friction" : "radius",
-               fmt::format("{} needs mass where it acts, and {} has none",
-                           varies ? contact::friction_description(contact)
-                                  : "a curved surface under a force that varies",
-                           d.displacement));
+               fmt::format(
+                   "{} needs mass where it acts, and {} has none",
+                   varies ? contact::friction_description(contact) : "a curved surface under a varying force",
+                   d.displacement));
   }
 }
 
@@ -192,7 +192,7 @@ void add_shear_elements(const Scene& scene, Model& model) {
       throw SceneError(
           scene.contacts[k].place, scene.contacts[k].key("tangential_damping"),
           fmt::format("tangential_damping / tangential_stiffness = {:.3g} is a time constant far "
-                      "below the shortest period of the structure, {:.3g}; give 0.0 or more",
+                      "below the shortest period of the structure, {:.3g}; give 0.0 or a greater value",
                       ct / kt, 2.0 * std::numbers::pi / model.omega_max));
     // On a body without mass the dashpot alone cannot determine the body's motion, only the rate of p relative to it.
     // Then p - ut is the degree of freedom.

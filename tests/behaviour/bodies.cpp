@@ -263,7 +263,7 @@ plane = "stress"
           "found \"b\", which is the name of one of [[bodies]]");
   refused("points = { p = [1.0, 1.0], q = [1.0, 1.0] }\n", "the node at this place is called \"p\" already");
   refused("[[supports]]\nnodes = [\"b.middle\"]\nfix = [\"ux\"]\n", "b.middle");
-  refused("[[supports]]\nnodes = [\"b.left\"]\nfix = [\"rz\"]\nmotion = 0.1\n", "nothing turns with node");
+  refused("[[supports]]\nnodes = [\"b.left\"]\nfix = [\"rz\"]\nmotion = 0.1\n", "has no rotation");
 }
 
 TEST_SUITE_END();

@@ -308,7 +308,7 @@ TEST_CASE("what does not know friction that depends on N says so") {
        "needs a tangential_stiffness");
   says(matrix_scene("t_end = 1.0", "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
                     std::string("law = \"rigid\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\n") + law),
-       "is not known to rigid contacts");
+       "is not available for rigid contacts");
   says(matrix_scene(
            "t_end = 1.0\nengine = \"ida\"",
            "mass = [[1.0, 0.0], [0.0, 0.0]]\nstiffness = [[1.0, 0.0], [0.0, 1.0]]",

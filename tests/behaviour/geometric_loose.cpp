@@ -117,7 +117,7 @@ TEST_CASE("a beam hinged at both ends on feet, which hold it by friction alone, 
       }
 }
 
-TEST_CASE("the same where a spring of rotations joins the two that are loose: together they are") {
+TEST_CASE("the same where a rotational spring joins the two that are loose: together they are") {
   const std::string joined = "[[springs]]\nnode = \"B\"\nagainst = \"C\"\nrotation_stiffness = 40.0\n";
   for (const double angle : angles) {
     CAPTURE(angle);

@@ -1,4 +1,4 @@
-// Runs that no scene file can ask for: functions as loads, laws of one's own, loads that are changed on the way.
+// Runs that no scene file can ask for: functions as loads, user-defined laws, loads that are changed on the way.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -321,7 +321,7 @@ TEST_CASE("a run goes on from the last state of another") {
   CHECK_THROWS_AS(static_cast<void>(last_state(model, Result{})), std::invalid_argument);
 }
 
-TEST_CASE("a run goes on with the states and memories of laws of one's own, in any units") {
+TEST_CASE("a run goes on with the states and memories of user-defined laws, in any units") {
   using enum State;
   for (const double length : {1.0, 1e3}) {  // metres, millimetres
     CAPTURE(length);
@@ -368,7 +368,8 @@ contacts = [{ name = "pad", node = "ball", law = "compliant", normal = [0.0, 1.0
       CHECK(b.rows.back().contacts[0].memory == doctest::Approx(c.rows.back().contacts[0].memory));
       CHECK(std::abs(c.rows.back().contacts[0].memory) > 0.01 * length);
       second.contacts[0].user_law = {};
-      CHECK(objection_to(second).find("of a law of its own, which the scene has not") != std::string::npos);
+      CHECK(objection_to(second).find("of a user-defined law, which the scene does not have") !=
+            std::string::npos);
     }
   }
 }

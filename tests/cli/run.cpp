@@ -57,7 +57,7 @@ TEST_CASE("cli run: the cutoff that a tolerance found is said, in check that non
                         " trials)") != std::string::npos);
   const Ending checked = with({"check"});
   CHECK(checked.code == 0);
-  CHECK((checked.out + checked.err).find("reduction.tolerance: this is the whole model") !=
+  CHECK((checked.out + checked.err).find("reduction.tolerance: this command uses the full model") !=
         std::string::npos);
 }
 

@@ -55,7 +55,8 @@ void check_friction_by_force(const ContactSpec& spec) {
   const auto refuse = [&](const std::string& what) {
     throw SceneError(spec.place, spec.key("friction"), "friction that depends on the normal force " + what);
   };
-  if (spec.capabilities().takes_impulses) refuse("is not known to rigid contacts; use law = \"compliant\"");
+  if (spec.capabilities().takes_impulses)
+    refuse("is not available for rigid contacts; use law = \"compliant\"");
   if (!spec.tangential_stiffness) refuse("needs a tangential_stiffness");
   if (spec.normal_damping != 0.0) refuse("cannot be combined with normal_damping");
   if (spec.tangential_damping != 0.0) refuse("cannot be combined with tangential_damping");
@@ -66,13 +67,13 @@ void check_own(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
   const UserContactLaw& law = *spec.user_law;
   if (!spec.capabilities().normal_spring)
-    refuse("a law of one's own stands in place of that of a compliant contact");
+    refuse("a user-defined law replaces the law of a compliant contact only");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
-    refuse("found friction or dampers beside a law of one's own, which has them in its rows");
+    refuse("found friction or dampers beside a user-defined law, whose rows must contain them");
   if (scene.initial.is_static || scene.initial.is_frictional) {
-    if (law.name.empty()) refuse("a static start knows the built-in laws only");
+    if (law.name.empty()) refuse("a static start is available for built-in laws only");
     throw SceneError(spec.place, spec.key("law"),
-                     fmt::format("found \"{}\", of which no static start is known. Give run.initial as "
+                     fmt::format("found \"{}\", a law without a static start. Give run.initial as "
                                  "displacements and velocities, or use law = \"compliant\"",
                                  law.name));
   }

@@ -151,9 +151,9 @@ std::array<double, 2> sliding_direction(const ContactSpec& contact) {
 void refuse_missing_rotation(const SourcePlace& place, const std::string& key, const std::string& node) {
   throw SceneError(
       place, key,
-      fmt::format("nothing turns with node '{}': no beam that is not hinged there, no inertia and no "
-                  "spring of rotations",
-                  node));
+      fmt::format(
+          "node '{}' has no rotation: there is no beam without a hinge, no inertia and no rotational spring",
+          node));
 }
 
 DofMap number_nodes(const Scene& scene) { return number_nodes(scene, element::make_mesh(scene)); }
@@ -294,8 +294,9 @@ Combination combination(const DofMap& map, const Direction& direction, const std
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,
-            fmt::format("nothing holds node '{}' in {}: no member, mass, spring or contact there", name,
-                        c == 0 ? "x" : "y"));
+            fmt::format(
+                "node '{}' has no degree of freedom in {}: there is no member, mass, spring or contact", name,
+                c == 0 ? "x" : "y"));
     }
   };
   add(direction.node, 1.0);

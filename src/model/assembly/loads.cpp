@@ -75,9 +75,7 @@ History finite(History history, const SourcePlace& place, const std::string& key
   for (const Piece& p : history.pieces()) {
     bool all = std::isfinite(p.amplitude);
     for (const double c : p.coefficients) all = all && std::isfinite(c);
-    if (!all)
-      throw SceneError(place, key,
-                       "found factors whose product is beyond all doubles, expected a finite load");
+    if (!all) throw SceneError(place, key, "found factors whose product overflows, expected a finite load");
   }
   return history;
 }

@@ -119,7 +119,7 @@ class PrestressAssembly {
       throw SceneError(
           scene_.run.geometric_place, "run.geometric",
           fmt::format(
-              "the elements of {} have no stiffness of static forces: expected a structure of beams and bars",
+              "the elements of {} have no geometric stiffness: expected a structure of beams and bars",
               element_owner(e.member())));
     const element::PlaneVector& load = uniform_[i];
     add_to_nodes(e, e.load_vector({load[0] + e.density() * pull_[0], load[1] + e.density() * pull_[1]}));
@@ -195,11 +195,10 @@ class PrestressAssembly {
     for (const auto& [node, component] : constrained_components(scene_, map_, static_cast<int>(number))) {
       if (component != c) continue;
       if (held && *held != at(node) && std::abs(total[c]) > no_force * size[c])
-        throw SceneError(
-            scene_.run.geometric_place, "run.geometric",
-            fmt::format("supports of rigid body '{}' hold its {} together, and nothing decides how "
-                        "much each bears, which its stiffness depends on: expected one of them",
-                        body.name, scene::plane_components[c].displacement));
+        throw SceneError(scene_.run.geometric_place, "run.geometric",
+                         fmt::format("several supports of rigid body '{}' fix its {}, so their reactions, on "
+                                     "which its stiffness depends, are undetermined: expected one of them",
+                                     body.name, scene::plane_components[c].displacement));
       if (!held) held = at(node);
     }
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));
@@ -256,8 +255,8 @@ void set_prestress(const Prestress& forces, const Scene& scene, DofMap& map) {
     same = forces.bodies[i].name == scene.rigid[i].name;
   if (!same)
     throw SceneError(scene.initial.place, "run.initial.run",
-                     "the frozen forces of that run (geometric.csv) are those of other members or rigid "
-                     "bodies: expected a run of the same structure");
+                     "the frozen forces of that run (geometric.csv) belong to other members or rigid bodies: "
+                     "expected a run of the same structure");
   map.body_stiffness.clear();
   for (const Prestress::Body& body : forces.bodies) map.body_stiffness.push_back(body.stiffness);
   map.axial_forces.clear();

@@ -65,7 +65,7 @@ void add_body_constraint(const Scene& scene, const RigidBody& body, const BodyCo
   if (before->moving == hold.moving && before->node == hold.node) return;
   if (before->moving >= 0 || hold.moving >= 0)
     refuse_hold(scene, hold, body,
-                fmt::format("another support holds its {}, and one of the two moves; expected one",
+                fmt::format("another support fixes its {}, and one of the two moves; expected one support",
                             scene::plane_components[c].displacement));
   if (c < 2 && arm_between(before->coordinate, hold.coordinate) != 0.0) turn = hold;
 }
@@ -90,7 +90,7 @@ void find_body_constraints(const Scene& scene, const RigidBody& body, int number
   }
   if (!turn) return;
   if (motion.constraints[2] && motion.constraints[2]->moving >= 0)
-    refuse_hold(scene, *turn, body, "two supports beside each other hold its rz, which another one moves");
+    refuse_hold(scene, *turn, body, "two supports together fix its rz, which another support moves");
   motion.constraints[2] = turn;
 }
 
@@ -300,7 +300,8 @@ void mark_slave_dofs(const Scene& scene, DofMap& map) {
                              scene.rigid[static_cast<std::size_t>(map.body[node])].name));
     for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
       if (map.number[node][c] == DofMap::fixed || map.moving[node][c] >= 0)
-        refuse_tie(tie, map, "a support holds it: expected supports on the master, or the two exchanged");
+        refuse_tie(tie, map,
+                   "a support fixes it: expected supports on the master, or the two boundaries exchanged");
       map.number[node][c] = DofMap::absent;
     }
     for (const auto& [l, weight] : tie.master)

@@ -46,8 +46,8 @@ class MassMover {
     }
     throw SceneError(
         body_.place, fmt::format("bodies.{}", body_.name),
-        fmt::format("found no nodes with mass near node '{}', which do not lie on one line, that could take "
-                    "over its mass: contact_mass = \"none\" needs a finer mesh",
+        fmt::format("the mass of node '{}' cannot be moved: near it there are no nodes with mass that do not "
+                    "lie on one line; contact_mass = \"none\" needs a finer mesh",
                     mesh_.node(node).name));
   }
 

@@ -85,7 +85,7 @@ void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t p
   if (count > 1 && member.type == MemberType::bar)
     throw SceneError(
         member.place, key + ".elements",
-        fmt::format("found {}, expected 1: nothing would hold a bar's inner nodes sideways", count));
+        fmt::format("found {}, expected 1: inner nodes of a bar would have no lateral stiffness", count));
   const bool hinged_a = is_hinged(member, piece), hinged_b = is_hinged(member, piece + 1);
   mesh.pieces.push_back({a, b, mesh.elements.size(), static_cast<std::size_t>(count)});
   int previous = a;

@@ -187,12 +187,13 @@ class Maker {
       for (std::size_t c = 0; c < 3; ++c) {
         if (d[c] == 0.0) continue;
         if (numbers[c] == assembly::DofMap::absent)
-          refuse(
-              spec, "at",
-              fmt::format("nothing moves node '{}' {}: no member, mass, spring or contact there", spec.at[i],
-                          c == 0   ? "in x"
-                          : c == 1 ? "in y"
-                                   : "by a rotation"));
+          refuse(spec, "at",
+                 fmt::format(
+                     "node '{}' has no degree of freedom {}: there is no member, mass, spring or contact",
+                     spec.at[i],
+                     c == 0   ? "in x"
+                     : c == 1 ? "in y"
+                              : "in rotation"));
         rows_->add_motion(row, numbers[c], sign * u * d[c], sign * v * d[c], sign * a * d[c]);
       }
       if (rate == 2) rows_->add_base_acceleration(row, d[0], d[1], false);
@@ -308,10 +309,9 @@ class Maker {
       for (const auto& [l, weight] : tie.master)
         if (l == node)
           refuse(spec, "at",
-                 fmt::format(
-                     "tied seam '{}' brings forces of its slave to node '{}', which reactions do not have: "
-                     "expected another support, or the seam's boundaries exchanged",
-                     tie.seam, spec.at[0]));
+                 fmt::format("tied seam '{}' transfers forces of its slave to node '{}', which reactions do "
+                             "not include: expected another support, or the seam's boundaries exchanged",
+                             tie.seam, spec.at[0]));
     if (const int body = map_.body[static_cast<std::size_t>(node)]; body >= 0)
       add_body_reaction(scene_, map_, *rows_, {body, node, d, spec.place, "output." + spec.name + ".at"},
                         row);

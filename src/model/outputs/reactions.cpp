@@ -61,11 +61,10 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
   const Eigen::MatrixXd square = g.transpose() * g;
   const Eigen::MatrixXd angles = g.colwise().normalized().transpose() * g.colwise().normalized();
   if (!(base::symmetric_eigen(angles).values[0] > rounding::many_operations))
-    throw SceneError(
-        asked.place, asked.key,
-        fmt::format("the supports of rigid body '{}' bear its load together, and nothing decides how much "
-                    "each: expected three at most, none of which follows from the others",
-                    body.name));
+    throw SceneError(asked.place, asked.key,
+                     fmt::format("the reactions of the supports of rigid body '{}' are statically "
+                                 "indeterminate: expected at most three, in independent directions",
+                                 body.name));
   const Eigen::Vector3d weights = g * base::solve_dense(square, along);
   for (const int node : nodes)
     for (std::size_t c = 0; c < 3; ++c)

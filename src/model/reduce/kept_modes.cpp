@@ -35,7 +35,7 @@ base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffne
   if (l.cols() > 0) {
     const SparseMatrix coupling = l.transpose() * stiffness * h;
     const assembly::SymmetricSolver massless(SparseMatrix(l.transpose() * stiffness * l));
-    if (!massless.ok()) throw NotReducible("the stiffness of what has no mass is singular");
+    if (!massless.ok()) throw NotReducible("the stiffness of the massless degrees of freedom is singular");
     for (Eigen::Index j = 0; j < follow.cols(); ++j) follow.col(j) = -massless.solve(coupling.col(j));
     condensed += coupling.transpose() * follow;
   }
@@ -105,10 +105,10 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
   const int count = std::max(counted, free);
   const bool most = count >= heavies / 3;
   if (count > most_modes || (most && heavies > dense_at_most))
-    throw NotReducible(fmt::format(
-        "{} of {} modes lie below the cutoff; at most {} can be kept, and where they are a third or "
-        "more of all at most {} in all; lower the cutoff, or leave [reduction] out",
-        count, heavies, most_modes, dense_at_most));
+    throw NotReducible(
+        fmt::format("{} of {} modes lie below the cutoff; at most {} can be kept, and a third or more of all "
+                    "modes only if the structure has at most {}; lower the cutoff, or leave [reduction] out",
+                    count, heavies, most_modes, dense_at_most));
   return most ? all_elastic(cutoff, mass, stiffness, free, heavies)
               : lowest_elastic(cutoff, count, mass, stiffness, rigid);
 }
@@ -194,7 +194,7 @@ Vector ResidualFlexibility::response(const Vector& f) const {
   Vector u = without_kept(solver_.solve(elastic));
   if (shift_ > 0.0)
     for (int i = 0; i < corrections; ++i) u = without_kept(solver_.solve(elastic + shift_ * (mass_ * u)));
-  if (!u.allFinite()) throw NotReducible("the static answer of the modes left out is not finite");
+  if (!u.allFinite()) throw NotReducible("the static response of the neglected modes is not finite");
   return u;
 }
 

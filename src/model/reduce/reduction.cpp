@@ -39,18 +39,18 @@ void check_reducible(const Scene& scene, const Model& model) {
       null.col(0).cwiseAbs().maxCoeff(&greatest);
       const int dof = light[static_cast<std::size_t>(greatest)];
       refuse(scene,
-             fmt::format("{} has no mass, and no stiffness of the structure holds it, so it has neither "
-                         "a mode nor a static answer; give it a mass, or leave [reduction] out",
+             fmt::format("{} has no mass, and no stiffness of the structure holds it, so it has neither a "
+                         "mode nor a static response; give it a mass, or leave [reduction] out",
                          model.dofs[static_cast<std::size_t>(dof)].displacement));
     }
   }
   if (modes::fastest_growth(model.stiffness, model.mass))
     refuse(scene, model.geometric
                       ? "under its static forces (run.geometric) the structure is unstable with all its "
-                        "contacts open, and modes that grow are not kept by their frequency; leave "
-                        "[reduction] out"
-                      : "the stiffness matrix has a negative eigenvalue, and modes that grow are not kept by "
-                        "their frequency; leave [reduction] out");
+                        "contacts open, and a growing mode has no frequency to compare with the cutoff; "
+                        "leave [reduction] out"
+                      : "the stiffness matrix has a negative eigenvalue, and a growing mode has no frequency "
+                        "to compare with the cutoff; leave [reduction] out");
 }
 
 /// Shapes that follow a support immediately are computed without their damping, which must be that of the elastic
@@ -60,8 +60,8 @@ void check_frozen(const Scene& scene, const Model& model) {
                                    [](const Load& load) { return load.kind == LoadKind::support_rate; });
   if (model.geometric && model.beta != 0.0 && follows)
     refuse(scene,
-           "a support moves beside run.geometric and damping.beta, which shapes that follow it at once do "
-           "not take together; leave [reduction] or beta out");
+           "a support moves, and the shapes that follow it immediately do not admit run.geometric together "
+           "with damping.beta; leave [reduction] or beta out");
 }
 
 bool normal_needs_mass(const Contact& c) {

@@ -129,10 +129,9 @@ class LoadingPath {
       if (!moves[j] || unknown.kind != Unknown::Kind::slip) continue;
       if (is_also_constrained(rows, slips, static_cast<std::size_t>(unknown.row)))
         refuse_stage(fmt::format(
-            "contact '{}' reaches its limit of friction while others hold the same motion, and a "
-            "frictional start does not share friction between them; give them a "
-            "tangential_stiffness, or law = \"compliant\", or begin without the load and apply it "
-            "during the run",
+            "contact '{}' reaches its friction limit while other contacts restrain the same motion; a "
+            "frictional start does not share friction between them. Give them a tangential_stiffness or law "
+            "= \"compliant\", or start without the load and apply it during the run",
             contacts_[unknown.contact].name));
     }
   }
@@ -153,10 +152,10 @@ class LoadingPath {
     // solver errors of forces that are zero do not count as tensile
     const Eigen::VectorXd pressed = q(openings).array() + balanced;
     if (base::solve_lcp(m(openings, openings), pressed)) return;
-    refuse_stage(fmt::format(
-        "{} {} would have to pull, however great the friction: the loads overturn what stands there, or "
-        "lift it off; check the directions of gravity and of loads and where they act",
-        pulled.size() == 1 ? "contact" : "contacts", base::join_quoted(pulled)));
+    refuse_stage(
+        fmt::format("{} {} would have to pull, however great the friction: the loads overturn or lift the "
+                    "structure there; check the directions of gravity and of loads, and where the loads act",
+                    pulled.size() == 1 ? "contact" : "contacts", base::join_quoted(pulled)));
   }
 
   /// K u + sum(N n + T t) = P

@@ -60,13 +60,12 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
   for (Eigen::Index j = 0; j < null.cols(); ++j)
     rigid = rigid && assembly::is_rigid(null.col(j), problem.map);
   if (rigid) return;
-  throw SceneError(
-      place, key,
-      fmt::format("a static start is impossible: with {} degrees of freedom the stiffness is so "
-                  "ill-conditioned that roundoff hides how the structure is held; use fewer elements, "
-                  "or give the initial state (if the structure is a mechanism, fewer elements will "
-                  "show which motion is unrestrained)",
-                  problem.size()));
+  throw SceneError(place, key,
+                   fmt::format("a static start is impossible: with {} degrees of freedom the stiffness is so "
+                               "ill-conditioned that roundoff hides unrestrained motions; use fewer "
+                               "elements, or give the initial state (if the structure is a mechanism, a "
+                               "model with fewer elements shows its unrestrained motion)",
+                               problem.size()));
 }
 
 /// Refuses a motion that not even adhesive, sticking contacts could fix.

@@ -72,7 +72,7 @@ gap = 0.1
 
 TEST_CASE("a body whose contacts lie on the wrong side falls away from them") {
   const auto fallen = doubts_of("wrongnormal");
-  CHECK(says(fallen, "nothing stops the fall from contacts 'left' and 'right'"));
+  CHECK(says(fallen, "no contact stops the structure from leaving contacts 'left' and 'right'"));
   CHECK_FALSE(says(fallen, "suddenly"));
   CHECK_FALSE(says(doubts_of("wrongnormal", {{"contacts.*.normal", "[0.0, 1.0]"}}), "fall"));
   CHECK_FALSE(says(doubts_of("wrongnormal", {{"gravity", "[0.0, 0.0]"}}), "fall"));
@@ -162,8 +162,8 @@ TEST_CASE("heat whose history is not constant is not in a static start") {
   const std::string table = "{ type = \"table\", times = [0.0, 1.0], values = [20.0, 20.0], hold = true }",
                     from_zero = "{ type = \"table\", times = [0.0, 1.0], values = [0.0, 20.0], hold = true }",
                     start = "initial = \"static\"\n", slow = "initial = \"frictional\"\n";
-  CHECK(says(heated(table, start), "comes suddenly at t = 0"));
-  CHECK(says(heated(table, slow), "comes suddenly at t = 0"));
+  CHECK(says(heated(table, start), "acts suddenly at t = 0"));
+  CHECK(says(heated(table, slow), "acts suddenly at t = 0"));
   CHECK(heated(table, slow + "[[run.stages]]\nname = \"hot\"\nloads = [\"temperature\"]\n").empty());
   CHECK(heated(from_zero, start).empty());
   CHECK(heated("20.0", start).empty());
@@ -205,10 +205,11 @@ fix = ["ux", "uy"]
   const std::string spring = "[[springs]]\nrotation_stiffness = 10.0\nnode = ",
                     inertia = "[[masses]]\nmass = 1.0\ninertia = 0.5\nnode = ",
                     clamp = "[[supports]]\nfix = [\"ux\", \"rz\"]\nnode = ";
-  CHECK(says(found(inertia + "\"p\"\n"), "inertia at node 'p': no element turns with it"));
-  CHECK(says(found(spring + "\"p\"\n"), "a spring of rotations at node 'p'"));
-  CHECK(says(found(spring + "\"B\"\nagainst = \"p\"\n"), "a spring of rotations at node 'p'"));
-  CHECK(says(found(clamp + "\"p\"\n"), "supports.2.fix: rz at node 'p' holds nothing"));
+  CHECK(says(found(inertia + "\"p\"\n"),
+             "inertia at node 'p' has no effect on the structure: no element rotates with it"));
+  CHECK(says(found(spring + "\"p\"\n"), "a rotational spring at node 'p'"));
+  CHECK(says(found(spring + "\"B\"\nagainst = \"p\"\n"), "a rotational spring at node 'p'"));
+  CHECK(says(found(clamp + "\"p\"\n"), "supports.2.fix: rz at node 'p' has no effect"));
   CHECK(found(inertia + "\"B\"\n" + spring + "\"B\"\n" + clamp + "\"B\"\n").empty());
   const std::string body =
       "[[rigid]]\nname = \"r\"\ncentre = \"B\"\nnodes = [\"p\"]\nmass = 1.0\ninertia = 0.1\n";

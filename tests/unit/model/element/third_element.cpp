@@ -124,6 +124,6 @@ TEST_SUITE("unit/model/element/third_element") {
     const assembly::DofMap map = assembly::number_nodes(sheet.scene, sheet.mesh);
     const Vector u = Vector::Zero(map.size());
     CHECK_THROWS_WITH(static_cast<void>(assembly::prestress(sheet.scene, map, Model(), {u, {}, {}, {}})),
-                      doctest::Contains("the elements of members.1 have no stiffness of static forces"));
+                      doctest::Contains("the elements of members.1 have no geometric stiffness"));
   }
 }

@@ -31,12 +31,12 @@ void check_output_directory(const fs::path& path, const ResultsKind& kind, bool 
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) {
     if (error && error != std::errc::no_such_file_or_directory)
-      throw FileError(path.string(), "cannot be looked at: " + error.message());
+      throw FileError(path.string(), "cannot be accessed: " + error.message());
     return;
   }
   if (!fs::is_directory(path, error)) throw FileError(path.string(), "exists and is not a directory");
   const bool empty = fs::is_empty(path, error);
-  if (error) throw FileError(path.string(), "cannot be looked into: " + error.message());
+  if (error) throw FileError(path.string(), "cannot be read: " + error.message());
   if (empty) return;
   if (!replace)
     throw FileError(path.string(),

@@ -70,7 +70,7 @@ ManifestEntry entry_of(const fs::path& directory, std::string_view file) {
   throw FileError(
       (directory / file).string(),
       fmt::format("{} as in {}; the file is damaged, or was changed after the run. Compute the run again, "
-                  "or delete {} if the change was meant",
+                  "or delete {} if the change was intended",
                   found, manifest_file, manifest));
 }
 
@@ -79,11 +79,10 @@ void check_file(const fs::path& directory, const Manifest& manifest, std::string
   const ManifestEntry* expected = manifest.find(file);
   if (expected == nullptr) {
     if (!is_there(path)) return;
-    throw FileError(
-        path.string(),
-        fmt::format("found a file that {} does not list: it is not of this run, or was not written to its "
-                    "end. Delete it, or delete {} if the change was meant",
-                    manifest_file, (directory / manifest_file).string()));
+    throw FileError(path.string(),
+                    fmt::format("found a file that {} does not list: it does not belong to this run, or is "
+                                "incomplete. Delete it, or delete {} if the change was intended",
+                                manifest_file, (directory / manifest_file).string()));
   }
   if (!is_there(path)) refuse(directory, file, fmt::format("not found, expected {} bytes", expected->size));
   std::error_code error;
@@ -181,7 +180,7 @@ std::string unchecked_reason(const fs::path& directory) {
       "{}: no {}: the run may not have finished, or is of an earlier version; its files are not checked",
       directory.string(), manifest_file);
   if (is_cut(directory / "states.csv"))
-    why += ". The last line of states.csv has no line end: the state in it does not count";
+    why += ". The last line of states.csv has no line end: its state is ignored";
   return why;
 }
 

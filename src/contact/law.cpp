@@ -45,11 +45,11 @@ const char* to_string(Guard guard) {
     case Guard::sliding:
       return "slip rate";
     case Guard::user_1:
-      return "first guard of its own law";
+      return "first guard of its user-defined law";
     case Guard::user_2:
-      return "second guard of its own law";
+      return "second guard of its user-defined law";
     case Guard::user_3:
-      return "third guard of its own law";
+      return "third guard of its user-defined law";
   }
   return "?";
 }

@@ -70,11 +70,10 @@ Refusal no_system(const Model& model, const contact::ContactStates& states) {
       }
     return why;
   }
-  return {
-      Refusal::Kind::singular,
-      "the equations of motion are singular: the least stiffnesses and masses are below the rounding of the "
-      "greatest, or outside the range of numbers",
-      {}};
+  return {Refusal::Kind::singular,
+          "the equations of motion are singular: the least stiffnesses and masses are below the rounding of "
+          "the greatest, or outside the range of doubles",
+          {}};
 }
 
 /// Stiffnesses that make the forces unique. Only sliders may have a tangential_stiffness without a normal one.
@@ -384,7 +383,7 @@ Refusal ContactStateSolver::try_next(SolverState& solver_state) {
     if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
   }
   Refusal why = dependent_rows(contacts_of(solver_state.failed));
-  why.reason += fmt::format(" (after {}); {} makes them so", names_of(model_, solver_state.failed),
+  why.reason += fmt::format(" (after {}); {} makes them unique", names_of(model_, solver_state.failed),
                             springs_for_uniqueness(model_, why.contacts));
   return why;
 }
@@ -525,7 +524,7 @@ Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const 
     sticking[c].state = State::stick;
     if (systems_.system_of(sticking)) continue;
     Refusal why = dependent_rows({c});
-    why.reason += fmt::format(" ('{}' slips no more); {} makes them so", model_.contacts[c].name,
+    why.reason += fmt::format(" ('{}' slips no more); {} makes them unique", model_.contacts[c].name,
                               springs_for_uniqueness(model_, why.contacts));
     return why;
   }

@@ -312,12 +312,11 @@ Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcin
       if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
     }
   }
-  return {
-      Refusal::Kind::endless,
-      fmt::format("{} hits one after the other at one instant do not end; a greater capture_velocity ends "
-                  "rebounds sooner",
-                  most_turns),
-      met.contacts};
+  return {Refusal::Kind::endless,
+          fmt::format("{} successive impacts at one instant do not end; a greater capture_velocity ends "
+                      "rebounds sooner",
+                      most_turns),
+          met.contacts};
 }
 
 /// Computes one turn.

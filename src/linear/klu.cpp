@@ -75,7 +75,7 @@ Klu::Klu(const std::vector<std::int64_t>& column_start, const std::vector<std::i
   h_->work.resize(column_start.size() - 1);
   h_->symbolic = klu_l_analyze(n, raw(column_start_), raw(row_), &h_->common);
   if (h_->symbolic == nullptr && h_->common.status != KLU_SINGULAR)
-    throw std::runtime_error("KLU could not analyse the system matrix");
+    throw std::runtime_error("KLU cannot analyse the system matrix");
 }
 
 Klu::~Klu() {
@@ -188,7 +188,7 @@ void FactorReader::read(klu_l_symbolic* symbolic, klu_l_numeric* numeric, klu_l_
                     upper_.start.data(), upper_.row.data(), upper_.value.data(), off_.start.data(),
                     off_.row.data(), off_.value.data(), rows_.data(), columns_.data(), scale_.data(),
                     blocks_.data(), common) == 0)
-    throw std::runtime_error("KLU's factors could not be read");
+    throw std::runtime_error("KLU's factors cannot be read");
   if (pattern) read_pattern(factors);
   for (std::size_t k = 0; k < scale_.size(); ++k) {
     factors.inverse_pivot_[k] = 1.0 / upper_.value[upper_.begin(k + 1) - 1];

@@ -139,7 +139,7 @@ TEST_CASE("cli manifest: a run is not continued from a torn or altered file") {
     damage(shell, "belt-run/states.csv", text, next, what);
     CHECK(has(shell.read(".err"), place));
     CHECK(has(shell.read(".err"), file));
-    CHECK(has(shell.read(".err"), "delete belt-run/manifest.json if the change was meant"));
+    CHECK(has(shell.read(".err"), "delete belt-run/manifest.json if the change was intended"));
     CHECK_FALSE(exists(shell, "next-run"));
   };
   const std::size_t row = last_row(states), middle = (row + states.size()) / 2;
@@ -174,8 +174,7 @@ TEST_CASE("cli manifest: without one a run is continued, and a warning says what
   shell.write("belt-run/states.csv", states.substr(0, states.size() - 3));
   const Ending cut = shell.run({"check", "next.toml"});
   CHECK(cut.code == 0);
-  CHECK(
-      has(cut.out + cut.err, "The last line of states.csv has no line end: the state in it does not count"));
+  CHECK(has(cut.out + cut.err, "The last line of states.csv has no line end: its state is ignored"));
   shell.write("belt-run/summary.json", "{\"model\"");
   refuses(shell, {"check", "next.toml"}, "belt-run/summary.json: is not the summary of a run");
 }

@@ -36,7 +36,7 @@ double of_function(const Piece& p, double t, int order) {
 
 /// An antiderivative. With a sine: int a sin(w s + phi) ds = (a/w) sin(w s + phi - pi/2).
 Piece antiderivative(const Piece& p) {
-  if (p.function) throw std::invalid_argument("History: a function of one's own has no integral here");
+  if (p.function) throw std::invalid_argument("History: a user-defined function has no integral here");
   Piece q;
   q.origin = p.origin;
   q.coefficients.assign(p.coefficients.size() + 1, 0.0);

@@ -416,8 +416,8 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
   ++touches_;
   if (touches_ <= max_touches)
     warnings.push_back(fmt::format(
-        "contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
-        "at this precision; it counts as not fallen",
+        "contact '{}': its {} touches zero at {:.9g}; this precision cannot decide whether it crosses zero; "
+        "no event is recorded",
         model_.contacts[contact::contact_of_guard(slot)].name,
         contact::to_string(segment_.decision->guards[slot].kind), model::time_in_scene_units(model_, t)));
   else if (touches_ == max_touches + 1)

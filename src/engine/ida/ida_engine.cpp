@@ -238,14 +238,13 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     if (!is_touch(c.slot, (c.time - step.begin) / h)) return false;
     guard_monitor_.set_waiting(c.slot, allowance(c.slot));
     if (!std::exchange(touch_warned_, true))
-      warnings.push_back(fmt::format(
-          "contact '{}': its {} returns to zero at {:.9g} and sinks below it by less than its steps may be "
-          "off; "
-          "it counts as not fallen, there and where this happens again; a smaller {}, or engine "
-          "exact, decides whether it falls",
-          model_.contacts[contact::contact_of_guard(c.slot)].name, contact::to_string(guards[c.slot].kind),
-          model::time_in_scene_units(model_, c.time),
-          tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
+      warnings.push_back(
+          fmt::format("contact '{}': its {} touches zero at {:.9g} and passes it by less than the error of "
+                      "the steps; no event is recorded there, nor at later touches of this kind; a smaller "
+                      "{}, or engine exact, decides whether it crosses zero",
+                      model_.contacts[contact::contact_of_guard(c.slot)].name,
+                      contact::to_string(guards[c.slot].kind), model::time_in_scene_units(model_, c.time),
+                      tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
     return true;
   });
   if (candidates.empty()) return std::nullopt;

@@ -76,9 +76,10 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
       std::max({1.0, place.cwiseProduct(size).cwiseAbs().maxCoeff(), rate.cwiseAbs().maxCoeff()});
   out.round_trip = std::sqrt(back.cwiseProduct(size).squaredNorm() + rate_back.squaredNorm()) / scale;
   if (!(out.round_trip < worst_loss_of_trip))
-    out.failure = "the modes of the state do not give back what they are made of";
+    out.failure =
+        "the modes of the contact state do not reproduce a motion that is converted to them and back";
   else if (!(out.condition < worst_dependence))
-    out.failure = "the modes of the state are nearly dependent";
+    out.failure = "the modes of the contact state are nearly linearly dependent";
 }
 
 }  // namespace signorini::modal

@@ -60,7 +60,7 @@ bool Search::find_roots() {
     if (begun[i].imag() < 0.0) continue;
     const std::optional<Wide> l = pencil_.refined_root(Wide(begun[i].real(), begun[i].imag()));
     if (!l || l->im < Long(0)) {
-      failure_ = "a frequency of the state cannot be told from its neighbours";
+      failure_ = "a frequency of the contact state cannot be distinguished from its neighbours";
       return false;
     }
     roots_.push_back({*l, 1});
@@ -266,10 +266,10 @@ DampedModes Search::run() {
   out.from_q.setZero(count, n_);
   out.from_rate = out.from_q;
   for (const Root& root : roots_)
-    if (!add_seen(root, out)) failure_ = "frequencies of the state that are nearly equal";
+    if (!add_seen(root, out)) failure_ = "frequencies of the contact state that are nearly equal";
   for (const Index j : pencil_.uncoupled_modes())
     if (failure_.empty() && !add_unseen(j, out) && failure_.empty())
-      failure_ = "a mode resonates with one that it does not drive";
+      failure_ = "an uncoupled mode resonates with another mode";
   if (!failure_.empty()) {
     out.failure = failure_;
     return out;

@@ -83,7 +83,7 @@ std::string DampedMotion::start(const engine::Segment& segment, const Vector& q,
   time_ = TimeBasis(model_, t);
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
     if (!(time_.cancellation(modes.root[k], t_end_) < max_loss))
-      return "decays that are neither none nor fast beside the run, or resonance";
+      return "decay rates that are neither zero nor fast compared with the run, or resonance";
   time_.reserve_slow_roots(modes.root, segment.end - t);
   contacts_.resize(model_.contacts.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {

@@ -126,7 +126,7 @@ std::size_t max_state_terms(const Model& model) {
 std::string damped_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
   for (const Contact& contact : model.contacts) {
-    if (!contact.obeys_coulomb()) return "laws of one's own";
+    if (!contact.obeys_coulomb()) return "user-defined laws";
     if (contact.sliding_point()) return "shear elements";
     if (contact::friction_varies(contact)) return contact::friction_description(contact);
   }
@@ -136,7 +136,7 @@ std::string damped_refusal(const Model& model) {
     if (!is_symmetric(*matrix)) return "matrices that are not symmetric";
   if (!has_narrow_band(model.mass, model.stiffness)) return "matrices with a wide band";
   const auto damping = damping_of(model);
-  if (!damping) return "damping that is neither Rayleigh's nor that of a few dampers";
+  if (!damping) return "damping other than Rayleigh damping and a few dampers";
   return {};
 }
 
@@ -245,7 +245,7 @@ DampedState DampedSystem::make(const contact::ContactStates& contact_states) con
     return out;
   }
   if (holds_twice(out.terms)) {
-    out.modes.failure = "contacts that hold one motion together";
+    out.modes.failure = "several contacts that restrain the same motion";
     return out;
   }
   out.modes = damped_modes(basis_.omega_squared(), decay_, out.terms);

@@ -49,13 +49,13 @@ ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& struc
 
 void ModalEngine::warn_of_fallback(double t, const std::string& why) {
   if (fallbacks_++ > 0) return;
-  warnings.push_back(fmt::format("the flow in modes gave way to the Taylor series at t = {:.6g}: {}",
+  warnings.push_back(fmt::format("the Taylor series replaces the modal flow from t = {:.6g} on: {}",
                                  model::time_in_scene_units(model_, t), why));
 }
 
 /// The series takes over within a segment: from its beginning, skipping the part already reported.
 engine::Step ModalEngine::fall_back_to_series() {
-  warn_of_fallback(t_, "a guard stays too near to zero for what modes can prove");
+  warn_of_fallback(t_, "a guard stays too close to zero for the error bounds of the modal flow");
   modal_ = false;
   taylor_.start(segment_);
   engine::Step step = taylor_.advance();
@@ -110,12 +110,12 @@ void ModalEngine::update_cancellation() {
 void ModalEngine::warn_of_touches(const Passage& passage, double begin) {
   for (const std::size_t slot : passage.touches)
     if (++touches_ <= max_touches)
-      warnings.push_back(fmt::format(
-          "contact '{}': its {} touches zero near {:.9g}; whether it falls there is not decidable "
-          "at this precision; it counts as not fallen",
-          model_.contacts[contact::contact_of_guard(slot)].name,
-          contact::to_string(segment_.decision->guards[slot].kind),
-          model::time_in_scene_units(model_, begin)));
+      warnings.push_back(
+          fmt::format("contact '{}': its {} touches zero near {:.9g}; this precision cannot decide whether "
+                      "it crosses zero; no event is recorded",
+                      model_.contacts[contact::contact_of_guard(slot)].name,
+                      contact::to_string(segment_.decision->guards[slot].kind),
+                      model::time_in_scene_units(model_, begin)));
 }
 
 /// Time from here to the root of the guard according to u, v and the forces that the decision will use, and its

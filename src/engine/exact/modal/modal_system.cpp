@@ -31,7 +31,7 @@ constexpr double most_lost = 1e-12;
 std::string coupling_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
   for (const Contact& contact : model.contacts) {
-    if (!contact.obeys_coulomb()) return "laws of one's own";
+    if (!contact.obeys_coulomb()) return "user-defined laws";
     if (contact.takes_impulses()) return "rigid contacts";
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.sliding_point()) return "shear elements";
@@ -50,12 +50,12 @@ std::string coupling_refusal(const Model& model) {
 }
 
 std::string proportional_refusal(const Model& model) {
-  if (!has_constant_excitation(model)) return "loads or surfaces that change other than in jumps";
+  if (!has_constant_excitation(model)) return "loads or surface motions that are not piecewise constant";
   if (std::string why = coupling_refusal(model); !why.empty()) return why;
   const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
   if (!(alpha > 0.0)) return "no damping proportional to the mass";
   if (!(alpha * alpha * most_lost >= rounding::eps * model.omega1 * model.omega1))
-    return "so little damping that works of two modes lose their digits";
+    return "damping so small that work integrals of two modes lose accuracy";
   return {};
 }
 

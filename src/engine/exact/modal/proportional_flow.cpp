@@ -14,11 +14,11 @@ ProportionalFlow::ProportionalFlow(const Model& model, const UnconstrainedBasis&
 
 /// Reason why the series has to follow a segment; empty: none.
 std::string ProportionalFlow::unsupported_reason(const engine::Segment& segment) {
-  if (segment.forcing->varies()) return "forces or surfaces that change";
+  if (segment.forcing->varies()) return "forces or surface motions that vary";
   state_ = system_.state(segment.decision->states);
   if (!state_->spectrum.failure().empty()) return state_->spectrum.failure();
   if (!ModalWorkIntegrals::is_accurate_for(state_->spectrum, t_end_))
-    return "frequencies that are neither zero nor fast beside the run";
+    return "frequencies that are neither zero nor fast compared with the run";
   return {};
 }
 

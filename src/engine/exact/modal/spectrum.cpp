@@ -159,8 +159,8 @@ void Spectrum::test() {
   from_modes({&z}, {&back});
   round_trip_ = (back - q).norm();  // maxCoeff may skip NaN
   if (!(round_trip_ < worst_round_trip))
-    failure_ = "the modes of the state do not give back what they are made of";
-  if (!(condition_ < worst_condition)) failure_ = "the modes of the state are nearly parallel";
+    failure_ = "the modes of the contact state do not reproduce a motion that is converted to them and back";
+  if (!(condition_ < worst_condition)) failure_ = "the modes of the contact state are nearly parallel";
 }
 
 // Conversions between a state and its amplitudes: sums over 1 / (D_i - l_k).

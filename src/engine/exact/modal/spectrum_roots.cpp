@@ -272,7 +272,7 @@ bool Spectrum::search(std::vector<S>& offset) {
                    : found.deflated;
       const double size = size_of(step);
       if (!std::isfinite(size)) {
-        failure_ = "the search for eigenvalues left the range of numbers";
+        failure_ = "the search for eigenvalues overflows";
         return false;
       }
       S next = offset[k] - step;
@@ -290,7 +290,7 @@ bool Spectrum::search(std::vector<S>& offset) {
     unsettled = std::move(left);
   }
   if (unsettled.empty()) return true;
-  failure_ = "the search for eigenvalues did not settle";
+  failure_ = "the search for eigenvalues does not converge";
   return false;
 }
 

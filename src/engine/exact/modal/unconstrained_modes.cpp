@@ -253,7 +253,7 @@ UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMat
   const std::vector<int> place = narrow_order(mass, stiffness);
   BandPencil<double> quick(mass, stiffness, place);
   const std::size_t n = quick.size();
-  if (n == 0) return failed("there is nothing that moves");
+  if (n == 0) return failed("the structure has no degrees of freedom");
   BandPencil<Long> sharp(mass, stiffness, place);
 
   double highest = 0.0;
@@ -267,7 +267,7 @@ UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMat
   const std::size_t free = sharp.factor(free_below);
   if (sharp.factor(-free_below) != 0) return failed("the stiffness matrix is not positive semidefinite");
   if (sharp.factor(doubtful * free_below) != free)
-    return failed("the lowest frequencies cannot be told from free motions");
+    return failed("the lowest frequencies cannot be distinguished from free motions");
 
   UnconstrainedModes modes;
   modes.free = static_cast<int>(free);

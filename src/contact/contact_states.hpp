@@ -16,7 +16,7 @@ using ContactStates = std::vector<ContactState>;
   return is_open(state) && !is_user_law_state(state) ? State::open : state;
 }
 
-/// States of a mode, which determine the matrix of its system; anchors are constants of rows and do not.
+/// States without anchors. They determine the matrix of the state system; anchors are constants of rows and do not.
 [[nodiscard]] inline std::vector<State> states_of(const ContactStates& contact_states) {
   std::vector<State> states(contact_states.size());
   for (std::size_t k = 0; k < contact_states.size(); ++k)

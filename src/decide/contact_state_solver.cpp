@@ -18,7 +18,7 @@
 namespace signorini::decide {
 namespace {
 
-/// Derivatives of a guard at its zero, from the motion in the mode that ends there.
+/// Derivatives of a guard at its zero, from the motion in the states that end there.
 Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   Crossing result{guard, {}, guard.rounding(jet.motion.data(), jet.noise.data(), 0)};
   for (std::size_t k = 1; k < jet.motion.size(); ++k)
@@ -55,7 +55,7 @@ std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& block
   return most;
 }
 
-/// Refusal for a mode without a system: dependent rows of its contacts, or a singular structure.
+/// Refusal for contact states without a system: dependent rows of its contacts, or a singular structure.
 Refusal no_system(const Model& model, const contact::ContactStates& states) {
   std::vector<std::size_t> held;
   for (std::size_t c = 0; c < states.size(); ++c)
@@ -118,7 +118,7 @@ ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_ro
   if (!local_derivatives_->possible()) local_derivatives_.reset();
 }
 
-/// Computes the motion in a mode. False: its rows are dependent.
+/// Computes the motion in given contact states. False: their rows are dependent.
 bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::ContactStates& states,
                                   SolverState& solver_state) {
   systems_.mark_static_limits(states, forcing, solver_state.instant.t);
@@ -172,7 +172,7 @@ std::vector<motion::BodySlide> ContactStateSolver::slides(const motion::Forcing&
   return result;
 }
 
-/// Computes the motion just before, in the old mode under the old forcing, and the states that follow from the forcing.
+/// Computes the motion just before, in the old states under the old forcing, and the states that follow from it.
 Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& solver_state) {
   Instant& instant = solver_state.instant;
   Decision& d = solver_state.decision;
@@ -206,7 +206,7 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
          systems_.held_by_others(c, solver_state.states, solver_state.after, solver_state.instant.t);
 }
 
-/// Finds the guards that fail in the evaluated mode. before: it is the mode of the motion up to the instant.
+/// Finds the guards that fail in the evaluated states. before: they are the states of the motion up to the instant.
 void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   solver_state.failed =
       find_failed_guards(model_, solver_state.jets, solver_state.states, solver_state.instant, before,
@@ -297,7 +297,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
       continue;
     }
     jointly[blocks_.of[c]] = true;
-    // The contact was expected to leave, but g' is zero in the resulting mode; or its gap closed with g' zero.
+    // The contact was expected to leave, but g' is zero in the resulting states; or its gap closed with g' zero.
     if (f.guard == Guard::closing && f.sign.order > 1 &&
         (found.known[c].touches || solver_state.instant.has_triggered(c, Guard::closing)))
       found.stays[c] = true;
@@ -341,7 +341,7 @@ void ContactStateSolver::note_hits(SolverState& solver_state) const {
                                        solver_state.jets[c]));
 }
 
-/// Proposes the next mode from the guards that failed in the last one.
+/// Proposes the next states from the guards that failed in the last one.
 Refusal ContactStateSolver::propose(SolverState& solver_state) {
   Decision& d = solver_state.decision;
   const std::vector<Block> jointly = react(solver_state);
@@ -358,7 +358,7 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
     }
   }
   if (solver_state.impact_result.hit)
-    solver_state.tried_states.clear();  // the velocities are new, so modes may recur
+    solver_state.tried_states.clear();  // the velocities are new, so states may recur
   const bool again = std::find(solver_state.tried_states.begin(), solver_state.tried_states.end(),
                                solver_state.states) != solver_state.tried_states.end();
   if (again && !(solver_state.instant.start && d.rounds == 1))
@@ -367,8 +367,8 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
   return {};
 }
 
-/// Proposes the next mode and computes its motion. A slider that stops beside sticking contacts need not stick: if the
-/// rows are dependent, they are decided together.
+/// Proposes the next states and computes their motion. A slider that stops beside sticking contacts need not stick:
+/// if the rows are dependent, they are decided together.
 Refusal ContactStateSolver::try_next(SolverState& solver_state) {
   const contact::ContactStates last = solver_state.states;
   if (Refusal why = propose(solver_state)) return why;
@@ -464,7 +464,7 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
     start.noise = std::max(start.noise, std::abs(value));
 }
 
-/// Fills in the data about the new mode that engine and log need.
+/// Fills in the data about the new states that engine and log need.
 void ContactStateSolver::finish(SolverState& solver_state) {
   Decision& d = solver_state.decision;
   d.consistent = true;

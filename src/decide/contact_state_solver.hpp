@@ -3,12 +3,13 @@
 //   every guard g of the new states:  g, g', g'', ...  is lexicographically not negative
 //
 // States are never simply switched: the next states are those whose guards hold on the solution after the instant. A
-// contact whose guard fails takes its next state (contact/law.hpp), and the jet is expanded again in the new
-// mode, until all guards hold. Rigid contacts are decided together (decide/rigid_contact_solver.hpp): velocities first if one
-// closes with g' < 0, then accelerations and their derivatives. Sliders without tangential stiffness join them if their
-// own states repeat, or if several of them may hold one motion. If modes repeat, decide/cycle_fallback.hpp continues. If no
-// mode is consistent, the decision is refused. If a flight was taken as rest because of its height only, the decision
-// is made once more with that flight, then with slip rates as small as such flights at rest, too.
+// contact whose guard fails takes its next state (contact/law.hpp), and the jet is expanded again with the new
+// states, until all guards hold. Rigid contacts are decided together (decide/rigid_contact_solver.hpp): velocities
+// first if one closes with g' < 0, then accelerations and their derivatives. Sliders without tangential stiffness join
+// them if their own states repeat, or if several of them may hold one motion. If states repeat,
+// decide/cycle_fallback.hpp continues. If no states are consistent, the decision is refused. If a flight was taken as
+// rest because of its height only, the decision is made once more with that flight, then with slip rates as small as
+// such flights at rest, too.
 #pragma once
 
 #include "decide/cycle_fallback.hpp"
@@ -28,7 +29,7 @@ class ContactStateSolver {
 
   /// Decides the states just after an instant. `before`, `after`: the forcing on both sides of it.
   [[nodiscard]] Decision decide(Instant instant, const motion::Forcing& before, const motion::Forcing& after);
-  /// Adopts the states of `mode` from an engine that finds states and no instants: computes their forces and
+  /// Adopts `states` from an engine that finds states and no instants: computes their forces and
   /// accelerations, which are the same before and after.
   [[nodiscard]] Decision adopt(const Instant& instant, const contact::ContactStates& states,
                                const motion::Forcing& forcing);
@@ -37,7 +38,7 @@ class ContactStateSolver {
   [[nodiscard]] Refusal standstill(const Decision& last, std::vector<std::size_t> contacts,
                                    std::string reason);
 
-  /// Sets a listener that is called with every mode tried.
+  /// Sets a listener that is called with the contact states of every round.
   void trace(RoundListener listener) { listener_ = std::move(listener); }
 
  private:
@@ -83,7 +84,7 @@ class ContactStateSolver {
   GuardCache guards_;
   ContactBlocks blocks_;
   CycleFallback cycle_fallback_;
-  bool decide_separately_ = false;  // contacts are decided separately, except if modes repeat
+  bool decide_separately_ = false;  // contacts are decided separately, except if states repeat
   std::vector<MotionJet> scratch_;  // memory of the last decision, reused by the next one
   RoundListener listener_;
 };

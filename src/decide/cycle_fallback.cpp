@@ -72,7 +72,7 @@ bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
   return true;
 }
 
-/// Continues a decision whose modes repeat, in three steps. First, zeros are blurred: one sample of rounding, and the
+/// Continues a decision whose states repeat, in three steps. First, zeros are blurred: one sample of rounding, and the
 /// clock, may have separated them too sharply. Second, sliders are decided together with the other contacts. Third,
 /// rounding cannot decide, and all combinations are weighed.
 Refusal CycleFallback::next_step(SolverState& solver_state) {

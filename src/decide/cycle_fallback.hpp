@@ -1,4 +1,4 @@
-// cycle_fallback.hpp: continues a decision whose modes repeat.
+// cycle_fallback.hpp: continues a decision whose states repeat.
 //
 //   blurred zeros -> sliders with the others -> all combinations of states of a block -> massless parts let go
 //

@@ -33,7 +33,7 @@ struct GuardStart {
 /// The guard whose failure changed a contact's state.
 struct Crossing {
   GuardForm form;
-  std::array<double, MotionJet::orders - 1> derivatives{};  ///< g', g'', ... just before, in the old mode
+  std::array<double, MotionJet::orders - 1> derivatives{};  ///< g', g'', ... just before, in the old states
   double noise = 0.0;                                       ///< rounding of its value
 };
 
@@ -48,7 +48,7 @@ struct Decision {
   bool consistent = false;
   Refusal refusal;  ///< reason if there are no consistent states
   contact::ContactStates states;
-  motion::StateSystemPtr system;  ///< system of `mode`; engines continue with it
+  motion::StateSystemPtr system;  ///< system of `states`; engines continue with it
   Vector u, v;
   motion::Jet jet;
   std::vector<ContactMotion> before, after;  ///< one entry per contact

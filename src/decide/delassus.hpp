@@ -1,6 +1,6 @@
 // delassus.hpp: accelerations of contacts due to forces at all of them.
 //
-//   W = H^T A^-1 H,   H = (n_1, t_1, n_2, ...),   A: the system of the mode, solved for accelerations
+//   W = H^T A^-1 H,   H = (n_1, t_1, n_2, ...),   A: the system of the states, solved for accelerations
 //
 // Impulses change velocities by the same matrix. Unit: 1/mass.
 #pragma once
@@ -45,7 +45,7 @@ Eigen::VectorXd impose_velocities(const Delassus& delassus, const std::vector<Fi
                                              const std::vector<std::size_t>& contacts,
                                              const Eigen::VectorXd& impulses);
 
-// Checks that the rows of a mode determine the forces of its rigid contacts.
+// Checks that the rows of contact states determine the forces of its rigid contacts.
 //
 //   A = H^T M^-1 (H - s f T),   H: normals of closed contacts, tangents of sticking ones;  A_ij / sqrt(A_ii A_jj)
 //

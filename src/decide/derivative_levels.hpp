@@ -40,7 +40,7 @@ class DerivativeLevels {
   DerivativeLevels(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Changes the states of the participants in `mode`; old: their states before. known: resulting signs of their
+  /// Changes the states of the participants in `states`; old: their states before. known: resulting signs of their
   /// guards, one entry per contact.
   [[nodiscard]] Refusal decide(const Instant& instant, const motion::Forcing& forcing,
                                const std::vector<Participant>& participants,

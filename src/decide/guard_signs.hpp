@@ -1,4 +1,4 @@
-// guard_signs.hpp: finds guards of a mode that fail just after an instant.
+// guard_signs.hpp: finds guards of contact states that fail just after an instant.
 //
 //   g, g', g'', ...  lexicographically not negative, each entry zero within its rounding
 //
@@ -154,9 +154,9 @@ struct FailedGuard {
   Sign sign = {};
 };
 
-/// The guard that fails first, for each contact with a failing guard. before: the mode is that of the motion up to the
-/// instant, so located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one entry
-/// per contact, needed if limits have rested. asked: contacts that may fail, ascending.
+/// The guard that fails first, for each contact with a failing guard. before: the states are those of the motion up to
+/// the instant, so located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one
+/// entry per contact, needed if limits have rested. asked: contacts that may fail, ascending.
 [[nodiscard]] std::vector<FailedGuard> find_failed_guards(
     const Model& model, const std::vector<MotionJet>& jets, const contact::ContactStates& states,
     const Instant& instant, bool before, const std::vector<KnownGuards>& known,

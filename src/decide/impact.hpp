@@ -55,10 +55,10 @@ class ImpactSolver {
   ImpactSolver(motion::StateSystems& systems, double capture_velocity)
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
-  /// u with closed gaps of all touching contacts, by the smallest change in the norm of M; mode: of all other contacts.
+  /// u with closed gaps of all touching contacts, by the least change in the norm of M; states: of all other contacts.
   [[nodiscard]] Vector close_gaps(const contact::ContactStates& states,
                                   const std::vector<std::size_t>& touching, Vector u);
-  /// Solves an impact. v: velocities before; touching: rigid contacts with g = 0; mode: of all other contacts.
+  /// Solves an impact. v: velocities before; touching: rigid contacts with g = 0; states: of all other contacts.
   [[nodiscard]] Impact solve(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                              const std::vector<std::size_t>& touching, const Vector& v);
 

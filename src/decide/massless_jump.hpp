@@ -56,7 +56,7 @@ void defer_slip_failures(const Model& model, std::vector<FailedGuard>& failed);
 /// True if the contact acts on a massless part.
 [[nodiscard]] bool acts_on_massless(const Model& model, const Contact& contact);
 
-/// Displacements after contact c has let go and massless parts have followed. `mode`: states of all other contacts.
+/// Displacements after contact c has let go and massless parts have followed. `states`: of all other contacts.
 /// nullopt: the contact acts on no massless part, or its gap would not open.
 [[nodiscard]] std::optional<Vector> released(motion::StateSystems& systems, motion::JetMaker& jets,
                                              const motion::Forcing& forcing, const Instant& instant,

@@ -1,6 +1,6 @@
 // solver_state.hpp: state of one decision while it is computed.
 //
-//   check the guards of `mode` -> `failed` -> the next mode -> ...       until none fails
+//   check the guards of `states` -> `failed` -> the next states -> ...   until none fails
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace signorini::decide {
 
-/// Factor of noise and resolution if modes repeat, or if an engine and a decision disagree.
+/// Factor of noise and resolution if states repeat, or if an engine and a decision disagree.
 inline constexpr double retry_noise_factor = 16.0;
 
 /// A decision in progress.
@@ -20,10 +20,10 @@ struct SolverState {
   Instant instant;
   const motion::Forcing& after;
   Decision decision;
-  contact::ContactStates states;                     // the mode tried last,
+  contact::ContactStates states;                     // the states tried last,
   std::vector<MotionJet> jets;                       // its motion,
   std::vector<FailedGuard> failed;                   // and its failed guards
-  std::vector<contact::ContactStates> tried_states;  // modes tried so far, for recognising repetition
+  std::vector<contact::ContactStates> tried_states;  // states tried so far, for recognising repetition
   std::vector<ContactMotion> noise_before;
   ImpactResult impact_result;
   std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states are kept
@@ -36,7 +36,7 @@ struct SolverState {
       {};  // contacts with a guard that is not clearly positive; nullopt: any contact
   const motion::Forcing* forcing = nullptr;  // of the last evaluation
   double noise_factor = 0.0;                 // Instant::blur of the last evaluation
-  Eigen::VectorXd held = {};                 // constraint impulses of the mode tried last; Decision::captures
+  Eigen::VectorXd held = {};  // constraint impulses of the states tried last; Decision::captures
 
   /// Displacements from which massless parts move instantaneously.
   [[nodiscard]] const Vector& jump_origin() const { return instant.start ? initial_u : instant.u; }

@@ -28,8 +28,8 @@ void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t cod
   }
 }
 
-/// True if the modes differ by the gap between static and kinetic friction only: a sticking contact may then also slip,
-/// and by the law it sticks.
+/// True if the combinations differ by the gap between static and kinetic friction only: a sticking contact may then
+/// also slip, and by the law it sticks.
 bool differ_by_law(const Model& model, const contact::ContactStates& one,
                    const contact::ContactStates& other) {
   for (std::size_t c = 0; c < one.size(); ++c) {
@@ -81,7 +81,7 @@ StateEnumeration::Choice StateEnumeration::choice(std::size_t c, const ContactSt
   return {c, contact.law->candidates(contact, state, before)};
 }
 
-/// nullopt: the rows of the mode are dependent.
+/// nullopt: the rows of the states are dependent.
 std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
     const Instant& instant, const motion::Forcing& forcing, const Block& block,
     const std::vector<KnownGuards>& known, const contact::ContactStates& contact_states) {
@@ -129,7 +129,7 @@ std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combinat
   std::size_t combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.states.size();
   std::optional<BestCombination> best;
-  std::vector<std::pair<contact::ContactStates, Vector>> holding;  // modes without any violation
+  std::vector<std::pair<contact::ContactStates, Vector>> holding;  // combinations without any violation
   double greatest = 0.0;
   for (std::size_t code = 0; code < combinations; ++code) {
     contact::ContactStates tried = contact_states;
@@ -141,7 +141,7 @@ std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combinat
     if (best && weighed->relative_violation >= best->relative_violation) continue;
     best = BestCombination{std::move(tried), weighed->relative_violation, 1.0, {}};
   }
-  // Consistent modes must have the same accelerations; the first one is the best.
+  // Consistent combinations must have the same accelerations; the first one is the best.
   for (std::size_t i = 1; i < holding.size() && best->alternative.empty(); ++i)
     if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
         !differ_by_law(model_, holding[0].first, holding[i].first))

@@ -1,10 +1,10 @@
 // state_enumeration.hpp: tries all combinations of the states of a block, and rates their violations in units of rounding.
 //
-//   forgiveness of a mode = max over the block's guards of ( -g^(k) / zero^(k) )
+//   forgiveness of a combination of states = max over the block's guards of ( -g^(k) / zero^(k) )
 //                           where g^(k) is negative and no lower derivative is positive
 //
-// 0: every guard holds. A mode is acceptable if its forgiveness does not exceed the condition number of the block.
-// Used for blocks that rounding leaves undecided; it costs one jet per combination.
+// 0: every guard holds. A combination is acceptable if its forgiveness does not exceed the condition number of the
+// block. Used for blocks that rounding leaves undecided; it costs one jet per combination.
 #pragma once
 
 #include <optional>
@@ -37,11 +37,12 @@ class StateEnumeration {
     contact::ContactStates contact_states;
     double relative_violation = 0.0;
     double condition = 1.0;  ///< condition number of the chosen contacts' accelerations by their own forces
-    contact::ContactStates alternative;  ///< another consistent mode with other accelerations; empty: none
+    contact::ContactStates
+        alternative;  ///< another consistent combination with other accelerations; empty: none
     [[nodiscard]] bool acceptable() const;
   };
-  /// Best combination; other contacts keep their states in `mode`. known: one entry per contact. nullopt: there are no
-  /// choices or too many, or no combination has unique forces.
+  /// Best combination; other contacts keep their states in `states`. known: one entry per contact. nullopt: there are
+  /// no choices or too many, or no combination has unique forces.
   [[nodiscard]] std::optional<BestCombination> best_combination(const Instant& instant,
                                                                 const motion::Forcing& forcing,
                                                                 const Block& block,
@@ -67,8 +68,8 @@ class StateEnumeration {
   motion::JetMaker& jets_;
 };
 
-/// Sentence about a best mode that has a rival: "several motions continue this one, as 'first' stick, 'second' slip+
-/// and as ...".
+/// Sentence about a best combination that has a rival: "several motions continue this one, as 'first' stick, 'second'
+/// slip+ and as ...".
 [[nodiscard]] std::string several_motions(const Model& model,
                                           const std::vector<StateEnumeration::Choice>& choices,
                                           const StateEnumeration::BestCombination& best);

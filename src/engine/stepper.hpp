@@ -17,10 +17,10 @@
 
 namespace signorini::engine {
 
-/// The stretch up to the next discontinuity of the forcing, in one mode.
+/// The stretch up to the next discontinuity of the forcing, in constant contact states.
 struct Segment {
   double end = 0.0;
-  const decide::Decision* decision = nullptr;  ///< state, mode, jet and guards at the beginning
+  const decide::Decision* decision = nullptr;  ///< motion, contact states, jet and guards at the beginning
   const motion::Forcing* forcing = nullptr;
   bool same_forcing = false;  ///< the forcing equals that of the previous segment, which ended here
 };

@@ -1,6 +1,6 @@
 // jet.hpp: the motion on one side of an instant as a Taylor series, exact for the linear system of a contact state.
 //
-//   M u^(k+2) + C u^(k+1) + K u^(k) + sum ( n N^(k) + t T^(k) ) = P^(k),   rows of the mode derived k times
+//   M u^(k+2) + C u^(k+1) + K u^(k) + sum ( n N^(k) + t T^(k) ) = P^(k),   rows of the states derived k times
 //
 // The derivatives are those of motion/taylor.hpp.
 //

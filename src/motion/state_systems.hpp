@@ -1,6 +1,6 @@
 // state_systems.hpp: source of the systems of contact states: one cache of factorisations, by state.
 //
-//   const StateSystemPtr system = systems.of(mode);        null: rows are linearly dependent
+//   const StateSystemPtr system = systems.of(states);      null: rows are linearly dependent
 //
 // Bounds: a periodic motion takes each contact through stick and slip both ways, about four states for each contact, so
 // 1024 states cover cycles of 256 contacts. A dense system contains up to (40^2 + 2 * 40 * 38) numbers, 37 kB, and the

@@ -253,7 +253,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
       const double right = now.b[degree];
       if (right < -slack)
         return falls_at(now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now)) : now.lo);
-      // At the end of the step the next step decides whether it falls.
+      // At the end of the step the next step decides whether the guard crosses zero.
       if (right <= slack && now.hi < 1.0) touch(now.hi);
       --count;
       continue;

@@ -1,5 +1,5 @@
-// graze.hpp: what an engine leaves open: a guard that came back into its tolerance and left it without a fall that
-// its steps could show. A run with a smaller tolerance decides whether it reached zero.
+// graze.hpp: what an engine leaves open: a guard that came back into its tolerance and left it without a zero crossing
+// that its steps could show. A run with a smaller tolerance decides whether it reached zero.
 #pragma once
 
 #include <string>

@@ -3,7 +3,7 @@
 //   high    the greatest value since the segment's start, counted up to the level (active_guards.hpp)
 //   low     g < high - (dip level + rounding of g)
 //   graze   it was low and has reached the level without an event; or it was low before it ever reached the
-//           level, and the segment ended with another guard's fall
+//           level, and the segment ended with a zero crossing of another guard
 //
 // Below the level a guard's sign is that of the integration error: this run cannot decide whether the guard reached
 // zero and rose again. A run with a smaller tolerance decides it, or reports the same.

@@ -12,8 +12,8 @@
 namespace signorini::newmark {
 namespace {
 
-// Two lengths (dt, and what doubling compares it with) for each of 16 modes that a cycle comes back to; in
-// bytes as much as mode systems may take (motion/state_systems.hpp).
+// Two lengths (dt, and what doubling compares it with) for each of 16 contact states to which a cycle returns; in
+// bytes as much as state systems may take (motion/state_systems.hpp).
 constexpr base::CacheLimits max_kept{32, std::size_t{8} << 20};
 
 // Cost ratio of a factorisation of a banded matrix, with the preparation of its factors, to a solve: 0.64 + 0.3 ms to

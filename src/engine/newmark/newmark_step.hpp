@@ -124,7 +124,7 @@ class NewmarkWorkIntegrals {
   NewmarkWorkIntegrals(const Model& model, const linear::SystemMatrices& structure)
       : model_(model), structure_(structure), du_(model.size()), v_(model.size()) {}
 
-  /// works += factor * the works of the step from `a` at t0 to `b` at t1, in one mode.
+  /// works += factor * the works of the step from `a` at t0 to `b` at t1, in constant contact states.
   void add(const motion::Forcing& forcing, const contact::ContactStates& states, const motion::Point& a,
            double t0, const motion::Point& b, double t1, double factor, motion::WorkIntegrals& works);
 

@@ -48,9 +48,9 @@ std::vector<Row> rows_of(const Scene& scene, const Model& model) {
                       "both directions, along neither, or law = \"compliant\"",
                       (along_n ? along_n : along_t)->displacement, along_n ? "tangent" : "normal"));
     if (scene.contacts[k].restitution != 0.0 || scene.contacts[k].capture_velocity)
-      refuse_borrowing(scene, k, scene.contacts[k].restitution != 0.0 ? "restitution" : "capture_velocity",
-                       fmt::format("{} has no mass, so nothing rebounds there: expected no such key",
-                                   along_n->displacement));
+      refuse_borrowing(
+          scene, k, scene.contacts[k].restitution != 0.0 ? "restitution" : "capture_velocity",
+          fmt::format("{} has no mass, so nothing rebounds there: remove this key", along_n->displacement));
     rows.push_back({k, true, along_n});
     if (along_t) rows.push_back({k, false, along_t});
   }

@@ -135,7 +135,7 @@ class CompanionTask {
     } else if (report_.outcome.kind == Outcome::Kind::stopped) {
       track.stop = "the companion stopped: " + report_.outcome.reason;
     } else if (report_.outcome.kind == Outcome::Kind::interrupted) {
-      track.stop = "the companion was ended with the run";
+      track.stop = "the companion was stopped with the run";
     }
     return track;
   }
@@ -287,7 +287,7 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   }
   if (recorder.steers()) {
     plain();
-    result.reason = "loads are changed on the way, which no companion could follow";
+    result.reason = "loads change during the run through an observer, which a companion run cannot follow";
     return result;
   }
   RunSpec run = settings;

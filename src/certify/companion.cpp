@@ -59,8 +59,8 @@ std::string unresolved(const Model& model, double dt) {
   const double decay = model::fastest_decay(model), rate = std::max(model.omega_max, decay);
   if (dt * rate <= resolved) return "";
   return fmt::format(
-      "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so half of it may err alike; "
-      "companion = \"exact\", or a dt of {:.2g}, tells more",
+      "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so a run with half of it may have the "
+      "same error; use companion = \"exact\", or a dt of {:.2g}",
       dt, model.units.time, decay > model.omega_max ? "decay" : "oscillation", rate,
       decay > model.omega_max ? "1" : "rad", model.units.time, resolved / rate);
 }
@@ -78,7 +78,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
   switch (engine.accuracy) {
     case Accuracy::rounding:
       plan.factor = by_rounding;
-      plan.name = fmt::format("{}, twice, every datum off by about one rounding", engine.name);
+      plan.name = fmt::format("{}, twice, with all data changed by about one rounding", engine.name);
       for (const std::uint64_t seed : {1U, 2U})
         plan.runs.push_back({perturbed(companion.model, seed), companion.run, seed, 1.0 / by_rounding});
       return plan;
@@ -127,14 +127,14 @@ CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
   if (run.companion == Companion::exact && !itself && !run::exact_accepts(model, run))
     throw SceneError(
         run.place, "run.companion",
-        "\"exact\" does not take this scene (signorini check --engine exact says why); use \"finer\"");
+        "\"exact\" cannot compute this scene (signorini check --engine exact shows why); use \"finer\"");
   const bool steps = engine_info(run.engine).accuracy == Accuracy::step;
   const bool may_be_exact = !itself && run.companion != Companion::finer && run::exact_accepts(model, run);
   if (steps && run.companion == Companion::automatic) {
     CompanionPlan plan = may_be_exact ? exact_plan(model, run) : ida_plan(model, run);
     estimate(plan, model, run);
-    plan.choice = fmt::format("auto: half the step may err alike{}",
-                              may_be_exact ? "" : ", and exact does not take the scene");
+    plan.choice = fmt::format("auto: a run with half the step may have the same error{}",
+                              may_be_exact ? "" : ", and exact cannot compute the scene");
     return plan;
   }
   const bool may_be_finer = itself || run.companion != Companion::exact;
@@ -145,15 +145,14 @@ CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
   if (!exact || !finer) {
     CompanionPlan plan = std::move(exact ? *exact : *finer);
     plan.choice = run.companion != Companion::automatic ? "as given"
-                  : itself                              ? "auto: the run is exact's own"
-                                                        : "auto: exact does not take the scene";
+                  : itself                              ? "auto: the run itself uses exact"
+                                                        : "auto: exact cannot compute the scene";
     return plan;
   }
   // If the cost of the finer run is unknown, the sharper one (exact) is used.
   const bool cheaper = !(finer->cost > 0.0) || !(exact->cost > 0.0) || exact->cost <= finer->cost;
   CompanionPlan plan = std::move(cheaper ? *exact : *finer);
-  plan.choice =
-      cheaper ? "auto: exact is the cheaper" : "auto: a finer run is expected to be cheaper than exact";
+  plan.choice = cheaper ? "auto: exact is cheaper" : "auto: a finer run is expected to be cheaper than exact";
   return plan;
 }
 

@@ -276,10 +276,9 @@ std::optional<EventSequence::FirstViolation> first_undecided_impact(const Model&
     if (first && first->t <= since) continue;
     first = EventSequence::FirstViolation{
         std::max(0.0, since),
-        fmt::format(
-            "the gap of '{}' is {:.2g} {} at t = {:.9g} in the companion, and {:.2g} {} off in the run: both "
-            "may have missed a hit",
-            contact.name, hit.gap, model.units.length, hit.t, off, model.units.length)};
+        fmt::format("the gap of '{}' is {:.2g} {} at t = {:.9g} in the companion, and its error in the run "
+                    "is {:.2g} {}: both may have missed a hit",
+                    contact.name, hit.gap, model.units.length, hit.t, off, model.units.length)};
   }
   return first;
 }

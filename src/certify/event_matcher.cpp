@@ -87,8 +87,8 @@ class EventMatcher {
     if (const auto& graze = companion.graze)
       certified_until_.at(
           graze->t,
-          fmt::format("the {} of '{}' comes back into the companion's tolerance at t = {:.9g} and leaves it "
-                      "without an event; a smaller rtol, or engine exact, decides whether it fell there",
+          fmt::format("the {} of '{}' returns to within the companion's tolerance of zero at t = {:.9g} "
+                      "without an event; a smaller rtol, or engine exact, decides whether it crossed zero",
                       graze->guard, names_[static_cast<std::size_t>(graze->contact)], graze->t));
     if (companion.reached < run_.reached)
       certified_until_.at(companion.reached,
@@ -103,8 +103,8 @@ class EventMatcher {
       if (alone.t <= std::min(run_.reached, companion.reached))
         // It may be earlier by its own uncertainty, which is large where a guard grazes.
         certified_until_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
-                            a != nullptr ? describe(*a) + " has no partner in the companion"
-                                         : "the companion has an event more, " + describe(*b));
+                            a != nullptr ? describe(*a) + " has no matching event in the companion"
+                                         : "the companion has one more event, " + describe(*b));
       return false;
     }
     const double off = b->t - a->t, change = std::abs(off - past.off);
@@ -121,14 +121,14 @@ class EventMatcher {
       return true;
     }
     if (same(*a, *b)) {
-      certified_until_.at(
-          std::min(a->t, b->t),
-          fmt::format("{} follows the contact's event before by {:.2g}, and this time has an error of {:.2g}",
-                      describe(*a), since, shift));
+      certified_until_.at(std::min(a->t, b->t),
+                          fmt::format("{} follows the contact's previous event after {:.2g}, and this "
+                                      "interval has an error of {:.2g}",
+                                      describe(*a), since, shift));
       return false;
     }
     certified_until_.at(std::min(a->t, b->t),
-                        fmt::format("{} has the partner {} in the companion", describe(*a), describe(*b)));
+                        fmt::format("{} differs from the companion's event, {}", describe(*a), describe(*b)));
     return false;
   }
 
@@ -153,7 +153,7 @@ class EventMatcher {
     certified_until_.at(
         std::min(a.t, b.t),
         fmt::format(
-            "{} ends with {:.6g} of the slowest speed that flies, and this part has an error of {:.2g}",
+            "{} ends with {:.6g} times the least rebound speed, and this ratio has an error of {:.2g}",
             describe(a), r, off));
     return false;
   }

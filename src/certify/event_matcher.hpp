@@ -54,7 +54,7 @@ struct TimedEvent {
 
 /// Events in order, and the time that the run reached.
 struct EventSequence {
-  /// The first violation that the witness of a run has found.
+  /// The first violation that the law checker of a run has found.
   struct FirstViolation {
     double t = 0.0;
     std::string sentence;

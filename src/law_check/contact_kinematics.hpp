@@ -1,4 +1,4 @@
-// contact_kinematics.hpp: kinematics of a contact for the witness: its motion, the guards of its states, and the rounding of both.
+// contact_kinematics.hpp: kinematics of a contact for the law checker: its motion, the guards of its states, and the rounding of both.
 //
 //   g = g0 + n.u,  ut = t.u - s,  g' = n.v,  ut' = t.v - s',  g'' = n.a,  ut'' = t.a - s''
 //   size of a form on x: |n| |x|, x on the contact's own degrees of freedom

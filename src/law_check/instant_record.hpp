@@ -1,6 +1,6 @@
-// instant_record.hpp: data of an instant that the witness checks.
+// instant_record.hpp: data of an instant that the law checker examines.
 //
-//   before: u, v-, mode-, N-, T-     impulses P_k, captures c_k     after: u, v+, a+, mode+, N+, T+
+//   before: u, v-, states-, N-, T-     impulses P_k, captures c_k     after: u, v+, a+, states+, N+, T+
 //
 // The record contains data only: no decision, no engine. A run fills it once per instant (run/run_law_checker.hpp); a
 // directory of results does the same (study/law_check/directory_law_checker.hpp). The data it points to must outlive it.

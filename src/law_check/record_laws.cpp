@@ -152,7 +152,7 @@ double InstantLawChecker::step_error(std::size_t k, double of_u, double of_v) co
 /// Checks N and T before. If states were found at the end of a step, both sides are the side after.
 void InstantLawChecker::row_before(const RecordedEvent& event, const ContactKinematics& before,
                                    const ContactKinematics& after) {
-  if (record_.start || moves_instantaneously(event.contact)) return;  // guessed; decided anew
+  if (record_.start || moves_instantaneously(event.contact)) return;  // guesses, which the decision replaces
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const auto apart = [&](double row, double ContactKinematics::*force) {
@@ -210,7 +210,7 @@ void InstantLawChecker::row_of(const RecordedEvent& event) {
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
   const double loose = speed + context_.capture_speed(record_.captures, k);
-  if (!moves_instantaneously(k)) {  // velocities of massless parts are decided anew
+  if (!moves_instantaneously(k)) {  // the decision replaces velocities of massless parts
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
   }

@@ -263,7 +263,7 @@ bool BranchContinuation::may_continue(const CorrectedPoint& here, const Correcte
   if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
   if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
   if (!turned_back_ || !has_passed(next)) return true;
-  end_ = fmt::format("beyond {} = {:.9g} the branch returns to orbits that it has passed", options_.path,
+  end_ = fmt::format("beyond {} = {:.9g} the branch returns to its own earlier orbits", options_.path,
                      value(here));
   return false;
 }
@@ -292,9 +292,9 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
     turned_back_ = true;
     return true;
   }
-  end_ = fmt::format(
-      "at {} = {:.9g} no step is short enough, and {}: {}", options_.path, value(here),
-      known ? "the orbit found beyond is one that the branch has passed" : "no orbit is found beyond", why);
+  end_ = fmt::format("at {} = {:.9g} no step is short enough, and {}: {}", options_.path, value(here),
+                     known ? "the orbit found beyond already lies on the branch" : "no orbit is found beyond",
+                     why);
   return false;
 }
 
@@ -370,7 +370,7 @@ void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
     if (std::abs(p.parameter - options_.from) > std::abs(farthest - options_.from)) farthest = p.parameter;
   end_ += fmt::format("; beyond {:.9g}, up to {:.9g}, the branch has no orbit", farthest, options_.to);
   if (!crossed_gap_) return;
-  end_ += ", and it was found anew behind a gap: another branch may lead there";
+  end_ += ", and it was found again beyond a gap: another branch may lead there";
   complete_ = false;
 }
 
@@ -424,7 +424,7 @@ void BranchContinuation::guarded(const std::function<void()>& walk) {
                        last_ ? map_.parameter(last_->s) : options_.from, error.what());
   }
   if (end_.empty())
-    end_ = branch_.interrupted ? "interrupted" : fmt::format("{} points, no more were asked for", points_);
+    end_ = branch_.interrupted ? "interrupted" : fmt::format("{} points, the requested maximum", points_);
 }
 
 void BranchContinuation::follow() {
@@ -459,7 +459,7 @@ void BranchContinuation::follow_from(const Junction& junction) {
     CorrectedPoint here;
     Vector t;
     if (!begin_from(junction, here, t)) {
-      end_ = fmt::format("no orbit is found beside the {} at {} = {:.9g}", junction.kind, options_.path,
+      end_ = fmt::format("no orbit is found near the {} at {} = {:.9g}", junction.kind, options_.path,
                          value(junction.at));
       return;
     }

@@ -93,7 +93,7 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
     throw SceneError(
         {}, options_.path,
-        fmt::format("the loads repeat themselves from t = {:g} on, at the start of the branch from {:g} on",
+        fmt::format("the loads are periodic from t = {:g} on, but at the start of the branch from {:g} on",
                     loads.periodic_from, phase));
   return loads;
 }

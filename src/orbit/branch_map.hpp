@@ -58,7 +58,7 @@ class BranchMap {
 
   /// The map at s; maps for the last values of s are kept.
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
-  /// The state at s that satisfies the rigid constraints of this mode: n . u = -g0 and n . v = 0 for closed contacts, t
+  /// The state at s that satisfies the rigid constraints of these states: n . u = -g0 and n . v = 0 for closed contacts, t
   /// . v equal to that of the surface for sticking ones. A key may change all three.
   [[nodiscard]] OrbitState projected(OrbitState state, const contact::ContactStates& states, double s) const;
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;

@@ -153,8 +153,8 @@ CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction,
     }
     c.state = moved(c.state, c.pass, dy);
   }
-  c.reason = fmt::format("Newton's method does not converge: a residual of {:.2g} of the amplitude is left",
-                         c.residual);
+  c.reason =
+      fmt::format("Newton's method does not converge: the residual is {:.2g} of the amplitude", c.residual);
   if (held && !map_.autonomous() && c.residual <= worth_damping) close_damped(c, t.size());
   return c;
 }

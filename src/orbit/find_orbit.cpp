@@ -126,14 +126,14 @@ void Search::set_period(const Scene& scene) {
   given_ = build_model(longer);
   sensitivity::check_tangent_laws(longer, given_);
   if (conservative && given_.damping.norm() > 0.0)
-    throw UsageError("--energy: the scene has damping, expected none: energy is not kept");
+    throw UsageError("--energy: the scene has damping, expected none: energy is not conserved");
   run_ = longer.run;
   run_.engine = orbit::orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
   if (!run::engine_row(run_.engine).capabilities.supports_orbits)
     throw SceneError(
         scene.run.place, "run.engine",
-        fmt::format("found \"{}\", expected {}: orbits need the motion between events to "
-                    "rounding, or its tangents",
+        fmt::format("found \"{}\", expected {}: orbits need the motion between events to rounding accuracy, "
+                    "or its tangents",
                     to_string(run_.engine), run::engines_that(&run::EngineCapabilities::supports_orbits)));
   run_.flow = orbit::orbit_flow(given_, run_);
   closed_ = orbit::orbit_state_error(run_);
@@ -220,10 +220,10 @@ bool Search::by_itself() {
     return close(initial_, 0.0, period_);
   }
   if (!(found.period > 0.0))
-    return stop(fmt::format(
-        "no event of the transient, up to t = {:.6g}, comes back to a state near to an earlier one; "
-        "a longer t_end lets more of it die out",
-        length * unit_));
+    return stop(
+        fmt::format("no event of the transient, up to t = {:.6g}, returns to a state near an earlier one; "
+                    "use a longer t_end, so that the transient decays further",
+                    length * unit_));
   const orbit::OrbitPass to_section = scene.pass({initial_, found.section, false});
   if (!to_section.done()) return stop("the transient stopped: " + to_section.outcome.reason);
   map_ = map_of(orbit::with_shifted_excitation(first_, found.section));
@@ -262,7 +262,7 @@ void Search::shorten() {
 void Search::stability() {
   const orbit::OrbitPass& pass = shot_.pass;
   if (pass.end_rates.size() == 0) {
-    orbit_.reason = "multipliers are not known: " + pass.reason;
+    orbit_.reason = "multipliers are not available: " + pass.reason;
     return;
   }
   const Model& model = map_->model();
@@ -283,7 +283,7 @@ void Search::stability() {
     orbit_.families.push_back("contact '" + contact.name + "' never slips");
     --families;
   }
-  if (families > 0) orbit_.families.push_back("a motion that no force drives back");
+  if (families > 0) orbit_.families.push_back("a motion without a restoring force");
   orbit::set_multipliers(all, again, orbit_.families.size() + of_time,
                          orbit::error_of(phi, pass.rates_error, closed_), options_.energy.has_value(),
                          orbit_);
@@ -305,9 +305,8 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
       for (std::size_t c = 0; c < pass.never_slips.size() && other.done(); ++c)
         if (pass.never_slips[c] && !other.never_slips[c])
           orbit_.reason = fmt::format(
-              "multipliers hold to one side of the orbit: contact '{}' comes to its limit, and slips in "
-              "orbits "
-              "beside this one",
+              "multipliers hold on one side of the orbit only: contact '{}' reaches its limit, and slips in "
+              "neighbouring orbits",
               map_->model().contacts[c].name);
     }
 }

@@ -106,10 +106,10 @@ void check_drift(const Driver& d, const History& acceleration, double settled, d
   if (std::abs(drift) <= same_period * 2.0 * std::numbers::pi * size) return;
   throw SceneError(
       d.spec->place, d.key,
-      fmt::format("found an acceleration that leaves the support displaced by {:.6g} more after "
-                  "each period of {} (the support starts at rest at zero displacement), expected "
-                  "one without drift: no motion of this scene repeats itself",
-                  drift, base::format_number(period)));
+      fmt::format(
+          "found an acceleration that displaces the support by {:.6g} in each period of {} (from rest at "
+          "zero displacement), expected one without drift: no motion of this scene is periodic",
+          drift, base::format_number(period)));
 }
 
 }  // namespace
@@ -131,8 +131,8 @@ LoadPeriod load_period(const Scene& scene, const CountedLoads& count) {
     if (!both)
       throw SceneError(
           d.spec->place, d.key,
-          fmt::format("found a period of {} beside one of {}, expected periods with a common multiple "
-                      "(up to {} of the longer one)",
+          fmt::format("found a period of {} and one of {}, expected periods with a common multiple (up to {} "
+                      "of the longer one)",
                       base::format_number(own), base::format_number(*found.period), max_multiples));
     found.period = both;
   }
@@ -156,12 +156,10 @@ LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& c
       differ = std::max(differ, std::abs(now - then));
     }
     if (differ > same_period * 2.0 * std::numbers::pi * size)
-      throw SceneError(
-          d.spec->place, d.key,
-          fmt::format(
-              "found a history that differs by {:.2g} of its greatest value after {}, expected one that "
-              "repeats itself with the period of the orbit",
-              differ / size, base::format_number(period)));
+      throw SceneError(d.spec->place, d.key,
+                       fmt::format("found a history that differs by {:.2g} of its greatest value after {}, "
+                                   "expected one with the period of the orbit",
+                                   differ / size, base::format_number(period)));
     if (d.acceleration) check_drift(d, f, found.periodic_from, period);
   }
   return found;

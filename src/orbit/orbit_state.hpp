@@ -27,7 +27,7 @@ struct OrbitPoint {
   double t = 0.0;
   contact::ContactStates states;
   Vector u, v, a, forces, force_rates;  ///< forces: in the order of `layout`
-  std::vector<linear::DofKind> kinds;   ///< of this mode
+  std::vector<linear::DofKind> kinds;   ///< in these contact states
   ForceLayout layout;
 };
 [[nodiscard]] OrbitPoint orbit_point(double t, const decide::Decision& after);

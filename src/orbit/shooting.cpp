@@ -222,11 +222,11 @@ ShootingResult shoot(const PeriodMap& map, const ShootingStart& start, double to
   shot.steps.push_back({shot.residual, 0.0});
   shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed}) || is_noise(map, shot);
   if (!shot.closed)
-    shot.reason =
-        fmt::format("Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: {}",
-                    shot.residual, shot.steps.size() - 1,
-                    decreased ? "it falls too slowly, as where events appear and vanish between its steps"
-                              : "no part of the next step reduces it");
+    shot.reason = fmt::format(
+        "Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: {}", shot.residual,
+        shot.steps.size() - 1,
+        decreased ? "the residual decreases too slowly; events may appear and vanish between steps"
+                  : "no fraction of the next step reduces the residual");
   return shot;
 }
 

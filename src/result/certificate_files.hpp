@@ -21,9 +21,8 @@ struct CertificateColumn {
 };
 
 inline constexpr std::array certificate_columns = {
-    CertificateColumn{
-        "t_error", "time",
-        "how far `t` may be off in all, errors of earlier events included; empty where nobody knows"},
+    CertificateColumn{"t_error", "time",
+                      "bound of the error of `t`, which includes errors of earlier events; empty: unknown"},
     CertificateColumn{"certain", "", "1: this event and all before it are those of the exact motion; else 0"},
 };
 

@@ -27,10 +27,11 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   const double decay = model::fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
     return {integrator, true,
-            fmt::format("the fastest decay, {:.3g} 1/{}, is not slow beside the "
-                        "fastest oscillation, {:.3g} rad/{}",
+            fmt::format("the fastest decay, {:.3g} 1/{}, is not slow compared with the fastest oscillation, "
+                        "{:.3g} rad/{}",
                         decay, model.units.time, oscillation, model.units.time)};
-  return {closed_form, true, "the laws are linear, and every decay is slow beside the fastest oscillation"};
+  return {closed_form, true,
+          "the laws are linear, and every decay is slow compared with the fastest oscillation"};
 }
 
 namespace {
@@ -57,7 +58,7 @@ bool damped_modes_are_faster(const Model& model) {
 
 ModalKind modal_kind(const Model& model) {
   const std::string why = modal::proportional_refusal(model);
-  if (model.size() > max_unknowns) return {false, false, "so many unknowns that their modes are not stored"};
+  if (model.size() > max_unknowns) return {false, false, "too many unknowns to store their modes"};
   if (why.empty()) return {false, modal::max_state_springs(model) > modal::max_rank, ""};
   if (std::string other = modal::damped_refusal(model); !other.empty()) return {true, false, other};
   return {true, modal::max_state_terms(model) > modal::max_damped_terms,

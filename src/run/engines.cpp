@@ -33,10 +33,12 @@ void refuse_own_laws(const Model& model, const RunSpec& run) {
     if (contact.obeys_coulomb())
       continue;
     else if (contact.law->is_named())
-      refuse(run, fmt::format("does not know law \"{}\" of contact '{}'", contact.law->name(), contact.name),
+      refuse(run,
+             fmt::format("does not support law \"{}\" of contact '{}'", contact.law->name(), contact.name),
              ida_instead);
     else
-      refuse(run, fmt::format("knows the built-in laws, and contact '{}' has a law of its own", contact.name),
+      refuse(run,
+             fmt::format("supports only the built-in laws, and contact '{}' has a user law", contact.name),
              ida_instead);
 }
 
@@ -89,7 +91,7 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
   std::vector<std::string> names;
   for (const std::size_t k : shared.groups().front()) names.push_back(model.contacts[k].name);
   refuse(run,
-         fmt::format("decides each contact alone, and contacts {} may hold one motion together",
+         fmt::format("solves each contact alone, but contacts {} may restrain the same motion together",
                      base::join_quoted(names, 5)),
          "use \"newmark\" or a tangential_stiffness");
 }
@@ -99,10 +101,9 @@ void refuse_endless_series(const Model& model, const RunSpec& run) {
   const double radians = model.omega_max * run.t_end;
   if (!(radians > 1.0 / rounding::eps) || choose_flow(model, run).modal) return;
   refuse(run,
-         fmt::format(
-             "follows the highest frequency, {:.3g} rad/{}, by series: {:.2g} radians to t_end, whose steps "
-             "no double tells from none",
-             model::in_scene_units(model, model.omega_max, unit::rate), model.units.time, radians),
+         fmt::format("follows the highest frequency, {:.3g} rad/{}, by series: {:.2g} radians to t_end; a "
+                     "step is shorter than the resolution of a double at that time",
+                     model::in_scene_units(model, model.omega_max, unit::rate), model.units.time, radians),
          "use \"ida\", or less stiffness");
 }
 
@@ -135,7 +136,7 @@ Method closed_flow(const Model& model, const RunSpec& run) {
           0.0,
           exact::max_levels,
           flow.modal ? "for the Taylor series of states without modes; rtol is not used"
-                     : "Taylor series, as long as rounding accuracy needs; rtol is not used",
+                     : "Taylor series with as many terms as rounding accuracy needs; rtol is not used",
           flow.modal ? "modal" : "taylor",
           std::move(flow.reason)};
 }

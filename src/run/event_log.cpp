@@ -138,10 +138,10 @@ void EventLog::check_hit_order(const Instant& now) {
     const double apart = now.t - last_hit_.t;
     if (!last_hit_.moves.empty() && last_hit_.moves[k] && apart > now.resolution &&
         apart < coincidence * now.t)
-      order_.warn(fmt::format(
-          "the hits of '{}' at {:.12g} and of '{}' {:.2g} later, which act on each other,",
-          model_.contacts[last_hit_.contact].name, model::time_in_scene_units(model_, last_hit_.t),
-          model_.contacts[k].name, model::time_in_scene_units(model_, apart)));
+      order_.warn(fmt::format("the interacting hits of '{}' at {:.12g} and of '{}' {:.2g} later",
+                              model_.contacts[last_hit_.contact].name,
+                              model::time_in_scene_units(model_, last_hit_.t), model_.contacts[k].name,
+                              model::time_in_scene_units(model_, apart)));
   }
   Hit hit;
   for (std::size_t k = 0; k < decision.impulses.size(); ++k)

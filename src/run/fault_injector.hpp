@@ -1,6 +1,6 @@
-// fault_injector.hpp: errors injected into a run by tests, to check that its witness detects them.
+// fault_injector.hpp: errors injected into a run by tests, to check that the law checker detects them.
 //
-//   engine -> instant (postponed) -> decision (changed) -> record -> witness
+//   engine -> instant (postponed) -> decision (changed) -> record -> law checker
 //
 // No scene uses this; a run without an injector is not affected.
 #pragma once
@@ -13,7 +13,7 @@ namespace signorini::run {
 class FaultInjector {
  public:
   virtual ~FaultInjector() = default;
-  /// Restores the correct model, rescaled like the one that the run computes; the witness receives the result.
+  /// Restores the correct model, rescaled like the one that the run computes; the law checker receives the result.
   virtual void correct(Model& /*model*/) {}
   /// Delay of a located event.
   virtual double late(const engine::Step& /*step*/, const decide::Decision& /*before*/) { return 0.0; }

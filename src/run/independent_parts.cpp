@@ -111,7 +111,7 @@ double merge_results(const Model& whole, const std::vector<assembly::PartModel>&
   }
   if (unique.size() > max_of_all_parts)
     report.warnings.push_back(
-        fmt::format("{} more warnings of parts that nothing couples", unique.size() - max_of_all_parts));
+        fmt::format("{} more warnings of uncoupled parts", unique.size() - max_of_all_parts));
   std::vector<Violation>& found = report.law_checks.violations;
   std::stable_sort(found.begin(), found.end(),
                    [](const Violation& a, const Violation& b) { return a.t < b.t; });

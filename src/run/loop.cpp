@@ -129,7 +129,7 @@ bool Loop::start() {
   begun_ = true;
   // A motion within the range of numbers may have squares beyond it: the balance is then unknown.
   if (!std::isfinite(record_.energy().balance()))
-    return stop("the energy at the start leaves the range of numbers");
+    return stop("the energy at the start exceeds the range of doubles");
   return laws_hold();
 }
 

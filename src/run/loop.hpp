@@ -25,7 +25,7 @@ struct RunEnd {
   Report report;
   /// Rounding of the stored energy, whose terms may be far larger than their sum.
   double energy_rounding = 0.0;
-  bool law_violated = false;  ///< the run was stopped by its witness
+  bool law_violated = false;  ///< the law checker stopped the run
 };
 
 class Loop {

@@ -247,9 +247,8 @@ double OutputMonitor::turning(engine::DenseOutput& motion, const Part& step) {
       std::max(fast_mode_cutoff_.fastest(max_pieces * longest), longest / (step.end - step.begin));
   if (omega > most && !coarse_warning_)
     coarse_warning_ = fmt::format(
-        "outputs: the motion turns by {:.2g} radians in the run; between rows their extremes were looked for "
-        "in "
-        "parts of {:.2g}, in which a peak may be missed",
+        "outputs: the motion turns by {:.2g} radians in the run; extremes between rows were searched in "
+        "intervals of {:.2g} radians, so a peak may be missed",
         omega / fast_mode_cutoff_.fastest(1.0), omega / most * longest);
   return std::min(omega, most);
 }

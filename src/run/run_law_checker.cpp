@@ -199,8 +199,8 @@ std::string sentence_of(const Violation& v, const Model& model) {
   const std::string who =
       v.contact >= 0 ? fmt::format("contact '{}'", model.contacts[static_cast<std::size_t>(v.contact)].name)
                      : std::string("the structure");
-  return fmt::format("the witness finds that {} breaks the law of {} at t = {:.9g}: {:.4g}, limit {:.2g}",
-                     who, v.law, v.t, v.value, v.limit);
+  return fmt::format("{} violates the law of {} at t = {:.9g}: {:.4g}, limit {:.2g}", who, v.law, v.t,
+                     v.value, v.limit);
 }
 
 std::string sentence_of(const LawCheckSummary& testimony, const Model& model) {

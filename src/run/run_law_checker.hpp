@@ -1,6 +1,6 @@
-// run_law_checker.hpp: passes each instant of a run to its witness, and stores the violations.
+// run_law_checker.hpp: passes each instant of a run to the law checker, and stores the violations.
 //
-//   (u, v-, N-, T-, mode-), impulses, captures, events, (u, v+, a+, N+, T+, mode+)  ->  law_check/law_checker.hpp
+//   (u, v-, N-, T-, states-), impulses, captures, events, (u, v+, a+, N+, T+, states+)  ->  law_check/law_checker.hpp
 //
 // No data are evaluated here: records of engine, decision and log are copied unchanged. Units: those of the computed
 // model.
@@ -15,11 +15,11 @@
 
 namespace signorini::run {
 
-// Data of a motion that the witness needs in addition to u and v: motions and forces that drive
+// Data of a motion that the law checker needs in addition to u and v: motions and forces that drive
 // contacts, loads on massless parts, and the largest displacements so far.
 //
 //   CheckedMotion motion(model, engine);
-//   motion.reach(witness, u, v);
+//   motion.reach(checker, u, v);
 //   CheckedSide side = motion.side(forcing, t);        u, v, forces, states: to be set
 //   motion.leave(forcing, t);                            the instant is over
 //
@@ -74,7 +74,7 @@ class CheckedMotion {
   double energy_ = 0.0;                                                // largest LawChecker::twice_energy
   double kinetic_ = 0.0;                                               // for sums over modes: largest v^T M v
   std::vector<double> lightness_, speeds_;  // of each contact; times the root of energy_
-  std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // Witness::modal_size
+  std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // LawChecker::modal_size
 };
 
 inline constexpr std::size_t max_stored_violations = 100;  // limit for stored violations; all are counted

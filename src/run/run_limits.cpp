@@ -39,7 +39,7 @@ std::optional<std::string> StallDetector::slow_progress(double t) {
   mark_ = t;
   contacts_ = std::exchange(after_mark_, {});
   if (advanced >= least_progress * t_end_) return std::nullopt;
-  return fmt::format("{} events within {:.3g} of time; the motion does not get on", watched_events,
+  return fmt::format("{} events within {:.3g} of time; the motion does not advance", watched_events,
                      advanced * unit_);
 }
 
@@ -80,9 +80,8 @@ void LargeMotionDetector::examine(double t, const motion::Forcing& forcing, cons
 std::optional<std::string> LargeMotionDetector::warning() const {
   if (!first_) return std::nullopt;
   return fmt::format(
-      "{} is {:.3g} rad at t = {:.6g}, and {} reaches {:.3g} rad: rotations are computed as small ones, so "
-      "that from there on "
-      "results are far from those of the real structure",
+      "{} is {:.3g} rad at t = {:.6g}, and {} reaches {:.3g} rad: the model assumes small rotations, so "
+      "results from there on are wrong for the real structure",
       first_->description, first_->angle, model::time_in_scene_units(model_, first_->t),
       greatest_description_, greatest_);
 }

@@ -27,12 +27,12 @@ class FaultInjector;
 struct RunStep {
   const engine::Step& step;
   const engine::StepFacts& facts;
-  const decide::Decision& decision;  ///< the mode of the step
+  const decide::Decision& decision;  ///< the contact states of the step
   const motion::Forcing& forcing;
   engine::DenseOutput& motion;
 };
 
-/// Motion at a time, in the mode before it.
+/// Motion at a time, in the contact states before it.
 struct RunPoint {
   double t = 0.0;
   const motion::Forcing& forcing;

@@ -1,8 +1,8 @@
-// run_record.hpp: listener that records rows, events, extremes, pictures, audit and witness data of a run.
+// run_record.hpp: listener that records rows, events, extremes, pictures, audit and law-check data of a run.
 //
 //   a step     works of the whole step, so that rows change no digit of the results; rows inside; extremes of outputs;
 //              times for pictures and peaks; its end
-//   an instant outputs before it, audit, event log, witness; then a row requested at its time shows the side after it
+//   an instant outputs before it, audit, event log, law check; then a row requested at its time shows the side after it
 //
 // This is the only list of recorders and their order: each point inside a step is evaluated once for all of them.
 #pragma once

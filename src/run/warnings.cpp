@@ -74,8 +74,8 @@ namespace {
 
 std::string impact_gain(double t, double gain) {
   return fmt::format(
-      "the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction "
-      "may do that",
+      "the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction can add "
+      "energy",
       t, gain);
 }
 
@@ -106,17 +106,16 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
 
 std::string left_at_once(const Model& model, std::size_t c, double t) {
   return fmt::format(
-      "contact '{}' let go at t = {:.9g}, because no continuous motion exists there: the parts without mass "
-      "on it jumped to their equilibrium without the contact; with mass or a damper on them they would need "
-      "time for that",
+      "contact '{}' released at t = {:.9g}, because no continuous motion exists there: its massless parts "
+      "jumped to their equilibrium without the contact; with mass or a damper their motion takes time",
       model.contacts[c].name, t);
 }
 
 std::string rest_at_limit(const Model& model, const decide::ContactAtLimit& found, double t) {
   const Contact& c = model.contacts[found.contact];
   return fmt::format(
-      "contact '{}' sticks at its limit of friction from t = {:.9g} on: the force that it needs is {:.2g} {} "
-      "{} the limit, and rounding may hide {:.2g} {}, so that no double tells whether it slips{}; it counts "
+      "contact '{}' sticks at its friction limit from t = {:.9g} on: the required force is {:.2g} {} {} the "
+      "limit, and its rounding error is {:.2g} {}, so sticking and slip cannot be distinguished{}; it counts "
       "as sticking",
       c.name, t, model::in_scene_units(model, std::abs(found.margin), unit::force), model.units.force,
       found.margin < 0.0 ? "above" : "below", model::in_scene_units(model, found.noise, unit::force),
@@ -148,8 +147,8 @@ std::optional<std::string> energy_warning(const Audit& audit, const Method& meth
     return std::nullopt;
   const std::string much =
       off > audit.energy_scale
-          ? fmt::format("{:.2g}, more than was exchanged ({:.2g})", off, audit.energy_scale)
-          : fmt::format("{:.2g} of what was exchanged", off / audit.energy_scale);
+          ? fmt::format("{:.2g}, more than the exchanged energy ({:.2g})", off, audit.energy_scale)
+          : fmt::format("{:.2g} of the exchanged energy", off / audit.energy_scale);
   const std::string warning =
       fmt::format("the energy balance has an error of {} (at t = {:.6g}); ", much, audit.energy.t);
   if (engine_info(method.engine).accuracy == Accuracy::rounding)

@@ -135,8 +135,8 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
     const bool rises = c.friction.is_rate_strengthening();
     const bool remembers = c.law->has_memory();
     const bool multiplies = !c.law->capabilities.linear_guards;
-    const char* what = remembers                        ? "a law of contact with a memory"
-                       : multiplies                     ? "a law of contact whose guards hold products"
+    const char* what = remembers                        ? "a contact law with memory"
+                       : multiplies                     ? "a contact law whose guards contain products"
                        : c.curved_surface()             ? "a pendulum whose normal force varies"
                        : rises && c.sliding_point()     ? "friction that rises with the slip rate beside a "
                                                           "tangential_stiffness"
@@ -146,11 +146,12 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
                            ? "friction that rises with the slip rate at a rigid contact"
                            : nullptr;
     if (what != nullptr)
-      throw SceneError(scene.contacts[k].place,
-                       scene.contacts[k].key(remembers || multiplies || c.compliance_split() ? "law"
-                                             : c.curved_surface()                            ? "radius"
-                                                                                             : "friction"),
-                       fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));
+      throw SceneError(
+          scene.contacts[k].place,
+          scene.contacts[k].key(remembers || multiplies || c.compliance_split() ? "law"
+                                : c.curved_surface()                            ? "radius"
+                                                                                : "friction"),
+          fmt::format("sensitivities cannot differentiate {}; use differences of runs (sweep)", what));
   }
 }
 

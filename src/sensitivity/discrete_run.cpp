@@ -171,7 +171,7 @@ DiscreteRun::NodeDerivative DiscreteRun::advance(std::size_t p, const motion::Fo
   return known;
 }
 
-/// How the end of a step moves.
+/// Derivative of the time at the end of a step.
 double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& ends) {
   if (step.step.kind != engine::Step::Kind::event) {
     const auto jumps = breakpoints_at(model_, states_[p].derivative, ends.to.t, step.step.resolution);

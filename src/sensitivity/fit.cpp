@@ -145,7 +145,7 @@ class Fitter {
 
  private:
   static constexpr const char* beyond =
-      "; the sum of squares falls beyond it, where the scene allows no value or the run has not the measured "
+      "; the sum of squares decreases beyond it, where the scene allows no value or the run lacks measured "
       "events";
   /// Linearises the run at these keys, or at the side from which they came.
   bool linear_at(const std::vector<double>& keys) {
@@ -218,14 +218,14 @@ class Fitter {
     }
     if (settled())
       return level_ ? "the sum of squares is least"
-                    : "the sum of squares is least where two events meet: its slope jumps there";
+                    : "the sum of squares has its minimum where two events meet: its slope jumps there";
     if (place_.status == GSL_EMAXITER)
-      return fmt::format("it has not settled after {} steps", most_iterations);
+      return fmt::format("it has not converged after {} steps", most_iterations);
     if (place_.status == GSL_EFAILED) {
       const std::string& why = problem_.no_derivative();
       return why.empty() ? "it was interrupted" : why;
     }
-    return "no step makes the sum of squares less, but its slope there is not zero";
+    return "no step reduces the sum of squares, but its slope is not zero";
   }
 
   void take_keys(Fit& result) const {
@@ -243,29 +243,30 @@ class Fitter {
     }
     if (!loose.empty())
       result.issues.push_back(
-          fmt::format("the measurements do not determine {}: {} can be changed without a change of "
-                      "what was measured; fix one, or measure something else",
+          fmt::format("the measurements do not determine {}: {} can change without a change of the measured "
+                      "numbers; fix one key, or measure another quantity",
                       loose, loose.find(',') == std::string::npos ? "it" : "they"));
   }
 
   /// Checks whether the run explains the measurements.
   void explain(Fit& result) const {
     if (result.freedom <= 0) return;
-    const char* advice = "check units, the numbers of events, and what the scene leaves out";
+    const char* advice = "check the units, the event numbers and the simplifications of the scene";
     if (measured_.has_sigma) {
       result.probability = gsl_cdf_chisq_Q(result.chi_squared, static_cast<double>(result.freedom));
       if (!(result.probability >= least_probability))
-        result.issues.push_back(fmt::format(
-            "chi squared is {:.3g} for {} degrees of freedom: the measurements are further from the run "
-            "than their sigmas; {}, or leave sigma out",
-            result.chi_squared, result.freedom, advice));
+        result.issues.push_back(
+            fmt::format("chi squared is {:.3g} for {} degrees of freedom: the measurements differ from the "
+                        "run by more than their sigmas; {}, or leave sigma out",
+                        result.chi_squared, result.freedom, advice));
       return;
     }
     const double measured = problem_.measured_norm();
     const double left = measured > 0.0 ? std::sqrt(result.chi_squared) / measured : 0.0;
     if (!(left <= max_left))
-      result.issues.push_back(fmt::format(
-          "what is left is {:.2g} of what was measured: the run does not explain it; {}", left, advice));
+      result.issues.push_back(
+          fmt::format("the residual is {:.2g} of the measured numbers, which the run does not explain; {}",
+                      left, advice));
   }
 
   sensitivity::FitProblem& problem_;
@@ -369,9 +370,9 @@ class MeasuredTable {
       if (is_new) continue;
       fail(m.line,
            m.event > 0
-               ? fmt::format("event_index: found {} again, expected each event once; it stands in line {}",
+               ? fmt::format("event_index: found {} again, expected each event once; it is also in line {}",
                              m.event, first->second)
-               : fmt::format("{}: found t = {} again, expected each time once; it stands in line {}",
+               : fmt::format("{}: found t = {} again, expected each time once; it is also in line {}",
                              base::excerpt(m.column), base::format_number(m.t), first->second));
     }
   }

@@ -229,12 +229,13 @@ class Differences {
   void check_ties(const Model& model) const {
     if (!model_.ties || !model.ties) return;
     if (!model_.ties->given.empty())
-      throw SceneError({}, path_,
-                       "a support moves a rigid body: there are no derivatives of the motions of its nodes");
-    if (SparseMatrix(model.ties->rows - model_.ties->rows).norm() != 0.0)
       throw SceneError(
           {}, path_,
-          "moves nodes of a rigid body against its centre: there are no derivatives by it of their motions");
+          "a support moves a rigid body: derivatives of the motions of its nodes are not available");
+    if (SparseMatrix(model.ties->rows - model_.ties->rows).norm() != 0.0)
+      throw SceneError({}, path_,
+                       "moves nodes of a rigid body relative to its centre: derivatives of their motions are "
+                       "not available");
   }
 
   /// True if the unknowns are the same: amplitudes of shapes that depend on the parameter are different ones.

@@ -23,7 +23,7 @@ namespace signorini::sensitivity {
 
 class RecomputedMotion {
  public:
-  /// The motion at a time after now(), in its current mode.
+  /// The motion at a time after now(), in its current contact states.
   using MotionAt = std::function<SeriesPoint(double t)>;
 
   /// All arguments except run must outlive the object.

@@ -29,10 +29,10 @@ void check_options(const RunSpec& run, const SensitivityOptions& options) {
   if (!options.discrete) return;
   if (!run::engine_row(run.engine).capabilities.discrete_derivatives)
     throw UsageError(fmt::format(
-        "discrete derivatives are those of fixed steps: found engine {}, expected "
-        "run.engine = {}",
+        "discrete derivatives need fixed time steps: found engine {}, expected run.engine = {}",
         to_string(run.engine), run::engines_that(&run::EngineCapabilities::discrete_derivatives)));
-  if (options.losses) throw UsageError("discrete derivatives: losses are followed along the motion only");
+  if (options.losses)
+    throw UsageError("discrete derivatives: losses are available for the continuous motion only");
 }
 
 /// Adds a place for the derivative by gravity; zero gravity makes no load.
@@ -72,8 +72,8 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
                             Recorder* recorder, const SensitivityOptions& options) {
   if (recorder != nullptr && recorder->steers())
     throw UsageError(
-        "sensitivities: expected a recorder that does not steer; derivatives do not follow what it would "
-        "change");
+        "sensitivities: expected a recorder that does not steer, because derivatives cannot include its "
+        "changes");
   const Scene scene = read({});
   Model model = build_model(scene);
   sensitivity::check_tangent_laws(scene, model);

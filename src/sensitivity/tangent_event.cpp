@@ -190,7 +190,8 @@ void TangentEvents::find_times(PassState& course) const {
     course.after.dt = 0.0;  // no jumps: each contact has its own time, the motion has none
     return;
   }
-  course.stop("events at one instant part with it, and what comes after depends on which is first");
+  course.stop(
+      "simultaneous events separate when the key changes, and the later motion depends on their order");
 }
 
 /// Computes the tangent of the state just after.
@@ -216,7 +217,7 @@ void TangentEvents::move_state(PassState& course) const {
   } else if (const auto& kinds = now.after.system->kinds();
              differ(massive(m.before.v, kinds), massive(m.after.v, kinds), model_, same,
                     model_.scales.velocity / model_.scales.displacement)) {
-    return course.stop("velocities jump otherwise than by an impact");
+    return course.stop("velocities jump without an impact");
   }
   course.after.start.u = Du - dt * m.after.v;
   course.after.start.v = Dv - dt * m.after.a;
@@ -249,7 +250,7 @@ void TangentEvents::move_anchors(PassState& course) const {
     }
     if (!matches(T))
       return course.stop(
-          fmt::format("contact '{}' lets go and takes hold again within one instant", contact.name));
+          fmt::format("contact '{}' releases and sticks again within one instant", contact.name));
     course.after.start.anchors[c] = D.ut - DT / kt + T * rates.tangential_stiffness / (kt * kt);
   }
 }
@@ -259,7 +260,7 @@ bool TangentEvents::vanishes(double rate, double terms, double scale) const {
   return std::abs(rate) <= 10.0 * same * terms + same_motion * scale / size_;
 }
 
-/// Constraints of a mode must also hold for other values of the parameter; otherwise the derivative is only one-sided.
+/// Constraints of the contact states must also hold for other values of the parameter; otherwise the derivative is only one-sided.
 void TangentEvents::check_resting_guards(PassState& course) const {
   const InstantMotion& m = course.m;
   const TangentAfter& after = course.after;
@@ -279,8 +280,10 @@ void TangentEvents::check_resting_guards(PassState& course) const {
              vanishes(D.vt, contact.tangent.magnitude(after.point.v) + std::abs(after.driven[c].surface[1]),
                       scales.velocity);
     if (!held)
-      return course.stop(fmt::format(
-          "contact '{}' is held here for this value only: derivatives from both sides differ", contact.name));
+      return course.stop(
+          fmt::format("contact '{}' stays in its state here for this value of the key only: derivatives from "
+                      "both sides differ",
+                      contact.name));
   }
 }
 
@@ -314,9 +317,10 @@ void TangentEvents::check_kinks(PassState& course) const {
     if (vanishes(value, size, form.magnitude(unit_motion()) * scale_of(form, model_.scales)) &&
         (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))
       continue;
-    return course.stop(fmt::format(
-        "the {} of contact '{}' is zero here for this value only: derivatives from both sides differ",
-        contact::to_string(guard.kind), contact.name));
+    return course.stop(
+        fmt::format("the {} of contact '{}' is zero here for this value of the key only: derivatives from "
+                    "both sides differ",
+                    contact::to_string(guard.kind), contact.name));
   }
 }
 

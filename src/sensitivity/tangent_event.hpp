@@ -37,7 +37,7 @@ struct ImpactRates {
   std::vector<double> normal, tangent;  ///< DPn, DPt, one per contact
 };
 
-/// v, Dv: just before. surface: Ds' of every contact. mode: before the impact.
+/// v, Dv: just before. surface: Ds' of every contact. states: before the impact.
 [[nodiscard]] ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& derivative,
                                        contact::ContactStates states, const decide::Decision& after,
                                        const Vector& v_before, const Vector& Dv_before,

@@ -94,7 +94,7 @@ void TangentRun::begin(const run::RunInstant& start) {
     for (const MovingBreakpoint& b : breakpoints_at(model_, d, 0.0, 0.0))
       if (b.rate != 0.0) {
         state.valid = false;
-        state.reason = "what begins at t = 0 begins later for values on one side only";
+        state.reason = "a load that begins at t = 0 begins later for values on one side only";
       }
   }
   recomputed_motion_.begin(start.after);

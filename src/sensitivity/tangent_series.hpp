@@ -1,12 +1,12 @@
-// tangent_series.hpp: tangent motion of a mode as a series, beside the series of the motion.
+// tangent_series.hpp: tangent motion in fixed contact states as a series, beside the series of the motion.
 //
 //   M wa_k + C wv_k + K w_k + sum ( n N_p,k + t T_p,k )
 //     = P_p,k - M_p a_k - C_p v_k - K_p u_k - sum ( n_p N_k + t_p T_k )
-//   row . (motion of the contact)_p,k = - row_p . (motion of the contact)_k          rows of the mode
+//   row . (motion of the contact)_p,k = - row_p . (motion of the contact)_k          rows of the contact states
 //   wv_k = (k+1)/s w_(k+1),   wa_k = (k+1)(k+2)/s^2 w_(k+2)
 //
-// This is the recurrence of the motion (motion/taylor.hpp), differentiated: each level is one solve with the mode's own
-// factors. Levels beyond those of the motion have no source, since the motion's omitted terms are below its rounding.
+// This is the recurrence of the motion (motion/taylor.hpp), differentiated: each level is one solve with the
+// factors of the contact states. Levels beyond those of the motion have no source, since the motion's omitted terms are below its rounding.
 // The motion may be slow where its tangent is not, so the tangent has its own convergence criterion.
 #pragma once
 

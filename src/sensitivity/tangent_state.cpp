@@ -54,7 +54,7 @@ SeriesTangents::SeriesTangents(const Model& model, motion::StateSystems& systems
                                const std::vector<const ModelDerivative*>& data, bool losses)
     : model_(model), systems_(systems), touched_(contact_dofs(model, data)), losses_(losses) {}
 
-/// The mode's system with friction at the slip rates at the beginning of a series.
+/// The system of the contact states with friction at the slip rates at the beginning of a series.
 motion::StateSystemPtr SeriesTangents::system_at(const motion::StateSystem& system,
                                                  const motion::Series& series) const {
   std::vector<Form> rows;

@@ -223,7 +223,7 @@ TEST_CASE("fit: what the run does not explain is no result") {
     millimetres.rows.push_back({0, "", own.columns[0], own.times[i], 1e3 * own.values[i][0], 1.0});
   const Fit unit = fit(oscillator(), {"springs.1.stiffness"}, millimetres);
   CHECK_FALSE(unit.converged);
-  CHECK(doubted(unit, "of what was measured"));
+  CHECK(doubted(unit, "of the measured numbers"));
 }
 
 TEST_CASE("fit: events are those that were measured, and other columns of their rows count") {
@@ -304,9 +304,9 @@ TEST_CASE("tables that are no measurements, and measurements that the run has no
   refused("t,d0.u\n-0.1,0.5\n", ":2:1: t: found -0.1, expected a time from 0");
   refused("event_index,t\n1,-0.1\n", ":2:2: t: found -0.1, expected a time from 0");
   refused("event_index,t\n1,0.5\n2,0.6\n1,0.5\n",
-          ":4: event_index: found 1 again, expected each event once; it stands in line 2");
+          ":4: event_index: found 1 again, expected each event once; it is also in line 2");
   refused("t,d0.u\n1,0.5\n1,0.6\n",
-          ":3: d0.u: found t = 1 again, expected each time once; it stands in line 2");
+          ":3: d0.u: found t = 1 again, expected each time once; it is also in line 2");
   refused(std::string("\x01\xFF\x13", 3), ":1: found the columns ");
   Measurements data;
   data.rows.push_back({0, "", "d9.u", 1.0, 0.0, 1.0});

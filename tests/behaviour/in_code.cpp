@@ -185,7 +185,7 @@ TEST_CASE("what a law of one's own may not be is told with its state") {
             "static start"));
   for (const Engine engine : {Engine::newmark, Engine::friction_iteration})
     CHECK(has(message([&](UserContactLaw&, Scene& s) { s.run.engine = engine, s.run.dt = 1e-3; }),
-              "contact 'p' has a law of its own; use \"ida\""));
+              "contact 'p' has a user law; use \"ida\""));
 }
 
 TEST_CASE("a load is changed on the way, and the motion is that of both loads") {
@@ -232,7 +232,7 @@ TEST_CASE("what is asked to be certified is steered all the same, and has no cer
   const CertifiedReport run = simulate_certified(build_model(scene), scene.run, hand);
   CHECK(hand.changed == 0.0);
   CHECK_FALSE(run.certificate);
-  CHECK(run.reason == "loads are changed on the way, which no companion could follow");
+  CHECK(run.reason == "loads change during the run through an observer, which a companion run cannot follow");
   // 3 m/s^2 for 0.5 s, then friction alone takes the 1.5 m/s, at 3 m/s^2
   CHECK(hand.rows.back().u[0] == doctest::Approx(0.375 + 0.375).epsilon(1e-12));
 }

@@ -85,7 +85,7 @@ TEST_CASE("massless release: the motion is the limit of small dampers") {
     REQUIRE(exact.report.outcome.kind == Outcome::Kind::done);
     CHECK(std::any_of(
         exact.report.warnings.begin(), exact.report.warnings.end(),
-        [](const std::string& warning) { return warning.find("let go at t = ") != std::string::npos; }));
+        [](const std::string& warning) { return warning.find("released at t = ") != std::string::npos; }));
     CHECK(exact.report.law_checks.violations.empty());
     CHECK(exact.report.audit.energy.value < 1e-9 * exact.report.audit.energy_scale);
     // A damper d delays what it holds by about d/k: the motions differ by d times a number of the scene, which is 4.7

@@ -423,8 +423,8 @@ TEST_CASE(
     }
     CAPTURE(message);
     CHECK(message.find("supports.3.acceleration") != std::string::npos);
-    CHECK(message.find(fmt::format("{:.6g} more", 2.0 * pi * std::cos(phase) / (w * w))) !=
-          std::string::npos);
+    CHECK(message.find(fmt::format("displaces the support by {:.6g} in each",
+                                   2.0 * pi * std::cos(phase) / (w * w))) != std::string::npos);
   }
   const Orbit orbit = orbit_of(text(1.0, 0.5 * pi, "m"));
   CAPTURE(orbit.reason);

@@ -56,7 +56,7 @@ TEST_CASE("a start whose energy is beyond the range of numbers is refused, and o
                                       {"run.initial.mass.ux", beyond ? "1e300" : "1e100"}});
       const Outcome outcome = simulate(build_model(scene), scene.run).report.outcome;
       CHECK(outcome.kind == (beyond ? Outcome::Kind::stopped : Outcome::Kind::done));
-      if (beyond) CHECK(outcome.reason == "the energy at the start leaves the range of numbers");
+      if (beyond) CHECK(outcome.reason == "the energy at the start exceeds the range of doubles");
       if (beyond) CHECK(outcome.t == 0.0);
     }
 }

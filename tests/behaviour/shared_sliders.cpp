@@ -140,7 +140,7 @@ TEST_CASE(
   for (std::size_t i = 0; i < one.rows.size(); ++i)
     CHECK(std::abs(both.rows[i].u[0] - one.rows[i].u[0]) < 1e-5);
   CHECK_THROWS_WITH_AS(static_cast<void>(run_scene(two, "friction-iteration")),
-                       doctest::Contains("decides each contact alone, and contacts 'L' and 'R'"), SceneError);
+                       doctest::Contains("solves each contact alone, but contacts 'L' and 'R'"), SceneError);
 }
 
 TEST_CASE("three sliders on two motions share what they hold by the least norm") {

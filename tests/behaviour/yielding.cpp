@@ -253,7 +253,7 @@ TEST_CASE("yielding: other engines refuse it by name, auto takes ida") {
     CAPTURE(std::string(engine));
     const std::string message = objection_to(block({.engine = engine}));
     CHECK(message.find(fmt::format(
-              "engine \"{}\" does not know law \"yielding\" of contact 'pad'; use \"ida\"", engine)) !=
+              "engine \"{}\" does not support law \"yielding\" of contact 'pad'; use \"ida\"", engine)) !=
           std::string::npos);
     CHECK(message.starts_with("yielding.toml:3:"));  // that of [run]
   }
@@ -268,7 +268,7 @@ TEST_CASE("yielding: sensitivities refuse it, since the derivative of the dent i
   };
   CHECK_THROWS_WITH_AS(
       static_cast<void>(sensitivities(read, {"contacts.pad.yield_force"})),
-      doctest::Contains("contacts.pad.law: sensitivities do not know a law of contact with a memory"),
+      doctest::Contains("contacts.pad.law: sensitivities cannot differentiate a contact law with memory"),
       SceneError);
 }
 

@@ -117,7 +117,7 @@ TEST_CASE(
   const Ending late = shell.run({"orbit", "late.toml", "--over", "loads.2.history.end=1:500", "--no-plots"});
   CAPTURE(late.err);
   CHECK(late.code == 4);  // on the way: what was found before is kept
-  CHECK(late.err.find("the loads repeat themselves from t = ") != std::string::npos);
+  CHECK(late.err.find("the loads are periodic from t = ") != std::string::npos);
 }
 
 TEST_CASE("cli orbit: a branch that the scene refuses on the way is resumed where the scene no longer does") {
@@ -205,7 +205,7 @@ TEST_CASE("cli orbit: steps and points of a branch are those that were asked for
   const Ending few = shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3.0:3.5", "-o", "b",
                                 "--no-plots", "--most-points", "3"});
   CHECK(few.code == 4);
-  CHECK(few.err.find("3 points, no more were asked for") != std::string::npos);
+  CHECK(few.err.find("3 points, the requested maximum") != std::string::npos);
   CHECK(rows_of(shell.read("b/branch.csv")) == 4);
   for (const char* wrong : {"--step=0", "--step=2", "--most-points=0"}) {
     CAPTURE(wrong);

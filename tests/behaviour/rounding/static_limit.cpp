@@ -79,7 +79,7 @@ void check_ends(const CertifiedBlock& c, double t) {
 void check_said(const CertifiedBlock& c, double t) {
   check_ends(c, t);
   REQUIRE(!c.rows.report.warnings.empty());
-  CHECK(c.rows.report.warnings[0].find("contact 'pad' sticks at its limit of friction from t = ") == 0);
+  CHECK(c.rows.report.warnings[0].find("contact 'pad' sticks at its friction limit from t = ") == 0);
 }
 
 }  // namespace

@@ -68,17 +68,17 @@ TEST_CASE(
     "resolve") {
   const certify::CompanionPlan steps = plan_of(scene_of("engine = \"newmark\"\ndt = 1e-3"));
   CHECK(steps.name == "exact");
-  CHECK(steps.choice == "auto: half the step may err alike");
+  CHECK(steps.choice == "auto: a run with half the step may have the same error");
   CHECK(steps.limitation.empty());
   // sqrt(1e4) = 100 rad/s
   const auto half_of = [](const std::string& dt) {
     return plan_of(scene_of("engine = \"newmark\"\ncompanion = \"finer\"\ndt = " + dt)).limitation;
   };
   CHECK(half_of("0.0099").empty());
-  CHECK(half_of("0.0101") ==
-        "dt = 0.0101 s does not resolve the fastest oscillation, 100 rad/s, so half of it may err alike; "
-        "companion = "
-        "\"exact\", or a dt of 0.01, tells more");
+  CHECK(
+      half_of("0.0101") ==
+      "dt = 0.0101 s does not resolve the fastest oscillation, 100 rad/s, so a run with half of it may have "
+      "the same error; use companion = \"exact\", or a dt of 0.01");
 }
 
 TEST_CASE("companion: rebounds rest below the run's own velocity in all") {
@@ -97,7 +97,7 @@ TEST_CASE("companion: laws without a closed flow have a finer one; asking for ex
   const std::string stribeck = "{ static = 0.4, kinetic = 0.3, stribeck_velocity = 0.1 }";
   CHECK(plan_of(scene_of("engine = \"ida\"", stribeck)).name == "ida, rtol 1e-10");
   CHECK_THROWS_WITH_AS((void)plan_of(scene_of("engine = \"ida\"\ncompanion = \"exact\"", stribeck)),
-                       doctest::Contains("run.companion: \"exact\" does not take this scene"), SceneError);
+                       doctest::Contains("run.companion: \"exact\" cannot compute this scene"), SceneError);
 }
 
 TEST_CASE("companion: exact has itself, twice, disturbed; it costs twice the run") {

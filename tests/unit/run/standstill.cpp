@@ -25,7 +25,7 @@ TEST_CASE("standstill: ten thousand events may take a hundred thousandth of the 
     return reason;
   };
   CHECK_FALSE(after(2.01e-5));
-  CHECK(after(1.99e-5) == "10000 events within 1.99e-05 of time; the motion does not get on");
+  CHECK(after(1.99e-5) == "10000 events within 1.99e-05 of time; the motion does not advance");
 }
 
 TEST_CASE("standstill: contacts are those of the instants that were too many") {

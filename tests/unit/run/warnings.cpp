@@ -30,10 +30,10 @@ TEST_CASE("a balance is off beside what was exchanged, and beside the rounding o
   CHECK_FALSE(run::energy_warning(audit(2.8, 1e-8), ida, 10.0, true));
   const auto more = run::energy_warning(audit(2.8, 1e-8), ida, 1.0, true);
   REQUIRE(more);
-  CHECK(has_word(*more, "2.8, more than was exchanged (1e-08)"));
+  CHECK(has_word(*more, "2.8, more than the exchanged energy (1e-08)"));
   const auto lost = run::energy_warning(audit(0.5, 2.0), ida, 0.0, true);
   REQUIRE(lost);
-  CHECK(has_word(*lost, "0.25 of what was exchanged"));
+  CHECK(has_word(*lost, "0.25 of the exchanged energy"));
   CHECK(has_word(*lost, "engine \"exact\""));
   CHECK_FALSE(has_word(*run::energy_warning(audit(0.5, 2.0), ida, 0.0, false), "exact"));
   CHECK_FALSE(has_word(*run::energy_warning(audit(0.5, 2.0), exact, 0.0, true), "engine \"exact\""));

@@ -67,7 +67,7 @@ class Change {
  public:
   Change(const Override& change, const Override& given) : change_(change), given_(given) {
     if (const std::string text = override_text(given_); !base::is_plain_text(text))
-      throw UsageError(base::excerpt(text) + ": found bytes that are no plain UTF-8 text");
+      throw UsageError(base::excerpt(text) + ": found bytes that are not plain UTF-8 text");
     std::string segment;
     for (const char c : change.path + ".") {
       if (c != '.') {

@@ -198,10 +198,10 @@ TEST_CASE("a wrong scene stays a wrong scene under a good override") {
 }
 
 TEST_CASE("overrides: bytes that are no text are a wrong command line, and are not printed") {
-  check_refused({"title", "\xff\xfe"}, "--set title=??: found bytes that are no plain UTF-8 text");
-  check_refused({"title", "a\x7f"}, "no plain UTF-8");
-  check_refused({"title", "\x1b[31mred"}, "no plain UTF-8");
-  check_refused({"contacts.\xc0\xaf.friction", "0.1"}, "no plain UTF-8");
+  check_refused({"title", "\xff\xfe"}, "--set title=??: found bytes that are not plain UTF-8 text");
+  check_refused({"title", "a\x7f"}, "not plain UTF-8");
+  check_refused({"title", "\x1b[31mred"}, "not plain UTF-8");
+  check_refused({"contacts.\xc0\xaf.friction", "0.1"}, "not plain UTF-8");
   CHECK(with({{"title", "Br\u00fccke"}}).title == "Br\u00fccke");
 }
 

@@ -244,7 +244,7 @@ def follow(scene, path, start, stop, settings=None, *, step=0.02, most_points=10
     points    the columns of branch.csv as arrays: parameter, period, amplitude, "NAME minimum" and "NAME maximum" of every
               output, max_multiplier, stable (1, 0, or nan where undecided), loss, sequence, events, special, branch, ...
 
-    step: the greatest, as a part of the range. switches: so many times in a row the walk changes to branches that leave at
+    step: the greatest, as a fraction of the range. switches: so many times in a row the walk changes to branches that leave at
     flips and branch points. A branch that ends early raises nothing: `complete` is False, and `end` says why.
     """
     text, file = _text(scene)

@@ -136,7 +136,7 @@ std::string contact_rows(const Model& model, const check::CheckReport& report) {
 std::string hanger_rows(const Model& model) {
   if (model.hangers.empty()) return "";
   const std::string force = unit(model.units.force);
-  Table table({"spring", "preload" + force, "at t = 0" + force, "designed hot" + force, "variability"},
+  Table table({"spring", "preload" + force, "at t = 0" + force, "hot design" + force, "variability"},
               {false, true, true, true, true});
   for (const HangerLoad& h : model.hangers)
     table.row({fmt::format("{}", h.spring), number(h.cold), number(h.at_start), h.hot ? number(*h.hot) : "",
@@ -197,7 +197,7 @@ std::string frequency_rows(const Model& model, const check::CheckReport& report)
     add_frequencies(table,
                     closing    ? "all open"
                     : sticking ? "all open or sliding"
-                               : "open or not",
+                               : "open or closed",
                     report.open);
     if (closing) add_frequencies(table, sticking ? "all closed, sliding" : "all closed", report.closed);
     if (sticking) add_frequencies(table, "all stuck", report.stuck);
@@ -209,8 +209,8 @@ std::string frequency_rows(const Model& model, const check::CheckReport& report)
                     "= 0 stick\n",
                     number(model.omega1), u.time)
               : std::string(
-                    "there is no omega1: a motion is free, or nothing can move, with the contacts "
-                    "stuck that are closed at t = 0\n");
+                    "no omega1: if all contacts that are closed at t = 0 stick, a motion is free, or nothing "
+                    "can move\n");
   if (model.alpha == 0.0 && model.beta == 0.0) return text + "no Rayleigh damping\n\n";
   return text + fmt::format("damping C = alpha M + beta K, alpha = {} 1/{}, beta = {} {}\n\n",
                             number(model.alpha), u.time, number(model.beta), u.time);
@@ -333,7 +333,7 @@ std::string cost_lines(const Scene& scene, const Model& model, const check::Chec
     exact += " (rule of thumb)\n";
   }
   if (!(effort.steps > 0.0))
-    return text + "      the number of steps is not known beforehand\n" + exact + measured;
+    return text + "      the number of steps cannot be estimated\n" + exact + measured;
   const std::string time = effort.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(effort.seconds) + " s";
   if (steps)
     return text +

@@ -103,7 +103,7 @@ std::vector<Override> overrides_for(const std::vector<std::string>& settings,
     const std::optional<std::string> only = engine_of(change, engines);
     const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
     if (path == "run.engine")
-      throw UsageError(scene::override_text(change) + ": --engines says which engines run");
+      throw UsageError(scene::override_text(change) + ": --engines gives the engines that run");
     if (!only || *only == engine) changes.push_back({path, change.value});
   }
   return changes;

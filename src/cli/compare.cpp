@@ -72,13 +72,13 @@ std::string sequence(const compare::ComparisonReport& report, std::size_t i) {
   const std::size_t pairs = alignment.pairs.size();
   std::string text =
       alignment.split
-          ? fmt::format("{} alike, then they part at t = {:.9g}: {}; {} from there on",
+          ? fmt::format("{} equal, then they differ at t = {:.9g}: {}; {} from there on",
                         base::count_text(pairs, "event"), alignment.split->t,
                         compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
                         base::count_text(alignment.split->unaligned, "event"))
           : fmt::format("the same, {}", base::count_text(pairs, "event")) + up_to(report, i);
   if (alignment.swapped > 0)
-    text += fmt::format("; {} swapped with events of other contacts closer than their uncertainties",
+    text += fmt::format("; {} swapped with events of other contacts within their uncertainties",
                         alignment.swapped);
   return text;
 }
@@ -98,7 +98,7 @@ std::string difference_table(const compare::ComparisonReport& report, std::size_
   std::vector<std::string> header = {"greatest difference", "unit", "value", at, "where"};
   std::vector<bool> right = {false, false, true, true, false};
   if (split) {
-    header.insert(header.end(), {"before they part", at});
+    header.insert(header.end(), {"before the split", at});
     right.insert(right.end(), {true, true});
   }
   if (c.common_times == 0 && c.event_time.count == 0) return "";
@@ -250,7 +250,7 @@ std::vector<std::string> names_of(const std::vector<std::string>& directories) {
   for (std::string name : directories) {
     while (name.size() > 1 && name.back() == '/') name.pop_back();
     if (std::find(names.begin(), names.end(), name) != names.end())
-      throw UsageError("compare: " + name + " stands twice");
+      throw UsageError("compare: " + name + " is given twice");
     names.push_back(name);
   }
   return names;
@@ -292,12 +292,12 @@ void check_sources(const CompareOptions& options) {
     for (std::size_t i = 0; i < options.engines.size(); ++i)
       if (std::count(options.engines.begin(), options.engines.end(), options.engines[i]) > 1)
         throw UsageError("--engines: " + options.engines[i] +
-                         " stands twice; run it twice and compare the two directories");
+                         " is given twice; run it twice and compare the two directories");
     if (options.engines.size() < 2)
       throw UsageError("--engines: found one engine, expected two or more, such as ida,exact");
     return;
   }
-  if (!options.settings.empty()) throw UsageError("--set: runs that are there cannot be changed");
+  if (!options.settings.empty()) throw UsageError("--set: existing runs cannot be changed");
   if (sources.size() >= 2) return;
   if (fs::is_directory(sources.front(), error))
     throw UsageError("compare: found one directory, expected two or more");
@@ -356,7 +356,7 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
   }
   if (!limits.empty())
     for (const auto& [name, reason] : report.refused)
-      report.exceeded.push_back(name + ": refused the scene, so no limit is kept");
+      report.exceeded.push_back(name + ": refused the scene, so limits cannot be checked");
   compare::write_comparison(path, report);
   if (options.json) print(compare::comparison_json(report));
   if (style != TableStyle::plain) {
@@ -372,7 +372,7 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
   for (const std::string& sentence : report.exceeded) print_error("limit exceeded: " + sentence);
   if (!report.exceeded.empty()) return ExitCode::limit;
   if (!outcomes.stopped) return ExitCode::done;
-  print_error("a computation stopped early; what was computed is kept in " + path.string());
+  print_error("a computation stopped early; the results so far are kept in " + path.string());
   return ExitCode::stopped;
 }
 

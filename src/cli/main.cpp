@@ -47,7 +47,8 @@ std::string unexpected(const CLI::App& command) {
     return text.size() > 1 && text[0] == '-' && !knows(command, text.substr(0, text.find('=')));
   });
   if (option == rest.end())
-    return rest.empty() ? "" : fmt::format("{}: \"{}\" is one too many", command.get_name(), rest.front());
+    return rest.empty() ? ""
+                        : fmt::format("{}: unexpected argument \"{}\"", command.get_name(), rest.front());
   const std::string name = option->substr(0, option->find('='));
   const std::vector<std::string> names = option_names(command);
   std::string text = fmt::format("{}: no option {}", command.get_name(), name);
@@ -88,10 +89,9 @@ int main_program(int argc, char** argv) {
   app.set_version_flag("--version", std::string("signorini ") + version + ", SUNDIALS " + sundials_version);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 a bug, 2 wrong command line, 3 wrong scene, 4 stopped early, or verify cannot\n"
-      "decide, 5 a limit of compare was exceeded, or verify or witness found something, 6 a file could not "
-      "be\n"
-      "read or written, 130 interrupted.");
+      "Exit codes: 0 done, 1 a bug, 2 wrong command line, 3 wrong scene, 4 stopped early, or verify "
+      "cannot\ndecide, 5 a limit of compare was exceeded, verify found a difference, or witness found a "
+      "violation,\n6 a file could not be read or written, 130 interrupted.");
   Program program{app, std::vector<std::string>(argv, argv + argc), {}};
   add_run(program);
   add_check(program);

@@ -234,7 +234,7 @@ std::string sequence_table(const Model& model, const Orbit& orbit) {
 std::string stability_line(const Orbit& orbit) {
   const std::string size =
       fmt::format("greatest multiplier {:.9g}, error {:.1g}", orbit.max_multiplier, orbit.multiplier_error);
-  if (orbit.multipliers.empty()) return "stability: not known: " + orbit.reason + "\n";
+  if (orbit.multipliers.empty()) return "stability: unknown: " + orbit.reason + "\n";
   if (!orbit.stable)
     return "stability: undecided: a multiplier lies on the unit circle within its error (" + size + ")\n";
   return *orbit.stable ? "stable (" + size + ")\n"
@@ -273,7 +273,7 @@ ExitCode not_found(const OrbitCommand& options, const Orbit& orbit) {
 
 void set_steps(const OrbitCommand& options, BranchOptions& over) {
   if (options.step && !(*options.step > 0.0 && *options.step <= 1.0))
-    throw UsageError("--step: expected a part of the range, above 0 and at most 1");
+    throw UsageError("--step: expected a fraction of the range, above 0 and at most 1");
   if (options.most_points && *options.most_points < 1)
     throw UsageError("--most-points: expected an integer of at least 1");
   if (options.switches && *options.switches < 0)
@@ -294,7 +294,7 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
     return run_over(options.scene, reader_of(options.scene, changes), over, path, options, options.resume);
   }
   if (options.step || options.most_points || options.switches)
-    throw UsageError("--step, --most-points, --switch: expected --over, whose branch they are of");
+    throw UsageError("--step, --most-points, --switch: expected --over, to whose branch they apply");
   if (options.resume) throw UsageError("--resume: expected --over, whose branch it continues");
   result::check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
@@ -363,8 +363,9 @@ void add_orbit(Program& program) {
                    "branch point (default: 0)")
       ->option_text("N");
   command
-      ->add_option("--step", options->step,
-                   "with --over: greatest step from point to point, as a part of the range (default: 0.02)")
+      ->add_option(
+          "--step", options->step,
+          "with --over: greatest step from point to point, as a fraction of the range (default: 0.02)")
       ->option_text("PART");
   command
       ->add_option("--most-points", options->most_points,

@@ -95,7 +95,7 @@ std::optional<int> wait_for(pid_t child, Clock::time_point last) {
 Ended run_gnuplot(const std::filesystem::path& script) {
   const std::string folder = script.parent_path().string(), name = script.filename().string();
   std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return {no_reason, "no pipe"};
+  if (pipe(ends.data()) != 0) return {no_reason, "cannot create a pipe"};
   const pid_t child = fork();
   if (child == 0) {
     setpgid(0, 0);  // a process group, so that its children can be ended, too
@@ -105,7 +105,7 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   close(ends[1]);
   if (child < 0) {
     close(ends[0]);
-    return {no_reason, "no process"};
+    return {no_reason, "cannot start a process"};
   }
   const auto last = Clock::now() + patience;
   std::string output;
@@ -119,7 +119,7 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   }
   return {no_end, output.size() > max_output
                       ? "it printed more than 64 kB and was stopped"
-                      : fmt::format("not done after {} s, and ended", patience.count())};
+                      : fmt::format("it ran longer than {} s and was stopped", patience.count())};
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ std::string draw_pictures(const std::filesystem::path& directory,
   const std::string more =
       first.size() == scripts.size()
           ? ""
-          : fmt::format(", of the first {} contacts; gnuplot contact-NAME.gp there draws another's",
+          : fmt::format(", of the first {} contacts; gnuplot contact-NAME.gp there draws that of another",
                         max_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)
@@ -202,7 +202,7 @@ std::vector<fs::path> comparison_scripts(const fs::path& directory, const result
       print_unchecked(place);
     }
   } catch (const base::Json::exception& error) {
-    throw FileError(file.string(), std::string("is no comparison: ") + error.what());
+    throw FileError(file.string(), std::string("is not a comparison: ") + error.what());
   }
   if (report.runs.empty()) throw FileError(file.string(), "has no runs");
   compare::begin_comparison_plots(directory);
@@ -238,7 +238,7 @@ std::vector<fs::path> write_any_plots(const fs::path& directory, const result::P
   const std::string kind = report::kind_of_results(directory);
   if (kind == "run") return result::run_pictures(directory, window, look).write(directory);
   if (window.from || window.to)
-    throw UsageError(fmt::format("{}: {} is a {}, whose pictures have no part of a time to show",
+    throw UsageError(fmt::format("{}: {} is a {}, whose pictures show no range of time",
                                  window.from ? "--from" : "--to", directory.string(), kind));
   if (kind == "sweep") return pictures_of_sweep(directory, look).write(directory);
   if (kind == "sensitivity") return pictures_of_sensitivities(directory, look).write(directory);

@@ -30,8 +30,8 @@ struct Drawing {
 
 // Redraws the pictures of any directory of results from its tables.
 
-/// Checks the files of a run (base/run_files.hpp). One that was made with --no-plots is computed once more, as far as
-/// pictures ask; a note says so. Results of another kind are left alone. False: interrupted. Errors: FileError where there are
+/// Checks the files of a run (base/run_files.hpp). A run with --no-plots is computed once more for its
+/// pictures, with a note. Results of another kind are left alone. False: interrupted. Errors: FileError where there are
 /// no results; those of add_picture_rows.
 [[nodiscard]] bool ready_to_draw(const std::filesystem::path& directory);
 

@@ -39,7 +39,7 @@ fs::path directory_of(const RunOptions& options) {
 }
 
 ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& directory) {
-  const std::string kept = "what was computed is kept in " + directory.string();
+  const std::string kept = "the results so far are kept in " + directory.string();
   switch (outcome.kind) {
     case Outcome::Kind::done:
       return ExitCode::done;

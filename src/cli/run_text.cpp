@@ -40,7 +40,7 @@ class EventTable {
   /// `row`: index among all events, from 0.
   void add(const Event& e, std::size_t row) {
     const bool certain = certificate_ == nullptr || certificate_->certain(row);
-    if (!certain && !printed_) table_.line("  --- not certain from here on: " + certificate_->reason);
+    if (!certain && !printed_) table_.line("  --- not certified from here on: " + certificate_->reason);
     printed_ = printed_ || !certain;
     std::vector<std::string> cells = {fmt::format("{:.9g}", e.t), name_of(model_, e.contact),
                                       to_string(e.type)};

@@ -164,8 +164,8 @@ std::string summary_of(const Sensitivities& s, const sensitivity_study::Sigmas& 
   std::string text = first_events(s) + table.str() + "\n" + swap_text(s);
   for (const Parameter& parameter : s.parameters)
     if (!parameter.reason.empty())
-      text +=
-          fmt::format("{}: known until {}: {}\n", parameter.path, number(parameter.until), parameter.reason);
+      text += fmt::format("{}: derivatives known until t = {}: {}\n", parameter.path, number(parameter.until),
+                          parameter.reason);
   if (sigmas.empty()) return text;
   const sensitivity_study::Spread spreads = sensitivity_study::spread(s, sigmas);
   Table figures({"x", "contact", "value", "sigma", "unit"}, {false, false, true, true, false});
@@ -190,7 +190,7 @@ std::string method_of(const Sensitivities& s) {
   text += fmt::format("; derivatives over {} intervals by modes, {} by series", n.modes, n.series);
   if (n.followed > 0) text += fmt::format("; {} recomputed from event to event", n.followed);
   if (n.correction > 0.0) text += fmt::format(", event times within {:.2g} of the engine's", n.correction);
-  if (n.taken > 0) text += fmt::format(", {} times started again from the engine's state", n.taken);
+  if (n.taken > 0) text += fmt::format(", {} times restarted from the engine's state", n.taken);
   return text + fmt::format(", {:.2f} s\n", s.report.wall_time);
 }
 
@@ -299,8 +299,9 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
                      fit.runs, fit.reason, measured.has_sigma ? "chi squared" : "sum of squares",
                      number(fit.chi_squared)) +
          (std::isfinite(fit.probability)
-              ? fmt::format("{} degrees of freedom, as great by chance with a probability of {:.2g}\n",
-                            fit.freedom, fit.probability)
+              ? fmt::format(
+                    "{} degrees of freedom; a value this large has by chance a probability of {:.2g}\n",
+                    fit.freedom, fit.probability)
               : "");
 }
 
@@ -335,7 +336,7 @@ ExitCode run_fit(const FitOptions& options) {
   if (options.tables())
     print(text_of(result, measured) + "results: " + path.string() + "/ (fit.json, residuals.csv)\n");
   if (interrupted) {
-    print_error("interrupted; what was found is kept in " + path.string());
+    print_error("interrupted; the values so far are kept in " + path.string());
     return ExitCode::interrupted;
   }
   for (const std::string& doubt : result.issues) print_error("the fit has not converged: " + doubt);

@@ -94,7 +94,7 @@ void check(const StudyOptions& options) {
                        "\", expected engines by name, such as exact,ida");
   for (const std::string& engine : options.engines)
     if (std::count(options.engines.begin(), options.engines.end(), engine) > 1)
-      throw UsageError("--engines: " + engine + " stands twice");
+      throw UsageError("--engines: " + engine + " is given twice");
   if (options.repeats < 1)
     throw UsageError(fmt::format("--repeats {}: expected at least 1", options.repeats));
   if (!(options.time_limit > 0.0))
@@ -109,7 +109,7 @@ bool says_how_accurate(const std::string& path) {
 
 /// Refuses keys whose values would make runs incomparable, or that another option sets.
 void refuse_key(const std::string& option, const std::string& path) {
-  if (says_how_accurate(path)) throw UsageError(option + ": --rtol and --dt say how accurate runs are");
+  if (says_how_accurate(path)) throw UsageError(option + ": --rtol and --dt set the accuracy of runs");
   for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
                           "title", "schema", "units"})
     if (path == key || path.starts_with(std::string(key) + "."))
@@ -168,7 +168,7 @@ speed::WorkRequest request_of(const StudyOptions& options, const std::vector<std
     refuse_key("--vary " + vary.path, vary.path);
     for (const std::string& value : vary.values)
       if (std::count(vary.values.begin(), vary.values.end(), value) > 1)
-        throw UsageError("--vary " + vary.path + ": " + value + " stands twice");
+        throw UsageError("--vary " + vary.path + ": " + value + " is given twice");
   }
   request.ranges.varied = sweep::points(varied);
   if (!varied.empty()) request.ranges.varied.insert(request.ranges.varied.begin(), std::vector<Override>());
@@ -272,7 +272,7 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
     print(study_text(report) + "\nresults: " + path.string() +
           "/ (study.csv, study.json, study.md, runs/)\n");
   if (report.interrupted) {
-    print_error("interrupted; what was measured is kept in " + path.string());
+    print_error("interrupted; the measurements so far are kept in " + path.string());
     return ExitCode::interrupted;
   }
   if (options.tables() && style == TableStyle::plain) print(drawn);

@@ -55,7 +55,7 @@ void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
     spec.vary.back().group = options.together ? 1 : 0;
   }
   if (options.together && options.varied.size() < 2)
-    throw UsageError("--together: expected two --vary or more, which then vary in step");
+    throw UsageError("--together: expected two or more --vary, which then vary together");
   const auto needs_samples = [&](const char* option) {
     if (options.samples.empty())
       throw UsageError(std::string(option) + ": has no meaning without --sample PATH=DISTRIBUTION");
@@ -90,14 +90,14 @@ void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
 /// Sets how runs continue each other, before any scene is read.
 void carry_on(const SweepOptions& options, sweep::SweepSpec& spec) {
   if (options.back && !options.carry)
-    throw UsageError("--back: has no meaning without --carry, which lets runs go on from each other");
+    throw UsageError("--back: has no meaning without --carry, with which runs continue from each other");
   if (!options.carry) return;
   const auto refuse = [](bool given, const char* option, const char* why) {
     if (given) throw UsageError(fmt::format("--carry: cannot be combined with {}: {}", option, why));
   };
   refuse(!options.samples.empty(), "--sample", "drawn values have no order");
   refuse(options.share.has_value(), "--share", "a row needs the row before it");
-  refuse(options.keep, "--keep", "the state that a run begins with is in no file");
+  refuse(options.keep, "--keep", "the initial state of a run is in no file");
   spec.carry = {true, options.back};
   if (!options.back) return;
   const int group = spec.vary.back().group;
@@ -121,8 +121,8 @@ void specify_strobe(const SweepOptions& options, const Scene& scene, const Model
   const double periods = strobe.period > 0.0 ? t_end / strobe.period : 0.0;
   if (options.carry && !strobe.of_loads && std::abs(periods - std::round(periods)) > 1e-9 * periods)
     throw UsageError(
-        fmt::format("--carry: t_end = {:g} is {:g} times the period of --strobe, expected a whole "
-                    "number: the next run's loads begin anew",
+        fmt::format("--carry: t_end = {:g} is {:g} times the period of --strobe, expected a whole number: "
+                    "the loads of the next run start at t = 0 again",
                     t_end, periods));
 }
 
@@ -182,7 +182,7 @@ Specified specify(const SweepOptions& options) {
       for (const std::string& response : options.responses) {
         const sweep::ResponseQuery query = sweep::parse_query(response, model);
         if (std::find(spec.responses.begin(), spec.responses.end(), response) != spec.responses.end())
-          throw UsageError("--response " + response + ": asked for twice");
+          throw UsageError("--response " + response + ": given twice");
         spec.responses.push_back(response);
         spec.response_units.push_back(sweep::unit_of(query, model));
       }
@@ -318,7 +318,7 @@ void conclude(const SweepOptions& options, const sweep::SweepDirectory& director
   std::size_t failed = 0;
   for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;
   if (failed > 0 && !options.quiet)
-    print_note(fmt::format("{} of {} did not reach the end; the column reason of {} says why", failed,
+    print_note(fmt::format("{} of {} did not reach the end; see the column reason of {}", failed,
                            base::count_text(directory.rows().size(), "run"),
                            (directory.path() / "sweep.csv").string()));
 }
@@ -358,14 +358,14 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   SweepTasks tasks(directory, common, options.keep);
   const std::size_t kept = directory.rows().size();
   if (kept > 0 && options.keep && !options.quiet)
-    print_note("--keep: rows that are there already keep what they have; --force computes them again");
+    print_note("--keep: existing rows stay without directories of runs; --force computes them again");
   if (kept > 0 && !options.quiet)
-    print_note(fmt::format("{} of {} there already, {} to go", base::count_text(kept, "row"),
+    print_note(fmt::format("{} of {} already computed, {} to go", base::count_text(kept, "row"),
                            directory.spec().carry.on ? directory.points().size() : kept + tasks.rows(),
                            tasks.rows()));
   if (!run_rows(directory, tasks, options)) {
     directory.write_table();
-    print_error(fmt::format("interrupted; {} of {} kept in {}, the same command goes on",
+    print_error(fmt::format("interrupted; {} of {} kept in {}; the same command continues",
                             directory.rows().size(), base::count_text(kept + tasks.rows(), "row"),
                             directory.path().string()));
     return ExitCode::interrupted;
@@ -382,21 +382,21 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
 
 ExitCode merge(const SweepOptions& options) {
   if (!options.directory || options.directory->empty())
-    throw UsageError("--merge: expected -o DIR, where the joined sweep goes");
+    throw UsageError("--merge: expected -o DIR, the directory of the joined sweep");
   if (!options.scene.empty() || !options.varied.empty() || !options.settings.empty() || options.share ||
       !options.responses.empty() || !options.samples.empty() || !options.strobe.empty() || options.carry)
     throw UsageError(
-        "--merge: joins sweeps that are there; expected neither SCENE nor --vary, --sample, --response, "
-        "--strobe, --carry, --set, --share");
+        "--merge: joins existing sweeps; expected neither SCENE nor --vary, --sample, --response, --strobe, "
+        "--carry, --set, --share");
   std::vector<fs::path> from(options.merge.begin(), options.merge.end());
   sweep::SweepSpec spec = sweep::read_sweep_spec(from.front());
   spec.share = {};
   for (const fs::path& path : from) {
     const std::string differs = sweep::difference(spec, sweep::read_sweep_spec(path));
-    if (!differs.empty()) throw FileError(path.string(), "is no share of the same sweep: " + differs);
+    if (!differs.empty()) throw FileError(path.string(), "is not a share of the same sweep: " + differs);
     std::error_code error;
     if (fs::equivalent(path, *options.directory, error))
-      throw UsageError("--merge: " + path.string() + " is the directory to write, too");
+      throw UsageError("--merge: " + path.string() + " is also the output directory");
   }
   sweep::SweepDirectory directory(*options.directory, spec, options.force);
   const std::vector<std::size_t> missing = sweep::merge_sweeps(from, directory);
@@ -407,8 +407,8 @@ ExitCode merge(const SweepOptions& options) {
   for (std::size_t i = 0; i < std::min(missing.size(), most_named); ++i)
     list += (i > 0 ? ", " : "") + std::to_string(missing[i] + 1);
   if (missing.size() > most_named) list += ", ...";
-  print_error(fmt::format("{} of {} missing ({}); the sweep itself with -o {} computes them", missing.size(),
-                          base::count_text(directory.points().size(), "row"), list,
+  print_error(fmt::format("{} of {} missing ({}); run the sweep itself with -o {} to compute them",
+                          missing.size(), base::count_text(directory.points().size(), "row"), list,
                           directory.path().string()));
   return ExitCode::stopped;
 }
@@ -418,8 +418,8 @@ SweepOptions with_engine(SweepOptions options) {
   if (options.engine.empty()) return options;
   for (const std::string& varied : options.varied)
     if (varied.starts_with("run.engine="))
-      throw UsageError(fmt::format("--engine {}: has no effect, --vary {} sets it anew in every run",
-                                   options.engine, varied));
+      throw UsageError(
+          fmt::format("--engine {}: has no effect, --vary {} sets it in every run", options.engine, varied));
   const Override engine = engine_override(options.engine, "--engine");
   options.settings.push_back(engine.path + "=" + engine.value);
   return options;

@@ -91,7 +91,7 @@ std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& row
     text +=
         fmt::format("  ... {} more responses; all are in sweep.csv\n", spec.responses.size() - max_responses);
   if (figures && all.size() > contacts.size())
-    text += fmt::format("  ... {} more contacts, which press less; all are in sweep.csv\n",
+    text += fmt::format("  ... {} more contacts, with smaller forces; all are in sweep.csv\n",
                         all.size() - contacts.size());
   constexpr std::size_t most_reasons = 10;
   std::size_t reasons = 0;
@@ -136,7 +136,8 @@ std::string quantile_text(const sweep::SweepSpec& spec, const std::vector<sweep:
   if (style != TableStyle::plain) return text;
   if (answers.size() > max_answers)
     text += fmt::format("  ... {} more; all are in quantiles.csv\n", answers.size() - max_answers);
-  if (sweep::independent(spec)) text += "  in brackets: 95 % confidence, whatever the distribution\n";
+  if (sweep::independent(spec))
+    text += "  in brackets: 95 % confidence interval, valid for any distribution\n";
   return text;
 }
 

@@ -100,7 +100,7 @@ ExitCode run(const VerifyOptions& options) {
     print(text_of(result) + "results: " + path.string() + "/ (verify.json, events.csv)\n" + drawn);
   }
   if (result.interrupted) {
-    print_error("interrupted; what was computed is kept in " + path.string());
+    print_error("interrupted; the results so far are kept in " + path.string());
   } else if (result.verdict != verify::Agreement::agree) {
     print_error(fmt::format("{}: {}", verify::to_string(result.verdict), result.sentence));
   }
@@ -112,7 +112,7 @@ ExitCode run(const VerifyOptions& options) {
 void add_verify(Program& program) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* command = program.app.add_subcommand(
-      "verify", "check ida against newmark at three steps, and say whether they agree");
+      "verify", "check ida against newmark at three steps, and report whether they agree");
   command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
   command
       ->add_option("-o,--output", options->directory,

@@ -38,7 +38,7 @@ ExitCode hear_witness(const WitnessOptions& options) {
   const directory_check::DirectoryLawCheck found = directory_check::check_directory_laws(options.directory);
   print_unchecked(options.directory);
   if (!found.complete)
-    print_note(options.directory + ": the run had not ended; its files are checked as far as they go");
+    print_note(options.directory + ": the run is not complete; its files are checked up to their last rows");
   if (options.json) {
     base::Json json = {{"instants", found.instants},
                        {"events", found.events},

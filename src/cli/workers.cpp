@@ -196,7 +196,8 @@ class Pool {
   void start() {
     Pipe tasks, reports;
     const pid_t child = fork();
-    if (child < 0) throw FileError("fork", "no process: " + std::generic_category().message(errno));
+    if (child < 0)
+      throw FileError("fork", "cannot start a process: " + std::generic_category().message(errno));
     if (child == 0) {
       tasks.in.reset();
       workers_.clear();  // pipes of other workers belong to the parent

@@ -416,8 +416,9 @@ std::vector<std::string> load_case_warnings(const std::vector<LoadCase>& cases) 
                                    shown(number_in(entry_of(outcome, "t_end")).value_or(0.0)),
                                    text_in(entry_of(outcome, "kind"))));
     if (names_in(entry_of(c.summary, "contacts")) != names_in(entry_of(cases.front().summary, "contacts")))
-      doubts.push_back(fmt::format("cases {} and {} have different contacts: is it the same structure?",
-                                   cases.front().name, c.name));
+      doubts.push_back(
+          fmt::format("cases {} and {} have different contacts; check that they describe the same structure",
+                      cases.front().name, c.name));
   }
   return doubts;
 }
@@ -445,7 +446,7 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
               table("<th>case</th><th>title</th><th>changed in the scene</th><th>engine</th><th>outcome</th>"
                     "<th>reached t</th><th>events</th>",
                     facts) +
-                  doubts + signs("Bold: the case that governs, that is min, max or greatest magnitude.") +
+                  doubts + signs("Bold: the governing case, by minimum, maximum or greatest magnitude.") +
                   warnings_html(cases));
   const std::vector<CaseRow> rows = case_rows(cases);
   text += section("loads", "Support loads", rows_html(cases, rows, Sheet::support));

@@ -184,9 +184,9 @@ std::string audit_table(const base::Json& summary, const Units& units) {
         html_text(contact.is_null() ? "" : value_text(contact)));
   }
   if (rows.empty()) return "";
-  return "<p>How well the run kept the conditions of contact, the equations and the energy balance: the "
-         "greatest errors.</p>\n<div class=wide><table><thead><tr><th>condition</th><th>relative</th>"
-         "<th>value</th><th>at t</th><th>contact</th></tr></thead><tbody>\n" +
+  return "<p>Greatest errors of the contact conditions, the equations and the energy balance.</p>\n<div "
+         "class=wide><table><thead><tr><th>condition</th><th>relative</th><th>value</th><th>at "
+         "t</th><th>contact</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";
 }
 
@@ -277,8 +277,8 @@ std::string run_page(const fs::path& directory, const Scene& scene, const std::s
   body += section("audit", "Audit", audit_table(summary, scene.units));
   const std::string events = event_table(directory / "events.csv", scene.units);
   body += section("events", "Events", events.empty() ? "" : part("events.html") + events);
-  std::string end = section("check", "What check says", preformatted(check));
-  end += section("scene", "What was asked", preformatted(whole_file(directory / "run.toml")));
+  std::string end = section("check", "Output of check", preformatted(check));
+  end += section("scene", "Scene", preformatted(whole_file(directory / "run.toml")));
   const std::string json = script_json(base::json_line(data));
   constexpr std::size_t style_and_script = 50'000;
   const std::size_t taken = body.size() + end.size() + json.size() + style_and_script;

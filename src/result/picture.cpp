@@ -108,7 +108,7 @@ std::string beginning(const PlottedRun& run, const Picture& picture) {
   const bool shaded = picture.over_time && run.facts.certain_until && *run.facts.certain_until < run.to;
   if (shaded)
     note += " (" +
-            translate(run, "shaded: not certain, from t = {} on",
+            translate(run, "shaded: not certified, from t = {} on",
                       fmt::format("{:.6g}", *run.facts.certain_until)) +
             ")";
   std::string s = "# Draws " + picture.name +

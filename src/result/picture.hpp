@@ -2,7 +2,7 @@
 //
 //   picture -script_of-> text of NAME.gp, which draws once for each format
 //
-//   Picture p{"energy", "Where the energy is", canvas_of(look, 768.0, true)};
+//   Picture p{"energy", "Stored energy, work, losses and balance", canvas_of(look, 768.0, true)};
 //   p.panels.push_back({"energy [J]", {{"'../energy.csv' skip 1", "1:4", "with lines", "kinetic"}}});
 //   script_of(run, p)
 //

@@ -171,7 +171,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"Contact '{}'", "Kontakt '{}'", "Контакт '{}'"},
     std::array<std::string_view, 3>{"Displacements from the undeformed state", "Verschiebungen gegen den unverformten Zustand", "Перемещения относительно недеформированного состояния"},
     std::array<std::string_view, 3>{"Response quantities", "Antwortgrößen", "Величины отклика"},
-    std::array<std::string_view, 3>{"Where the energy is, where it went, and the balance", "Wo die Energie ist, wohin sie ging, und die Bilanz", "Где энергия, куда она ушла, и баланс"},
+    std::array<std::string_view, 3>{"Stored energy, work, losses and balance", "Wo die Energie ist, wohin sie ging, und die Bilanz", "Где энергия, куда она ушла, и баланс"},
     std::array<std::string_view, 3>{"States of the contacts", "Zustände der Kontakte", "Состояния контактов"},
     std::array<std::string_view, 3>{"Events of the contacts, a mark each", "Ereignisse der Kontakte, je ein Strich", "События контактов, по отметке на каждое"},
     std::array<std::string_view, 3>{"Loads and motion of the base", "Lasten und Bewegung des Bodens", "Нагрузки и движение основания"},
@@ -186,7 +186,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{" (run {})", " (Lauf {})", " (расчёт {})"},
     std::array<std::string_view, 3>{"stopped", "abgebrochen", "остановлен"},
     std::array<std::string_view, 3>{"interrupted", "unterbrochen", "прерван"},
-    std::array<std::string_view, 3>{"shaded: not certain, from t = {} on", "schattiert: nicht gesichert, ab t = {}", "серым: не гарантировано, с t = {}"},
+    std::array<std::string_view, 3>{"shaded: not certified, from t = {} on", "schattiert: nicht gesichert, ab t = {}", "серым: не гарантировано, с t = {}"},
 };
 // clang-format on
 

@@ -251,7 +251,7 @@ Picture energy_picture(const PlottedRun& run) {
       0.28,
       "set format y '%g'\n"};
   return {"energy",
-          translate(run, "Where the energy is, where it went, and the balance"),
+          translate(run, "Stored energy, work, losses and balance"),
           canvas_of(run.look, 768, true),
           true,
           {energies, off},

@@ -46,7 +46,7 @@ ContactNumbers contact_numbers(const RunFacts& facts) {
 std::size_t number_of(const ContactNumbers& numbers, const std::string& contact, const CsvReader& table) {
   const auto found = numbers.find(contact);
   if (found == numbers.end())
-    table.refuse("has a contact that summary.json has not: '" + contact.substr(0, 80) + "'");
+    table.refuse("has a contact that is not in summary.json: '" + contact.substr(0, 80) + "'");
   return found->second;
 }
 

@@ -207,7 +207,7 @@ void RunDirectory::abandon(double t, const std::string& reason) {
   try {
     write_file(path_ / "summary.json", abandoned_json(scene_, model_, options_.command_line, t, reason));
     write_manifest(Outcome::Kind::stopped);
-  } catch (const FileError&) {  // the disk may be full: it still says "running"
+  } catch (const FileError&) {  // the disk may be full; summary.json still has the outcome "running"
   }
 }
 

@@ -3,10 +3,10 @@
 //   RunDirectory directory("pipeline-run", scene, model, {.force = false, .command_line = ...});
 //   directory.finish(simulate(model, scene.run, directory));
 //
-// The constructor only looks; the directory is created by the first row, sign of progress or finish(), so a
-// run that never starts leaves nothing behind. What is there is never overwritten without `force`. With
-// `force` it must be a run; only files that Signorini writes are removed, and never the scene itself. Nobody
-// else can write into it before the object is gone. A manifest (base/run_files.hpp) is written last, and removed first.
+// The constructor writes nothing; the directory is created by the first row, sign of progress or finish(), so a
+// run that never starts leaves no files. Existing files are never overwritten without `force`. With
+// `force` the directory must be a run; only files that Signorini writes are removed, and never the scene itself. No other
+// process can write into it while the object exists. A manifest (base/run_files.hpp) is written last, and removed first.
 #pragma once
 
 #include <filesystem>
@@ -68,8 +68,8 @@ class RunDirectory : public Recorder {
   [[nodiscard]] bool wants_instants() const override { return options_.instants; }
   void instant(const InstantRow& row) override;
   bool progress(double t) override;
-  /// Writes the final summary.json, then the manifest; returns the summary's text, of a certified run what its certificate
-  /// says, too.
+  /// Writes the final summary.json, then the manifest; returns the summary's text, for a certified run with its
+  /// certificate.
   std::string finish(const Report& report);
   std::string finish(const CertifiedReport& run);
   /// After a FileError: summary.json gets the time and the reason of the stop, if it can still be written.

@@ -35,7 +35,7 @@ inline base::Json hangers_json(const Model& model) {
 /// The inverse of units_json. Errors: Json::exception.
 [[nodiscard]] Units units_from(const base::Json& json);
 
-// Results of a witness, for summary.json and `signorini witness --json`.
+// Results of a law checker, for summary.json and `signorini witness --json`.
 
 /// {"checked", "violated", "violations": [{"t", "event", "contact", "law", "value", "limit"}, ...]}
 [[nodiscard]] base::Json law_check_json(const Model& model, const LawCheckSummary& witness);

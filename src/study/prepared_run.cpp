@@ -51,9 +51,9 @@ StoredRun PreparedRun::run_to_disk(result::RunDirectory& directory, run::Forward
   } catch (const FileError& error) {
     if (!directory.started()) throw;
     directory.abandon(watch.reached(), error.what());
-    throw FileError(error, fmt::format("; the run stopped at t = {:.9g} {}; what was computed until then "
-                                       "is kept in {}",
-                                       watch.reached(), model.units.time, directory.path().string()));
+    throw FileError(error,
+                    fmt::format("; the run stopped at t = {:.9g} {}; the results until then are kept in {}",
+                                watch.reached(), model.units.time, directory.path().string()));
   }
   kept.summary = directory.finish(kept.certified);
   return kept;
@@ -159,10 +159,9 @@ bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go
   const Report report = simulate(prepared.model, prepared.scene.run, rows);
   if (report.outcome.kind == Outcome::Kind::interrupted) return false;
   if (!same_events(rows.events(), directory / "events.csv"))
-    throw FileError(
-        (directory / "events.csv").string(),
-        "the run was computed again for its pictures (it was made with --no-plots), and has other "
-        "events now: the program, or a file that run.toml reads, is another than it was");
+    throw FileError((directory / "events.csv").string(),
+                    "the run was computed again for its pictures (it was made with --no-plots), and its "
+                    "events differ: the program, or a file that run.toml reads, has changed");
   std::optional<base::Manifest> manifest = base::read_manifest(directory);
   if (manifest) {
     for (const std::string_view table : base::picture_rows) manifest->remove(table);

@@ -31,8 +31,8 @@ struct PreparedRun {
 
   /// Runs in memory, with output rows at both ends only. Errors: SceneError for scenes that the engine refuses.
   Report run_in_memory(Recorder& recorder) const;
-  /// Into `directory`, to which `watch` passes all on; certified where options are given. Where a file cannot be
-  /// written the directory says how far the run came. Errors: as of ends(); FileError.
+  /// Into `directory`, to which `watch` passes all on; certified where options are given. If a file cannot be
+  /// written, summary.json has the time that the run reached. Errors: those of ends(); FileError.
   StoredRun run_to_disk(result::RunDirectory& directory, run::ForwardingRecorder& watch,
                         const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };

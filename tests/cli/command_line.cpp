@@ -89,7 +89,7 @@ TEST_CASE("cli: what a command does not take is named, with what was meant") {
         "error: sensitivity: no option --engine; --set run.engine=NAME does it\nsee signorini sensitivity "
         "--help\n");
   CHECK(told({"run", "a.toml", "extra"}) ==
-        "error: run: \"extra\" is one too many\nsee signorini run --help\n");
+        "error: run: unexpected argument \"extra\"\nsee signorini run --help\n");
 }
 
 TEST_CASE("cli: --quiet says nothing but errors, and what happens is kept") {

@@ -107,8 +107,8 @@ TEST_CASE("cli compare: a setting for one engine, and the first difference of th
       shell.run({"compare", "belt.toml", "--engines", "exact,ida", "--no-plots", "--set",
                  "ida:contacts.belt.friction=1.2", "--set", "run.t_end=25", "--limit", "sequence=0"});
   CHECK(ending.code == 5);
-  CHECK(has(ending.out, "they part at t = "));
-  CHECK(has(ending.err, "ida: sequence parts at t = "));
+  CHECK(has(ending.out, "they differ at t = "));
+  CHECK(has(ending.err, "ida: sequence differs from t = "));
   const json report = json::parse(shell.read("belt-compare/compare.json"));
   const json& first = report["comparisons"][0]["first_difference"];
   CHECK(first["unaligned"].get<int>() > 0);
@@ -118,7 +118,7 @@ TEST_CASE("cli compare: a setting for one engine, and the first difference of th
   const Ending times = shell.run({"compare", "belt-compare/exact", "belt-compare/ida", "--no-plots", "-o",
                                   "c2", "--limit", "event_time=1e9"});
   CHECK(times.code == 5);
-  CHECK(has(times.err, "have no partner"));
+  CHECK(has(times.err, "have no matching event"));
 }
 
 TEST_CASE("cli compare: directories, of different length") {
@@ -233,7 +233,7 @@ TEST_CASE("cli compare: what is wrong is told before anything is written") {
   const std::vector<Wrong> wrong = {
       {{"compare", "belt.toml"}, "expected --engines"},
       {{"compare", "belt.toml", "--engines", "ida"}, "expected two or more"},
-      {{"compare", "belt.toml", "--engines", "ida,ida"}, "stands twice"},
+      {{"compare", "belt.toml", "--engines", "ida,ida"}, "is given twice"},
       {{"compare", "belt.toml", "--engines", "ida,exat"}, "--engines exat: run.engine: "},
       {{"compare", "belt.toml", "--engines", "ida,exat"}, "did you mean \"exact\"?"},
       {{"compare", "belt.toml", "--engines", "ida,ida:rtol=0"}, "--engines ida:rtol=0: run.rtol: "},
@@ -244,7 +244,7 @@ TEST_CASE("cli compare: what is wrong is told before anything is written") {
       {{"compare", "belt.toml", "--engines", "ida,exact", "--limit", "event_time"}, "expected NAME=NUMBER"},
       {{"compare", "belt.toml", "--engines", "ida,exact", "--set", "exat:run.rtol=1e-9"},
        "did you mean \"exact\"?"},
-      {{"compare", "belt.toml", "--engines", "ida,exact", "--set", "run.engine=ida"}, "--engines says"},
+      {{"compare", "belt.toml", "--engines", "ida,exact", "--set", "run.engine=ida"}, "--engines gives"},
       {{"compare", "belt.toml", "--engines", "ida,exact", "--instant", "-1"}, "expected a time >= 0"},
       {{"compare", "belt.toml", "belt.toml", "--engines", "ida,exact"}, "found 2 scenes"},
   };

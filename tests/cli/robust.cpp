@@ -230,7 +230,7 @@ TEST_CASE(
   CHECK(signorini::cli_test::lines(shell.read("belt-sweep/sweep.csv")) > 1);
   const Ending again = shell.run(command);
   CHECK(again.code == 0);
-  CHECK(has(again.err, std::to_string(signorini::cli_test::lines(kept)) + " rows of 21 there already"));
+  CHECK(has(again.err, std::to_string(signorini::cli_test::lines(kept)) + " rows of 21 already computed"));
   CHECK(shell.read("belt-sweep/rows.jsonl").starts_with(kept));
   CHECK(signorini::cli_test::lines(shell.read("belt-sweep/rows.jsonl")) == 21);
 }
@@ -258,7 +258,7 @@ TEST_CASE("cli: a gnuplot that floods is ended, and the run is there") {
   shell.write("belt.toml", belt(5));
   fake_gnuplot(shell, "exec yes 'warning: all is well' >&2");
   CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\" $SIGNORINI run belt.toml >.out 2>.err") == 0);
-  CHECK(has(shell.read(".err"), "it said more than 64 kB and was ended"));
+  CHECK(has(shell.read(".err"), "it printed more than 64 kB and was stopped"));
   CHECK(shell.read(".err").size() < 1000);
   CHECK(json::parse(shell.read("belt-run/summary.json"))["outcome"]["kind"] == "done");
 }
@@ -311,7 +311,7 @@ TEST_CASE("cli: --vary with bytes that are no text is a wrong command line") {
   for (const std::string value : {"title=\xff,b", "title=\x1b[31m,b"}) {
     const Ending ending = shell.run({"sweep", "belt.toml", "--vary", value});
     CHECK(ending.code == 2);
-    CHECK(has(ending.err, "no plain UTF-8 text"));
+    CHECK(has(ending.err, "not plain UTF-8 text"));
     CHECK(ending.err.find('\x1b') == std::string::npos);
   }
   CHECK(shell.run({"run", "belt.toml", "--set", "title=\xc0\xaf"}).code == 2);
@@ -347,7 +347,7 @@ TEST_CASE("cli: a gnuplot that hangs is ended after a minute, and the run is the
   shell.write("belt.toml", belt(5));
   fake_gnuplot(shell, "exec sleep 1000");
   CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\" timeout 100 $SIGNORINI run belt.toml >.out 2>.err") == 0);
-  CHECK(has(shell.read(".err"), "not done after 60 s"));
+  CHECK(has(shell.read(".err"), "it ran longer than 60 s and was stopped"));
 }
 
 TEST_SUITE_END();

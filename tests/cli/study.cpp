@@ -154,7 +154,7 @@ TEST_CASE("cli study: wrong command lines are told before anything is written") 
     CHECK_FALSE(exists(shell, "belt-study"));
   };
   wrong({"--engines", "idea"}, "--engines idea");
-  wrong({"--engines", "ida,ida"}, "stands twice");
+  wrong({"--engines", "ida,ida"}, "is given twice");
   wrong({"--engines", ",", "-o", "st"}, "--engines: found \",\", expected engines by name");
   wrong({"--engines", "exact,,ida"}, "--engines: found \"exact,,ida\", expected engines by name");
   wrong({"--rtol", "1e-4:0"}, "--rtol 1e-4:0: found \"0\"");
@@ -163,7 +163,7 @@ TEST_CASE("cli study: wrong command lines are told before anything is written") 
   wrong({"--time-limit", "-1"}, "--time-limit");
   wrong({"--vary", "run.rtol=1,2"}, "--vary run.rtol: --rtol and --dt");
   wrong({"--vary", "spring.1.stiffness=1,2"}, "--vary spring.1.stiffness=1: unknown key");
-  wrong({"--set", "run.engine=ida"}, "--engines says");
+  wrong({"--set", "run.engine=ida"}, "--engines gives");
   shell.write("note.txt", "mine");
   CHECK(shell.run({"study", "belt.toml", "-o", "note.txt"}).code == 6);
   std::filesystem::create_directory(shell / "mine");

@@ -140,7 +140,7 @@ TEST_CASE("cli sweep: resumes where it was; a differing specification is refused
   shell.write("belt-sweep/rows.jsonl", row(4) + kept + row(2) + row(5).substr(0, 40));  // the last one half
   const Ending again = shell.run(command);
   CHECK(again.code == 0);
-  CHECK(again.err == "note: 3 rows of 5 there already, 2 to go\n");
+  CHECK(again.err == "note: 3 rows of 5 already computed, 2 to go\n");
   CHECK(row(1) == kept);  // wall time and all: not computed again
   CHECK(rows(shell, "belt-sweep") == before);
   for (const int n : {3, 5}) CHECK(has(row(n), "\"outcome\":\"done\""));
@@ -158,7 +158,7 @@ TEST_CASE("cli sweep: resumes where it was; a differing specification is refused
   refused({"sweep", "belt.toml", "--vary", vary, "--share", "1/2", "-o", "belt-sweep"},
           "--share was 1/1, is 1/2");
   shell.write("belt.toml", belt(11));
-  refused(command, "the scene belt.toml has another content now");
+  refused(command, "the content of the scene belt.toml has changed");
   std::vector<std::string> forced = command;
   forced.push_back("--force");
   CHECK(shell.run(forced).code == 0);
@@ -180,11 +180,11 @@ TEST_CASE("cli sweep: an interrupt keeps the finished rows") {
   const Ending ending = shell.wait(child);
   if (ending.code == 0) return;  // a machine so fast that all was done
   CHECK(ending.code == 130);
-  CHECK(has(ending.err, "the same command goes on"));
+  CHECK(has(ending.err, "the same command continues"));
   CHECK(exists(shell, "belt-sweep/sweep.csv"));
   const Ending again = shell.run(command);
   CHECK(again.code == 0);
-  CHECK(has(again.err, " there already, "));
+  CHECK(has(again.err, " already computed, "));
   CHECK(rows(shell, "belt-sweep").size() == 5);
 }
 
@@ -230,7 +230,7 @@ TEST_CASE("cli sweep: what is wrong is told before anything is written") {
   shell.write("mine/sweep.csv", "mine");
   const Ending mine = shell.run({"sweep", "belt.toml", "--vary", "run.rtol=1e-8", "-o", "mine", "--force"});
   CHECK(mine.code == 6);
-  CHECK(has(mine.err, "holds no sweep"));
+  CHECK(has(mine.err, "contains no sweep"));
   CHECK(shell.read("mine/sweep.csv") == "mine");
 }
 
@@ -359,7 +359,7 @@ TEST_CASE("cli sweep: a note where --strobe is no period of the loads; --strobe 
   };
   const std::vector<std::string> over_load = {"--vary", "loads.1.amplitude=20,30"},
                                  over_period = {"--vary", "loads.1.history.omega=8,9", "--carry", "--back"};
-  CHECK(has(sweep("0.5", over_load).err, "note: --strobe 0.5: the loads repeat themselves after 0.785"));
+  CHECK(has(sweep("0.5", over_load).err, "note: --strobe 0.5: the period of the loads is 0.785"));
   CHECK(sweep("0.7853981633974483", over_load).err.empty());
   CHECK(has(sweep("0.7853981633974483", {"--vary", "loads.1.history.omega=8,9"}).err, "--strobe loads"));
   const Ending ending = sweep("loads", over_period);

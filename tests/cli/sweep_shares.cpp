@@ -42,7 +42,7 @@ TEST_CASE("cli sweep: shares are merged, what is missing is named") {
       0);
   const Ending foreign = shell.run({"sweep", "--merge", "belt-sweep-1-of-3", "foreign", "-o", "mixed"});
   CHECK(foreign.code == 6);
-  CHECK(has(foreign.err, "foreign: is no share of the same sweep"));
+  CHECK(has(foreign.err, "foreign: is not a share of the same sweep"));
   CHECK_FALSE(exists(shell, "mixed"));
 }
 

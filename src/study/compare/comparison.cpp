@@ -270,7 +270,7 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   compare_energy(reference, other, split, c);
   compare_response(reference, other, split, c);
   if (c.common_times < 2 && c.t_end > 0.0) {
-    c.notes.push_back(fmt::format("{} output {} common: give both runs one grid (run.output_dt)",
+    c.notes.push_back(fmt::format("{} output {} common: give both runs the same output times (run.output_dt)",
                                   c.common_times, c.common_times == 1 ? "time is" : "times are"));
   }
   return c;

@@ -156,34 +156,35 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
   if (limits.empty()) return list;
   for (const RunFigures* run : {&reference, &other}) {
     if (run->done()) continue;
-    list.push_back(fmt::format("{}: {} at t = {:.9g}, so no limit is kept beyond", run->name,
+    list.push_back(fmt::format("{}: {} at t = {:.9g}, so limits cannot be checked beyond", run->name,
                                run->facts.outcome, run->t));
   }
   const bool whole = reference.done() && other.done();
   if (whole && comparison.ends_differ)
     list.push_back(fmt::format(
-        "{}: compared up to t = {:.9g}, and {} goes on to {:.9g}, so no limit is kept beyond", other.name,
-        comparison.t_end, (reference.t > other.t ? reference : other).name, std::max(reference.t, other.t)));
+        "{}: compared up to t = {:.9g}, but {} continues to {:.9g}, so limits cannot be checked beyond",
+        other.name, comparison.t_end, (reference.t > other.t ? reference : other).name,
+        std::max(reference.t, other.t)));
   const auto& split = comparison.alignment.split;
   const bool sequence_limited =
       std::any_of(limits.begin(), limits.end(), [](const Limit& l) { return l.name == sequence; });
   for (const Limit& limit : limits) {
     if (limit.name == "event_time" && split && !sequence_limited)
       list.push_back(fmt::format(
-          "{}: {} from t = {:.9g} on have no partner whose time could keep event_time {}", other.name,
+          "{}: {} from t = {:.9g} on have no matching event, so event_time {} cannot be checked", other.name,
           base::count_text(split->unaligned, "event"), split->t, base::format_number(limit.value)));
     if (limit.name == sequence) {
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
-      list.push_back(fmt::format("{}: sequence parts at t = {:.9g}, {} from there on exceed {}", other.name,
-                                 split->t, base::count_text(unaligned, "event"),
+      list.push_back(fmt::format("{}: sequence differs from t = {:.9g} on, {} from there on exceed {}",
+                                 other.name, split->t, base::count_text(unaligned, "event"),
                                  base::format_number(limit.value)));
       continue;
     }
     const std::vector<Quantity> known = quantities(comparison, reference.facts.units);
     if (std::none_of(known.begin(), known.end(), [&](const Quantity& q) { return q.name == limit.name; }))
       list.push_back(
-          fmt::format("{}: {} has a limit, and not both runs have such an output", other.name, limit.name));
+          fmt::format("{}: {} has a limit, but at least one run has no such output", other.name, limit.name));
     for (const Quantity& quantity : known) {
       if (quantity.name != limit.name) continue;
       const MaxDifference& greatest = quantity.deviation->whole;

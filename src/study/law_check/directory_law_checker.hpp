@@ -1,4 +1,4 @@
-// directory_law_checker.hpp: the witness of a run from its files alone (docs/theory-checks.md, "The witness").
+// directory_law_checker.hpp: law check of a run from its files alone (docs/theory-checks.md, "The witness").
 //
 //   run.toml -> model;   summary.json -> engine;   instants.csv, events.csv -> src/law_check, instant by instant
 //   contacts.csv: rows per time and contact: state of the last instant, its guards, forces of that state
@@ -6,7 +6,7 @@
 //
 //   DirectoryLawCheck found = check_directory_laws("pipeline-run");
 //
-// The run's own witness result is not read. Errors: FileError for files that are missing, cut or not tables of a run,
+// The run's own law-check result is not read. Errors: FileError for files that are missing, cut or not tables of a run,
 // SceneError for run.toml.
 #pragma once
 

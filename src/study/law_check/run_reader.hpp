@@ -1,4 +1,4 @@
-// run_reader.hpp: results in summary.json and events.csv of a run, for the witness.
+// run_reader.hpp: results in summary.json and events.csv of a run, for the law checker.
 #pragma once
 
 #include <filesystem>

@@ -1,10 +1,10 @@
-// table_rows.hpp: checks of contacts.csv and motion.csv by the witness.
+// table_rows.hpp: checks of contacts.csv and motion.csv by the law checker.
 //
 //   state of a row = state after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
 //   ratio = |T| / |N| with friction, for a closed contact and N != 0
 //   peaks of summary.json >= rows up to the last instant of a stopped run
 //
-//   TableRows rows(model, engine, witness);
+//   TableRowChecker rows(model, engine, checker);
 //   for each instant: rows.instant(record);
 //   rows.contacts(directory / "contacts.csv", run, found);        required rows: table_rows.hpp
 #pragma once

@@ -1,10 +1,11 @@
-// excited_modes.hpp: what stands for the modes that a cutoff leaves out, where a structure has too many to compute them all.
+// excited_modes.hpp: Ritz vectors that replace the modes above a cutoff, for structures with too many modes.
 //
 //   span{ G f, G M G f, G (M G)^2 f, ... }:   K psi = omega^2 M psi there (Ritz),   psi^T M psi = 1,   psi^T M Phi = 0
 //
-// G: static answer of the modes left out (model/reduce/kept_modes.hpp), f: forms of contacts and loads, and what of the initial
-// state the kept modes Phi do not have. So the static answers to all forces are exact, and with k terms the first 2 k
-// coefficients of the answers in powers of the frequency: all modes left out have their part, the lowest ones nearly as themselves.
+// G: static answer of the modes left out (model/reduce/kept_modes.hpp), f: forms of contacts and loads, and the part
+// of the initial state outside the kept modes Phi. So the static responses to all forces are exact. With k terms the first
+// 2 k coefficients of the responses in powers of the frequency are exact, too: they include all modes left out, and
+// represent the lowest of them closely.
 // Source: Wilson, Yuan and Dickens, Earthquake Engineering and Structural Dynamics 10 (1982) 813.
 #pragma once
 

@@ -361,7 +361,7 @@ class Search {
     const Eigen::Index all = structure_.all();
     for (cutoff_ = first();; cutoff_ = next()) {
       if (cutoff_.kept < 0) refuse(scene_, "the modes below the cutoff cannot be counted; give cutoff_omega");
-      // Where what the last one misses is too much already, nothing is to be tried: all modes are kept.
+      // If the estimate of the last trial is too large and only all modes remain, they are kept without a trial.
       const bool needed = cutoff_.kept < all || (!trials_.empty() && estimated() <= *spec.tolerance);
       Trial now = needed ? tried() : Trial{};
       if (now.ended) return scene_;

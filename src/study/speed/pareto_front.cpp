@@ -49,8 +49,8 @@ std::string pareto_sentence(const std::vector<WorkRow>& rows, const std::string&
         std::any_of(rows.begin(), rows.end(), [](const WorkRow& r) { return r.complete() && r.wall_time(); });
     const char* why = !complete ? "no run reached the end with the reference's events"
                       : !timed  ? "no run was timed"
-                                : "no complete run has an error that means anything";
-    return fmt::format("Of {}, none can be named cheapest: {}.", what, why);
+                                : "no complete run has a meaningful error";
+    return fmt::format("For errors of {}, no cheapest run can be named: {}.", what, why);
   }
   // Neighbours on one line are represented by the last one, the most accurate.
   std::vector<std::size_t> last;

@@ -179,7 +179,7 @@ std::string study_markdown(const WorkReport& report, bool picture) {
 }  // namespace
 
 WorkTable work_table(const WorkReport& report) {
-  WorkTable table{{"engine", "setting", "outcome", "events alike"}, {false, false, false, true}, {}};
+  WorkTable table{{"engine", "setting", "outcome", "equal events"}, {false, false, false, true}, {}};
   const std::vector<std::string> columns = shown_quantities(report);
   for (const std::string& name : columns) table.header.push_back(heading(name, unit_of(report, name)));
   table.header.insert(table.header.end(), {"wall [s]", "steps", "us/step"});
@@ -221,7 +221,7 @@ std::vector<std::string> work_failures(const WorkReport& report) {
           fmt::format("{}: {} at t = {:.9g}: {}", name, row.outcome, row.t.value_or(0.0), row.reason));
     }
     if (!row.t_split) continue;
-    list.push_back(fmt::format("{}: parts at t = {:.9g}: {}", name, *row.t_split, row.split));
+    list.push_back(fmt::format("{}: events differ from t = {:.9g} on: {}", name, *row.t_split, row.split));
     if (const WorkError* error = row.error("displacement"))
       list.back() += fmt::format("; displacement over the whole run: {:.1e}", error->whole);
   }
@@ -400,7 +400,7 @@ std::vector<fs::path> write_work_plots(const fs::path& directory, const WorkRepo
   run.legend = result::legend_width(labels);
   result::Picture picture{"work-precision",
                           "Time of a run over its error, reference " + report.reference +
-                              "; hollow: not all events, or not to the end",
+                              "; hollow: events differ, or the run ended early",
                           {},
                           false};
   picture.space = 80.0;

@@ -58,7 +58,7 @@ std::vector<double> parse_decades(const std::string& option, const std::string& 
   }
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::count(values.begin(), values.end(), values[i]) > 1)
-      throw UsageError(fmt::format("{}: {} stands twice", given, base::format_number(values[i])));
+      throw UsageError(fmt::format("{}: {} is given twice", given, base::format_number(values[i])));
   return values;
 }
 

@@ -190,9 +190,10 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
   report_.interrupted = report_.interrupted || outcome.interrupted;
   perturbed_reference_ = compare::read_compared_run(folder, point.name() + " again");
   reference_error_measured_ = true;
-  report_.notes.push_back(fmt::format(
-      "the reference is known to what a change of all masses by {:g} does; smaller errors are not told apart",
-      last_digits));
+  report_.notes.push_back(
+      fmt::format("the error of the reference is estimated by a relative change of all masses by {:g}; "
+                  "smaller errors cannot be distinguished",
+                  last_digits));
   double& until = report_.compared_until;
   const double whole = until;
   double decided = whole;
@@ -203,7 +204,7 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
   }
   if (until < whole)
     report_.notes.push_back(
-        fmt::format("at t = {:.9g} such a change decides the sequence of events: all runs are compared up to "
+        fmt::format("at t = {:.9g} such a change alters the sequence of events: all runs are compared up to "
                     "t = {:.9g} only",
                     decided, until));
 }
@@ -254,8 +255,9 @@ bool WorkStudy::choose_reference() {
   for (int tries = 0; tries < 3 && !report_.interrupted; ++tries) {
     tight.accuracy = rounded_decimal(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
     if (!try_reference(tight, why_not)) continue;
-    report_.notes.push_back(fmt::format(
-        "the reference is the tightest run, {}: errors near its own tolerance say little", tight.name()));
+    report_.notes.push_back(
+        fmt::format("the reference is the tightest run, {}: errors near its own tolerance are not reliable",
+                    tight.name()));
     return true;
   }
   return false;
@@ -325,7 +327,7 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
     row.directory = recorded.directory;
     const compare::ComparedRun run = compare::read_compared_run(recorded.directory, point.name());
     row.outcome = recorded.too_slow ? "too slow" : run.figures.facts.outcome;
-    row.reason = recorded.too_slow ? fmt::format("not at the end after {:g} s", request_.limits.seconds)
+    row.reason = recorded.too_slow ? fmt::format("not complete after {:g} s", request_.limits.seconds)
                                    : run.figures.reason;
     row.t = run.figures.t;
     row.steps = run.figures.steps;

@@ -124,7 +124,7 @@ ParameterRange parse_vary(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string option = "--vary " + text;
   if (!base::is_plain_text(text))
-    throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
+    throw UsageError(base::excerpt(option) + ": found bytes that are not plain UTF-8 text");
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     throw UsageError(option + ": expected path=start:stop:step or path=value,value,...");
   ParameterRange vary{text.substr(0, equals), text.substr(equals + 1), {}};
@@ -184,7 +184,7 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
           if (scene::is_within_path(a, b) || scene::is_within_path(b, a))
             throw UsageError(fmt::format("--{} {}={}: --{} {} varies {} already", option_of(vary), vary.path,
                                          vary.text, option_of(varied[j]), varied[j].path,
-                                         a == b ? "this key" : "what belongs to it"));
+                                         a == b ? "this key" : "an overlapping key"));
   }
   for (const Override& setting : settings) {
     const std::vector<std::string> set = scene::places_in(scene, setting.path);
@@ -199,7 +199,7 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
           break;
         }
     if (by && lost == set.size())
-      throw UsageError(fmt::format("{}: has no effect, --{} {} sets it anew in every run",
+      throw UsageError(fmt::format("{}: has no effect, --{} {} sets it in every run",
                                    scene::override_text(setting), option_of(*by), by->path));
   }
 }
@@ -337,7 +337,7 @@ std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, 
   for (const std::string& text : texts) {
     const std::string option = "--sample " + text;
     if (!base::is_plain_text(text))
-      throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
+      throw UsageError(base::excerpt(option) + ": found bytes that are not plain UTF-8 text");
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw UsageError(option + ": expected PATH=DISTRIBUTION, such as contacts.*.friction=normal(0.4,0.05)");
@@ -372,8 +372,8 @@ std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, 
       const double value = inverses[j](inner(u));
       if (!std::isfinite(value))
         throw UsageError(
-            fmt::format("--sample {}={}: draw {} is no finite number, expected a distribution "
-                        "within the range of numbers",
+            fmt::format("--sample {}={}: draw {} is not a finite number, expected a distribution within the "
+                        "range of numbers",
                         varied[k].path, varied[k].text, i + 1));
       varied[k].values.push_back(base::format_number(value));
     }

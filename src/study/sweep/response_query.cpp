@@ -56,7 +56,7 @@ std::size_t index_of(const std::string& name, const Model& model) {
 ResponseQuery parse_query(const std::string& text, const Model& model) {
   const std::string option = "--response " + text;
   if (!base::is_plain_text(text))
-    throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
+    throw UsageError(base::excerpt(option) + ": found bytes that are not plain UTF-8 text");
   const std::size_t colon = text.find(':');
   const auto row = std::find_if(words.begin(), words.end(),
                                 [&](const Word& w) { return text.substr(0, colon) == w.word; });
@@ -94,7 +94,7 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
   if (!number || *number < 1)
     throw UsageError(fmt::format(
         "{}: found \"@{}\", expected {}", option, behind,
-        query.kind == Kind::impulse ? "the number of a landing, from 1" : "nothing behind the contact"));
+        query.kind == Kind::impulse ? "the number of a landing, from 1" : "nothing after the contact"));
   query.number = static_cast<std::size_t>(*number);
   return query;
 }

@@ -115,7 +115,7 @@ struct Place {
 void check(const Place& place, const char* names) {
   if (place.rank < place.size) return;
   throw UsageError(
-      fmt::format("--share auto: {} say rank {} of {}, counted from 0", names, place.rank, place.size));
+      fmt::format("--share auto: {} give rank {} of {}, counted from 0", names, place.rank, place.size));
 }
 
 std::optional<Place> launcher(const Environment& environment) {
@@ -145,9 +145,10 @@ std::optional<Place> array(const Environment& environment) {
   const bool even = *count >= 1 && step >= 1 && first + step * (*count - 1) == last && *id >= first &&
                     *id <= last && (*id - first) % step == 0;
   if (!even)
-    throw UsageError(fmt::format(
-        "--share auto: task {} of {} from {} to {} is no even array; give --share K/N, or --array=1-N", *id,
-        *count, first, last));
+    throw UsageError(
+        fmt::format("--share auto: task {} of {} from {} to {} does not belong to an evenly spaced array; "
+                    "give --share K/N, or --array=1-N",
+                    *id, *count, first, last));
   return Place{(*id - first) / step, *count};
 }
 

@@ -21,7 +21,7 @@ double whole_periods(double t, double period) { return std::floor(t / period * (
 
 StroboscopicMap strobe_of_loads(const std::string& option, const Scene& scene) {
   const std::optional<double> period = orbit::load_period(scene).period;
-  if (!period) throw UsageError(option + ": the scene has no load that repeats itself; expected a period");
+  if (!period) throw UsageError(option + ": the scene has no periodic load; expected a period");
   if (whole_periods(scene.run.t_end, *period) < 1.0)
     throw UsageError(fmt::format("{}: their period {:g} is longer than the run, t_end = {:g}", option,
                                  *period, scene.run.t_end));
@@ -37,7 +37,7 @@ StroboscopicMap strobe_of_loads(const std::string& option, const Scene& scene) {
 StroboscopicMap parse_strobe(const std::string& text, const Scene& scene, const Model& model) {
   const std::string option = "--strobe " + text;
   if (!base::is_plain_text(text))
-    throw UsageError(base::excerpt(option) + ": found bytes that are no plain UTF-8 text");
+    throw UsageError(base::excerpt(option) + ": found bytes that are not plain UTF-8 text");
   if (text == "loads") return strobe_of_loads(option, scene);
   StroboscopicMap strobe;
   strobe.text = text;
@@ -68,8 +68,8 @@ std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene) {
   const double turns = strobe.period / *period;
   if (turns > 0.5 && std::abs(turns - std::round(turns)) <= same_period * turns) return {};
   return fmt::format(
-      "--strobe {}: the loads repeat themselves after {}, so the points of one run are states at different "
-      "phases of the loads; --strobe loads takes the period of each run's loads",
+      "--strobe {}: the period of the loads is {}, so the points of one run are states at different phases "
+      "of the loads; --strobe loads takes the period of each run's loads",
       strobe.text, base::format_number(*period));
 }
 

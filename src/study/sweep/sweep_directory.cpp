@@ -74,7 +74,7 @@ void check_directory(const fs::path& path) {
   if (!fs::exists(fs::symlink_status(path, error))) return;
   if (!fs::is_directory(path, error)) throw FileError(path.string(), "exists and is not a directory");
   if (!fs::is_empty(path, error) && !is_sweep(path))
-    throw FileError(path.string(), "is not empty and holds no sweep (no sweep.json) to go on with");
+    throw FileError(path.string(), "is not empty and contains no sweep to continue (no sweep.json)");
 }
 
 /// True for numbers as run_directory() writes them: six digits, more only if needed.
@@ -89,7 +89,7 @@ bool is_own_folder(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) return false;
   if (fs::is_directory(status)) return true;
-  throw FileError(path.string(), "is no folder of a sweep; --force removes nothing there");
+  throw FileError(path.string(), "is not the directory of a sweep; --force removes nothing there");
 }
 
 /// Folders that contain other files than those of a run are kept, with these files.
@@ -251,7 +251,7 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   if (was.carry != is.carry) return differ("--carry", carry(was), carry(is));
   if (was.settings != is.settings) return differ("--set", text_of(was.settings), text_of(is.settings));
   if (was.fingerprint != is.fingerprint)
-    return fmt::format("the scene {} has another content now ({})", is.scene, was.scene);
+    return fmt::format("the content of the scene {} has changed ({})", is.scene, was.scene);
   return "";
 }
 
@@ -260,7 +260,7 @@ std::vector<std::size_t> merge_sweeps(const std::vector<fs::path>& from, SweepDi
   for (const fs::path& directory : from) {
     const SweepSpec spec = read_sweep_spec(directory);
     const std::string differs = difference(to.spec(), spec);
-    if (!differs.empty()) throw FileError(directory.string(), "is no share of the same sweep: " + differs);
+    if (!differs.empty()) throw FileError(directory.string(), "is not a share of the same sweep: " + differs);
     const fs::path file = directory / rows_name;
     for (const auto& [index, found] : to.rows_in(file)) {
       const auto known = to.rows().find(index);

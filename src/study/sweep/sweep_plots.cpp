@@ -271,7 +271,7 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
     std::vector<Shown> panels;
     for (std::size_t i = 0; i < std::min(spec.responses.size(), max_panels); ++i)
       panels.push_back({labelled(spec, i), Shown::Kind::answer, spec.responses[i]});
-    list.push_back({"responses", "What was asked for", panels});
+    list.push_back({"responses", "Requested responses", panels});
   }
   if (!contacts.empty()) {
     constexpr Shown::Kind of_contacts = Shown::Kind::contacts;
@@ -302,8 +302,8 @@ void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
                                                              // informative
   if (borders) files.add_table("borders", border_table().text(found.sides));
   const char* parts = !differ   ? ""
-                      : borders ? "; lines part sequences of events"
-                                : "; most neighbours have other sequences of events";
+                      : borders ? "; lines separate sequences of events"
+                                : "; most neighbours have different sequences of events";
   for (const SweepPicture& shown : pictures_of(spec, contacts)) {
     const bool several = contacts.size() > 1 && shown.panels.front().kind != Shown::Kind::answer;
     std::vector<MapPanel> maps;

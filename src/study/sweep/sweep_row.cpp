@@ -39,7 +39,7 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
   row.warnings = report.warnings.size();
 }
 
-/// Keeps the last row of a run, from which another one goes on.
+/// Keeps the last row of a run, from which another run continues.
 class LastRow : public run::ForwardingRecorder {
  public:
   explicit LastRow(Recorder& next) : run::ForwardingRecorder(&next) {}

@@ -54,7 +54,7 @@ VerificationRuns::Sequence VerificationRuns::sequence() const {
     result.reason = pair.reason;
   } else if (result.until < t_end_) {
     result.reason = certificate->until <= steps.until && !certificate->complete
-                        ? "IDA's sequence is certain until there only: " + certificate->reason
+                        ? "IDA's sequence is certified until there only: " + certificate->reason
                     : !steps.reason.empty() ? "newmark's sequence changes with its step: " + steps.reason
                     : !pair.reason.empty()  ? pair.reason
                                             : "a run has stopped: " + newmark[2].report.outcome.reason;
@@ -281,18 +281,15 @@ void VerificationRuns::conclude(const Sequence& here, Verification& result) cons
     result.verdict = Agreement::differ;
     result.sentence = differences(result);
   } else if (here.differs) {
-    result.sentence =
-        fmt::format("the sequences of events differ, and exact stands with ida, {}; {} would do better",
-                    here.reason, finer);
+    result.sentence = fmt::format("the sequences of events differ, and exact agrees with ida: {}; use {}",
+                                  here.reason, finer);
   } else if (rough) {
-    result.sentence =
-        "newmark's steps are too coarse, orders have not settled; " + finer + " would do better";
+    result.sentence = "newmark's steps are too coarse, its orders have not converged; use " + finer;
   } else if (here.until < t_end_) {
     result.sentence =
         fmt::format("they agree until t = {:.9g} {}; {}", here.until, model_.units.time, here.reason);
   } else if (short_bars) {
-    result.sentence =
-        "newmark's error bars are too short, exact stands with ida; " + finer + " would do better";
+    result.sentence = "newmark's error bars are too short, exact agrees with ida; use " + finer;
   } else {
     result.verdict = Agreement::agree;
     result.sentence = fmt::format("ida and newmark agree to the end, on {} events and {} output times",

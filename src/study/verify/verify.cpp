@@ -93,11 +93,10 @@ class Study {
     try {
       run::engine_row(run::engine_for(run::EngineRole::fixed_steps)).refuse(model_, newmark(run_.t_end));
     } catch (const run::UnsupportedSceneError& unfit) {
-      throw SceneError(
-          run_.place, "verify",
-          fmt::format("newmark is the witness beside ida, and it {}; signorini run --certify sets a "
-                      "finer ida beside ida",
-                      unfit.reason));
+      throw SceneError(run_.place, "verify",
+                       fmt::format("verify checks ida with newmark, but newmark {}; signorini run --certify "
+                                   "checks ida with a finer ida instead",
+                                   unfit.reason));
     }
   }
 

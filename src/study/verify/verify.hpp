@@ -12,7 +12,7 @@
 //   agree      all comparisons hold, to the end
 //   differ     one fails: the result names the event or quantity, the time and the difference
 //   undecided  steps are too coarse, or the sequence is not certain to the end;
-//              or the third witness, exact if it accepts the scene, agrees
+//              or the third engine, exact if it accepts the scene, agrees
 //              with IDA, so that newmark's bar is too small
 //
 // Without a dt, the step is halved from a coarse one until the sequence and the orders have settled, as far as the
@@ -46,7 +46,7 @@ struct Observation {
   [[nodiscard]] double difference() const;
   [[nodiscard]] double allowed() const { return bar + ida_error; }
   [[nodiscard]] bool agrees() const { return difference() <= allowed(); }
-  /// True if the third witness agrees with IDA, and not with newmark.
+  /// True if the third engine agrees with IDA, and not with newmark.
   [[nodiscard]] bool exact_agrees() const;
 };
 
@@ -86,7 +86,7 @@ struct Verification {
   std::vector<VerifiedEvent> events;
   std::vector<StepTest> step_tests;
   std::optional<double> paper_dt;  ///< largest dt whose doubling changes less than `paper_change`
-  std::string exact_result;        ///< result of the third witness, exact
+  std::string exact_result;        ///< result of the third engine, exact
   CertifiedReport ida;
   bool interrupted = false;
 };

@@ -111,9 +111,9 @@ TEST_SUITE("unit/report/load_cases") {
     CHECK(page.find("N &lt; 0 is compression") != std::string::npos);
     std::string other = summary("7.5", "-9.0", "0");
     other.replace(other.find("shoe <1>"), 8, "guide");
-    CHECK(
-        report::load_case_warnings(report::read_load_cases({whole, runs.add("other", other)})) ==
-        std::vector<std::string>{"cases whole and other have different contacts: is it the same structure?"});
+    CHECK(report::load_case_warnings(report::read_load_cases({whole, runs.add("other", other)})) ==
+          std::vector<std::string>{
+              "cases whole and other have different contacts; check that they describe the same structure"});
     CHECK(report::load_case_warnings(
               report::read_load_cases({whole, runs.add("same", summary("1", "-1", "0"))}))
               .empty());

@@ -171,7 +171,7 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
   other_times->energy = "0,0,0\n1.5,1.5,0\n4,4,0\n";
   cases.push_back({"the same", "force=1", "2 of 5 and 3 rows of history.csv", *other_times});
   Folder::Tables* const longer =
-      add("longer", "displacement=1", "b: compared up to t = 4, and b goes on to 5");
+      add("longer", "displacement=1", "b: compared up to t = 4, but b continues to 5");
   longer->outcome = R"({"kind": "done", "t": 5, "t_end": 5, "reason": ""})";
   longer->history += "5,5,0,0\n";
   longer->contacts += "5,c,-1,0\n";

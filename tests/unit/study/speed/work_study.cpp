@@ -75,10 +75,10 @@ TEST_CASE(
   CHECK(speed::pareto_front(rows, "event_time").back() == 2);
   CHECK(speed::pareto_front(rows, "displacement").empty());
   CHECK(speed::pareto_sentence(rows, "displacement") ==
-        "Of displacement, none can be named cheapest: no complete run has an error that means anything.");
+        "For errors of displacement, no cheapest run can be named: no complete run has a meaningful error.");
   for (speed::WorkRow& r : rows) r.wall_times.clear();
   CHECK(speed::pareto_sentence(rows, "event_time") ==
-        "Of event time, none can be named cheapest: no run was timed.");
+        "For errors of event time, no cheapest run can be named: no run was timed.");
   for (speed::WorkRow& r : rows) r.whole = false;
   CHECK(speed::pareto_sentence(rows, "event_time").ends_with("the end with the reference's events."));
 }

@@ -106,7 +106,7 @@ TEST_CASE("samples: what is no distribution is refused") {
 }
 
 TEST_CASE("samples: draws beyond the range of numbers are refused") {
-  CHECK_THROWS_WITH_AS(draw("lognormal(1e-300,1e300)", 20), doctest::Contains("is no finite number"),
+  CHECK_THROWS_WITH_AS(draw("lognormal(1e-300,1e300)", 20), doctest::Contains("is not a finite number"),
                        UsageError);
   CHECK_THROWS_WITH_AS(draw("uniform(-1e308,1e308)", 20), doctest::Contains("--sample a.b=uniform"),
                        UsageError);

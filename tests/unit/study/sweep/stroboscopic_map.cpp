@@ -221,7 +221,7 @@ TEST_CASE(
     CHECK(row.t > 100.0 - 2.0 * 3.141592653589794 / w);
     CHECK(row.points.back().t == row.t);
   }
-  CHECK(refusal("loads").find("no load that repeats itself") != std::string::npos);
+  CHECK(refusal("loads").find("no periodic load") != std::string::npos);
   CHECK(refusal("loads", forced).empty());
 }
 

@@ -127,7 +127,7 @@ void newmark_step(State& state) {
   newmark::NewmarkStep step(b.model, b.structure);
   const motion::StateSystemPtr system = b.systems.system_of(b.states);
   if (!system) return state.SkipWithError("singular");
-  step.set({}, system->rows(), system->kinds());
+  step.set({}, system->rows());
   motion::Point from{b.model.u0, b.model.v0,
                      Vector::Zero(2 * static_cast<Eigen::Index>(b.model.contacts.size())),
                      Vector::Zero(b.model.size())};

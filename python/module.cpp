@@ -158,7 +158,7 @@ py::dict history_table(const Model& model, const std::vector<Result::Row>& rows)
   py::dict table;
   table["t"] = column(rows, [](const auto& row) { return row.t; });
   for (const Column& c : model.columns)
-    table[c.name.c_str()] = column(rows, [&](const auto& row) { return c.of(row.u, row.v); });
+    table[c.name.c_str()] = column(rows, [&](const auto& row) { return c.value(row.u, row.v); });
   return table;
 }
 
@@ -227,7 +227,7 @@ class Run {
   Run(Scene scene, const std::optional<std::string>& path, bool force, const Stop* stop)
       : scene_(std::move(scene)), model_(build_model(scene_)) {
     std::optional<result::RunDirectory> directory;
-    if (path) directory.emplace(*path, scene_, model_, RunDirectoryOptions{force, {"python"}});
+    if (path) directory.emplace(*path, scene_, model_, result::RunDirectoryOptions{force, {"python"}});
     Kept kept(directory ? &*directory : nullptr, stop);
     report_ = simulate_certified(model_, scene_.run, kept, {{}, [&] { return kept.go_on(); }});
     if (directory) summary_ = directory->finish(report_);
@@ -254,7 +254,7 @@ class Run {
     return units;
   }
   [[nodiscard]] std::string summary() const {
-    return summary_.empty() ? summary_json(scene_, model_, report_, {"python"}) : summary_;
+    return summary_.empty() ? result::summary_json(scene_, model_, report_, {"python"}) : summary_;
   }
   [[nodiscard]] const std::string& toml() const { return scene_.resolved; }
 
@@ -267,8 +267,8 @@ class Run {
   Result rows_;
 };
 
-std::unique_ptr<Run> run(const std::string& text, const std::string& file, const Settings& settings,
-                         const std::optional<std::string>& path, bool force, const Stop* stop) {
+std::unique_ptr<Run> run_scene(const std::string& text, const std::string& file, const Settings& settings,
+                               const std::optional<std::string>& path, bool force, const Stop* stop) {
   std::unique_ptr<Run> ran;
   {
     const py::gil_scoped_release free;
@@ -424,12 +424,13 @@ py::tuple follow_of(const std::string& text, const std::string& file, const Sett
   {
     const py::gil_scoped_release free;
     first = read({});
-    branch = follow(read, options, &kept);
+    branch = continue_branch(read, options, &kept);
   }
   if (kept.interrupted()) throw py::error_already_set();
   std::vector<std::string> outputs;
   for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
-  return py::make_tuple(branch_table(outputs, branch), branch_json(options, first.units, branch));
+  return py::make_tuple(branch_table(outputs, branch),
+                        orbit_study::branch_json(options, first.units, branch));
 }
 
 std::string check_scene(const std::string& text, const std::string& file, const Settings& settings) {
@@ -439,7 +440,7 @@ std::string check_scene(const std::string& text, const std::string& file, const 
   return check::check_json(scene, model, check::check(scene, model));
 }
 
-py::dict compare(const std::string& reference, const std::string& other) {
+py::dict compare_directories(const std::string& reference, const std::string& other) {
   compare::Comparison c;
   {
     const py::gil_scoped_release free;
@@ -495,11 +496,11 @@ PYBIND11_MODULE(_signorini, module) {
       .def("units", &Run::units)
       .def("summary", &Run::summary)
       .def("toml", &Run::toml);
-  module.def("run", &run);
+  module.def("run", &run_scene);
   module.def("check", &check_scene);
-  module.def("compare", &compare);
+  module.def("compare", &compare_directories);
   module.def("sensitivity", &sensitivity);
   module.def("find_orbit", &find_orbit_of);
   module.def("follow", &follow_of);
-  module.def("schema", &scene_schema);
+  module.def("schema", &scene::scene_schema);
 }

@@ -73,8 +73,8 @@ void set_capture_velocities(Model& model, double capture_velocity);
 
 // Data recorded from a run and from its companions.
 //
-//   Tracker own(model, run, &recorder)      forwards everything to the recorder
-//   Tracker other(model, run)               keeps events and the columns of history.csv, without forwarding
+//   CompanionTracker own(model, run, &recorder)      forwards everything to the recorder
+//   CompanionTracker other(model, run)               keeps events and the columns of history.csv, without forwarding
 //
 // A companion runs in its own thread: it stops where the run has ended, or on request.
 

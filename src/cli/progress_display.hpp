@@ -1,7 +1,7 @@
 // progress_display.hpp: display of a run in progress: progress line, interrupt, and the events for the final table.
 //
-//   Live live(run_directory, model, t_end, show_progress);
-//   Report report = simulate(model, scene.run, live);
+//   ProgressDisplay display(run_directory, model, t_end, show_progress);
+//   Report report = simulate(model, scene.run, display);
 //
 // Rows are passed on to another Recorder. The first SIGINT or SIGTERM asks the run to stop and be kept; a second signal
 // ends the program at once.

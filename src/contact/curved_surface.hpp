@@ -1,6 +1,6 @@
 // curved_surface.hpp: the restoring force of a curved surface.
 //
-//   F = ( |N| - N_K ) ut / R      against ut, in addition to N_K ut / R, which is part of K       (R: Bowl::radius)
+//   F = ( |N| - N_K ) ut / R      against ut, in addition to N_K ut / R, which is part of K       (R: CurvedSurface::radius)
 //
 // Small slopes: the normal, and with it the force on the body, turns by ut / R. N_K is the normal force of the bearing
 // at rest; F is zero while |N| = N_K.

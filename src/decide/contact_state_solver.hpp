@@ -44,7 +44,7 @@ class ContactStateSolver {
  private:
   struct Attempt {
     Decision decision;
-    bool flight_taken_as_rest = false;  // Findings::grounded
+    bool flight_taken_as_rest = false;  // ImpactResult::flight_taken_as_rest
     double max_rest_speed = 0.0;
   };
   [[nodiscard]] Attempt attempt(const Instant& instant, const motion::Forcing& before,

@@ -60,7 +60,7 @@ class NewmarkStep {
   [[nodiscard]] const motion::Point* local_end(std::size_t contact, const motion::Forcing& forcing,
                                                const motion::Point& from, double t1, double h,
                                                const motion::Point& whole, double longer);
-  /// The neighbourhood used by near() was too small: doubles its radius.
+  /// The neighbourhood used by local_end() was too small: doubles its radius.
   void double_radius();
   void count(Counters& counters) const;
 

@@ -26,7 +26,7 @@ class ModalSystem;
 struct Passage {
   double length = 0.0;
   std::optional<std::size_t> triggered;  ///< slot of the guard that reaches zero at its end
-  bool unseen = false;                   ///< Fired::unseen
+  bool unseen = false;                   ///< TriggeredGuard::never_positive
   std::vector<std::size_t> touches;      ///< slots whose guards touch zero within rounding
 };
 

@@ -17,13 +17,13 @@ import sys
 import tempfile
 
 PHASES = [
-    ("decide", [r"Decider::decide\("]),
+    ("decide", [r"ContactStateSolver::decide\("]),
     ("factor", [r"SystemMatrix::set\(", r"CondensedMatrix::set\("]),
     ("series", [r"Taylor::level_any\(", r"Taylor::level_dense"]),
-    ("guards", [r"ExactEngine::earliest_fall\(", r"NewmarkEngine::weigh\(", r"NewmarkEngine::earliest\(", r"Watch::check\("]),
+    ("guards", [r"ExactEngine::earliest_crossing\(", r"StepGuards::evaluate\(", r"NewmarkEngine::earliest_candidate\(", r"GuardMonitor::check\("]),
     ("works", [r"(Exact|Newmark|Ida)Engine::integrate\("]),
     ("records", [r"MotionRecord::(add|before|after)\(", r"CurveRecord::add\("]),
-    ("audit", [r"Auditor::\w+\(", r"RunWitness::\w+\("]),
+    ("audit", [r"Auditor::\w+\(", r"RunLawChecker::\w+\("]),
 ]
 
 

@@ -28,7 +28,7 @@ constexpr double surface_step = 0.25;  // rad of a surface's oscillation a step:
 constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
 // Chosen between 0.1 and 0.4: the least error over eight tolerances of a growing and of a damped motion
-// (docs/decisions/ida-rehearses.md). Steps differ by a tenth.
+// (docs/decisions/ida-restart-order.md). Steps differ by a tenth.
 constexpr double rehearsed_part = 0.2;
 // Part of the remaining segment: where polynomials are the motion, an observer of the steps sees points inside the
 // segment.

@@ -66,7 +66,7 @@ struct Load {
   /// True: acts in the static start (initial = "static"): gravity, constants that have always acted, supports at t = 0.
   bool is_static = false;
   LoadKind kind = LoadKind::force;
-  /// direction . u is a length times `direction_unit`, the history has `of_history`; their product is a force.
+  /// direction . u is a length times `direction_unit`, the history has `history_unit`; their product is a force.
   Unit direction_unit{}, history_unit{1, 0, 0};
 };
 
@@ -194,7 +194,7 @@ struct Ties {
   }
 };
 
-/// Correction of displacements and energy for a load on parts with borrowed springs (model/compliance_split.hpp).
+/// Correction of displacements and energy for a load on parts with rigid contacts but without mass (model/compliance_split.hpp).
 struct LoadCorrection {
   std::size_t load = 0;  ///< index into Model::loads
   Vector displacements;  ///< displacements of the structure, for a history of 1

@@ -218,7 +218,7 @@ struct Landing {
   double peak_force = 0.0;  ///< largest -N
 };
 
-/// Position of an extreme on a stretch of an output (Output::stretches): the station on its piece.
+/// Position of an extreme on a segment of an output (Output::segments): the station on its piece.
 struct OutputPlace {
   int segment = -1;  ///< -1: the output has none
   double station = 0.0;

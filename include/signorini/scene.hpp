@@ -396,7 +396,7 @@ inline constexpr std::array friction_constants = {
     FrictionConstant{"force", &Friction::force, {1, 0, 0}}};
 
 /// A curved surface of this radius under a varying force: |N| ut / radius drives the body back; its constant part
-/// carried ut / radius is in K (contact/curved_surface.hpp).
+/// nominal_force ut / radius is in K (contact/curved_surface.hpp).
 struct CurvedSurface {
   double radius = 0.0, nominal_force = 0.0;
 };
@@ -420,7 +420,7 @@ struct ContactSpec {
                                                 ///< tolerances
   SourcePlace place = {};
   std::optional<CurvedSurface> pendulum_surface =
-      {};                  ///< surface of a pendulum; `carried` is part of the springs
+      {};                  ///< surface of a pendulum; `nominal_force` is part of the springs
   std::string table = {};  ///< its table, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// User law in place of the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.

@@ -5,21 +5,21 @@
 //   0 = two rows for each contact, chosen by its state (contact.hpp)
 //
 // The loop. x = (u, v, N, T); x- is its value just before an instant, x+ just after: u- = u+ always, v jumps at
-// impacts, N and T at jumps of loads or when friction releases. A mode is the list of all contact states; it is valid
-// on [t, t'), up to the first instant t' at which one of its guards is no longer positive or the forcing P, the
-// compression of a slider or the motion of a surface is not smooth (a breakpoint).
+// impacts, N and T at jumps of loads or when friction releases. A contact state is the list of the states of all
+// contacts; it is valid on [t, t'), up to the first instant t' at which one of its guards is no longer positive or the
+// forcing P, the compression of a slider or the motion of a surface is not smooth (a breakpoint).
 //
-//   x-, mode- <- u0, v0, guessed from the gaps
-//   x+, mode+ <- decide(x-, mode-) at t = 0            record the impacts, and an output row at 0
+//   x-, states- <- u0, v0, guessed from the gaps
+//   x+, states+ <- decide(x-, states-) at t = 0        record the impacts, and an output row at 0
 //   while t < t_end:
 //     end <- the next breakpoint, or t_end
-//     engine.start(x+, mode+, end)                     no guard reaches zero at t itself: mode+ is valid there
+//     engine.start(x+, states+, end)                   no guard reaches zero at t itself: states+ is valid there
 //     repeat:
-//       (t0, t1], fired <- engine.advance()            t1: the first zero crossing of a guard, if any
+//       (t0, t1], triggered <- engine.advance()        t1: the first zero crossing of a guard, if any
 //       record output rows in [t0, t1), and rows for pictures; add works and extremes
-//       t <- t1, x- <- x(t1) in mode+
-//     until a guard fired at t, or t >= end
-//     x+, mode+ <- decide(x-, mode-, fired, P-, P+)    all states at once, in as many rounds as needed
+//       t <- t1, x- <- x(t1) in states+
+//     until a guard was triggered at t, or t >= end
+//     x+, states+ <- decide(x-, states-, triggered, P-, P+)    all states at once, in as many rounds as needed
 //                                                      (adopted if the engine found them itself)
 //     record an event for every contact whose state has changed (event.hpp), and an output row at t: x+
 //   stop early if no states are consistent, the engine fails, events repeat without progress in time,

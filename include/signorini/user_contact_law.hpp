@@ -11,7 +11,7 @@
 //   auto pad = std::make_shared<UserContactLaw>();         a pad that yields at -Y (src/contact/law/yielding_pad.cpp)
 //   pad->states = {{"off", State::open, {{.N = 1}}, {{.T = 1}}, {{{{.gap = 1}, -1}, 1}}},
 //                  {"on", State::closed, ...}};
-//   scene.contacts[0].own = pad;
+//   scene.contacts[0].user_law = pad;
 //
 // The contact also is `compliant`: its normal_stiffness must have the magnitude of the law's stiffness; tolerances,
 // scales and frequencies depend on it. It starts in state 0 with p = 0, or in the state given by last_state(); if

@@ -42,7 +42,7 @@ certify::CompanionPlan plan_of(const Scene& scene) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/certify");
+TEST_SUITE_BEGIN("unit/certify/companion");
 
 TEST_CASE("companion: the cheaper where both take the scene, and what is asked for") {
   const certify::CompanionPlan automatic = plan_of(scene_of("engine = \"ida\""));

@@ -40,7 +40,7 @@ std::size_t certain(const certify::MatchResult& verdict) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/certify");
+TEST_SUITE_BEGIN("unit/certify/event_matcher");
 
 TEST_CASE("judge: twice the difference, the uncertainty, and the rounding of the clock") {
   certify::EventSequence run = track({1.0, 2.0, 3.0});

@@ -37,7 +37,7 @@ struct NoLoads : Steering {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/run/relay");
+TEST_SUITE_BEGIN("unit/run/forwarding_recorder");
 
 TEST_CASE("everything that a run tells reaches the recorder behind") {
   Told told;

@@ -112,7 +112,7 @@ void each_relation(const RelationJudge& judge, const Plant& plant,
 
 }  // namespace
 
-TEST_SUITE("unit/validation") {
+TEST_SUITE("unit/validation/relations") {
   TEST_CASE("relations: a seed is one scene, and some hundred seeds say all that a scene can say") {
     std::set<std::string> missing = {"[[stops]]",
                                      "[[run.stages]]",

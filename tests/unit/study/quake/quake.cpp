@@ -30,7 +30,7 @@ quake::GroundMotion by_small_steps(const std::vector<double>& a, double dt) {
 
 }  // namespace
 
-TEST_SUITE("unit/study/quake") {
+TEST_SUITE("unit/study/quake/quake") {
   TEST_CASE("response spectrum: a base that suddenly accelerates, undamped and damped") {
     // From rest under a constant a0: u is greatest after half a damped period, a0 (1 + exp(-z pi / sqrt(1 - z^2))) / w^2.
     const std::vector<double> a(4001, 3.0);

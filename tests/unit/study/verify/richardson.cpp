@@ -27,7 +27,7 @@ std::vector<verify::StepTriple> growing(double d) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/study/verify");
+TEST_SUITE_BEGIN("unit/study/verify/richardson");
 
 TEST_CASE("richardson: order two is seen, and the limit lies within the bar") {
   const std::vector<verify::StepTriple> series = growing(0.3);

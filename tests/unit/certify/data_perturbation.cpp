@@ -10,7 +10,7 @@
 
 using namespace signorini;
 
-TEST_SUITE_BEGIN("unit/certify/disturb");
+TEST_SUITE_BEGIN("unit/certify/data_perturbation");
 
 TEST_CASE("stiffnesses of a reduced model are off by what the entries of K leave where they cancel") {
   // A chain of equal springs k and masses m between walls: x_j = sin(j pi / (n + 1)) for the lowest mode, and

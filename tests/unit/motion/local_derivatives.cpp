@@ -40,7 +40,7 @@ void check_same(const ContactMotion& near, const ContactMotion& whole, const Con
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/motion/near_jets");
+TEST_SUITE_BEGIN("unit/motion/local_derivatives");
 
 TEST_CASE("what contacts ask for near them is what the whole structure says, within its rounding") {
   Bench bench(lively_row(long_row));

@@ -41,7 +41,7 @@ events::FirstRoot fall(const std::vector<double>& a) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/events/first_fall");
+TEST_SUITE_BEGIN("unit/engine/events/first_root");
 
 TEST_CASE("what is not a number is said to be so, not halved for ever") {
   const double nan = std::nan(""), inf = HUGE_VAL;

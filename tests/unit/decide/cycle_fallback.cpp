@@ -44,7 +44,7 @@ const char* const rod =  // Painleve's: sliding, it may press or let go
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/decide/circle");
+TEST_SUITE_BEGIN("unit/decide/cycle_fallback");
 
 TEST_CASE(
     "first zeros are blurred, then sliders join, then combinations are weighed; several motions are "

@@ -4,7 +4,7 @@
 
 using namespace signorini;
 
-TEST_SUITE_BEGIN("unit/engine/events/arming");
+TEST_SUITE_BEGIN("unit/engine/events/active_guards");
 
 TEST_CASE("guards that start clear of zero are armed; the others wait until they have clearly risen") {
   events::ActiveGuards arming;

@@ -23,7 +23,7 @@ Model two_masses(const std::string& applied, const std::string& surface, const s
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/exact/modal/open_basis");
+TEST_SUITE_BEGIN("unit/engine/exact/modal/unconstrained_basis");
 
 TEST_CASE(
     "forcing stands still where loads, compressions and surfaces all do; jumps between constants are no "

@@ -48,7 +48,7 @@ double off_identity(const modal::UnconstrainedModes& modes, const SparseMatrix& 
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/exact/modal/open_modes");
+TEST_SUITE_BEGIN("unit/engine/exact/modal/unconstrained_modes");
 
 TEST_CASE("open modes: a free chain") {
   const int n = 24;

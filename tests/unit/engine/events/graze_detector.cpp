@@ -44,7 +44,7 @@ class Followed {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/events/grazes");
+TEST_SUITE_BEGIN("unit/engine/events/graze_detector");
 
 TEST_CASE("a guard that sinks back before it has clearly risen") {
   // 0.05 of the level at 0.2, lowest at 1, the level at 2.3

@@ -32,7 +32,7 @@ std::vector<double> falls(const std::function<double(double)>& g, bool at_zero, 
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/events/watch");
+TEST_SUITE_BEGIN("unit/engine/events/guard_monitor");
 
 TEST_CASE("a fall and rise inside one step is found, though both ends are positive") {
   // below zero from 0.52 to 0.58, steps end at multiples of 0.1... but 0.5 and 0.6 are positive

@@ -19,7 +19,7 @@ VectorXd random_list(std::mt19937_64& random, Eigen::Index n) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/exact/modal/lanes");
+TEST_SUITE_BEGIN("unit/engine/exact/modal/complex_lanes");
 
 TEST_CASE("lanes: a great matrix times a few vectors, row by row the same whatever the rows beside") {
   std::mt19937_64 random(1);

@@ -119,10 +119,10 @@ bool ExactEngine::continue_series(const contact::ContactStates& before) {
 
 void ExactEngine::choose_first_step() {
   if (counters.restarts > 0)
-    fast_mode_cutoff_ += (fast_mode_cutoff_ > 0.0 ? fresh : 1.0) * (t_ - segment_begin_ - fast_mode_cutoff_);
+    event_interval_ += (event_interval_ > 0.0 ? fresh : 1.0) * (t_ - segment_begin_ - event_interval_);
   segment_begin_ = t_;
   const double flights = flights_limit();
-  paced_ = !(flights > 0.0) && fast_mode_cutoff_ > 0.0;
+  paced_ = !(flights > 0.0) && event_interval_ > 0.0;
   max_next_step_ = flights > 0.0 ? longer * flights
                    : paced_      ? paced_length()
                                  : std::numeric_limits<double>::infinity();
@@ -130,9 +130,9 @@ void ExactEngine::choose_first_step() {
 
 double ExactEngine::paced_length() const {
   const double shortest = shortest_turn / growth_now_, longest = longest_turn / growth_now_;
-  if (local_series_ && local_series_->possible() && fast_mode_cutoff_ < longest)
-    return std::clamp(events_a_series * fast_mode_cutoff_, shortest, longest);
-  return std::max(times_pace * fast_mode_cutoff_, shortest);
+  if (local_series_ && local_series_->possible() && event_interval_ < longest)
+    return std::clamp(events_a_series * event_interval_, shortest, longest);
+  return std::max(times_pace * event_interval_, shortest);
 }
 
 /// Random share of the possible length of a step; 1 without a step_seed. Steps of equal length multiply the motion by

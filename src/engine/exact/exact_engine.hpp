@@ -127,11 +127,11 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   std::optional<std::mt19937_64> random_;  // random lengths of steps
   motion::Point end_;                      // end of the last step
   double t_ = 0.0, growth_now_ = 0.0;
-  double max_next_step_ = 0.0;     // greatest length of the segment's next step
-  double segment_begin_ = 0.0;     // beginning of the segment
-  double fast_mode_cutoff_ = 0.0;  // recent time between events; 0: none
-  bool paced_ = false;             // no series so far was too short for a step that pace_ allows
-  double end_x_ = 0.0;             // end of the last step in its series
+  double max_next_step_ = 0.0;   // greatest length of the segment's next step
+  double segment_begin_ = 0.0;   // beginning of the segment
+  double event_interval_ = 0.0;  // mean time between recent events; 0: none
+  bool paced_ = false;           // no series so far was too short for a step of event_interval_
+  double end_x_ = 0.0;           // end of the last step in its series
   engine::Step step_;
   SeriesWorkIntegrals works_;
   events::TurningPointDetector turns_;

@@ -114,8 +114,8 @@ struct Contact {
     return normal_force_given() ? std::nullopt : std::optional(g);
   }
 
-  /// True if (6) and (7) are the conditions of the contact: they are audited and checked by the witness, and its states
-  /// are the built-in ones.
+  /// True if (6) and (7) are the conditions of the contact: they are audited and checked by the law checker,
+  /// and its states are the built-in ones.
   [[nodiscard]] bool obeys_coulomb() const { return law->capabilities.signorini_coulomb; }
   /// True if N = kn g + cn g' while closed.
   [[nodiscard]] bool is_elastic_along_normal() const {

@@ -5,8 +5,8 @@
 //   at their zero   i <- next,  p <- memory                p: memory of the contact, such as an anchor or a dent
 //
 // A law is constant and shared. The numbers of one contact (stiffnesses, friction, gap) are in Contact, from which the
-// built-in laws make their rows; a user law (user_contact_law.hpp) contains its own numbers. Engines, decisions, witness and
-// statics query the capabilities, never the name of a law.
+// built-in laws make their rows; a user law (user_contact_law.hpp) contains its own numbers. Engines, decisions, law checker
+// and statics query the capabilities, never the name of a law.
 #pragma once
 
 #include <array>
@@ -45,8 +45,8 @@ struct LawCapabilities {
   bool normal_spring = false;
   /// g = 0 is a constraint while the contact is closed: velocities jump when it closes with g' < 0.
   bool takes_impulses = false;
-  /// The law obeys Signorini's conditions (6) and Coulomb's (7): they are audited and checked by the witness, N = kn g
-  /// + cn g' is its spring, T = kt (ut - p) that of its anchor, and each state is one of the built-in ones.
+  /// The law obeys Signorini's conditions (6) and Coulomb's (7): they are audited and checked by the law checker,
+  /// N = kn g + cn g' is its spring, T = kt (ut - p) that of its anchor, and each state is one of the built-in ones.
   bool signorini_coulomb = true;
   /// Guards are linear forms; otherwise they may contain products of forms.
   bool linear_guards = true;

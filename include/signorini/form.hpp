@@ -14,9 +14,9 @@
 
 namespace signorini {
 
-/// inside: open with g < 0, where a dashpot has released before the gap opened. static_limit_plus, static_limit_minus: friction is at
-/// its static limit and the contact does not slip, because other sticking contacts prevent it; they count as slip_plus,
-/// slip_minus.
+/// inside: open with g < 0, where a dashpot has released before the gap opened. static_limit_plus, static_limit_minus:
+/// friction is at its static limit and the contact does not slip, because other sticking contacts prevent it; they count
+/// as slip_plus, slip_minus.
 enum class State : unsigned char {
   open,
   inside,
@@ -28,8 +28,8 @@ enum class State : unsigned char {
   static_limit_minus
 };
 
-/// State i of a user law (user_contact_law.hpp), 0 to max_user_law_states - 1, of this kind. It equals no built-in state, and counts
-/// as its kind wherever a kind is needed.
+/// State i of a user law (user_contact_law.hpp), 0 to max_user_law_states - 1, of this kind. It equals no built-in
+/// state, and counts as its kind wherever a kind is needed.
 inline constexpr std::size_t max_user_law_states = 31;
 [[nodiscard]] constexpr State user_law_state(std::size_t i, State kind) {
   return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));

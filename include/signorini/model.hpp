@@ -194,7 +194,8 @@ struct Ties {
   }
 };
 
-/// Correction of displacements and energy for a load on parts with rigid contacts but without mass (model/compliance_split.hpp).
+/// Correction of displacements and energy for a load on parts with rigid contacts but without mass
+/// (model/compliance_split.hpp).
 struct LoadCorrection {
   std::size_t load = 0;  ///< index into Model::loads
   Vector displacements;  ///< displacements of the structure, for a history of 1

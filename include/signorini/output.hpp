@@ -28,8 +28,8 @@ struct Output {
     double N = 0.0, T = 0.0;  ///< factors of both forces
   };
   std::vector<ContactForces> forces = {};
-  /// factor (|N| - scene_force) slip . u: restoring force of a pendulum's surface in addition to its spring, whose stiffness
-  /// is that for the force `scene_force`.
+  /// factor (|N| - scene_force) slip . u: restoring force of a pendulum's surface in addition to its spring, whose
+  /// stiffness is that for the force `scene_force`.
   struct Restoring {
     std::size_t contact = 0;
     Combination slip = {};

@@ -257,7 +257,7 @@ struct Violation {
   bool unexplained = false;  ///< no recorded quantity and no tolerance explains it: the run ends
 };
 
-/// Results of the witness of a run.
+/// Results of the law checker of a run.
 struct LawCheckSummary {
   long checked = 0, violated = 0;     ///< number of checked instants and stretches; number of all violations
   std::vector<Violation> violations;  ///< the first hundred

@@ -1,6 +1,6 @@
 // trace.hpp: the rounds of a decision of contact states, and the reason of a failed one.
 //
-//   a round: a mode is tried at an instant; it holds if no guard becomes negative just after
+//   a round: a contact state is tried at an instant; it holds if no guard becomes negative just after
 //
 // A guard fails if its first derivative that is not zero to working precision is negative.
 #pragma once
@@ -27,20 +27,20 @@ struct NamedGuard {
   double excess = 1.0;  ///< ratio of that derivative to its zero tolerance
 };
 
-/// One mode tried at one instant.
+/// One contact state tried at one instant.
 struct DecisionRound {
   double t = 0.0;
   int number = 0;                     ///< 0: the states just before, with the forcing just after
   std::vector<NamedGuard> triggered;  ///< guards that the engine found at zero
   std::vector<std::size_t> touching;  ///< rigid contacts with g = 0 that were decided together
-  bool impact = false;                ///< velocities jumped before the mode was tried
+  bool impact = false;                ///< velocities jumped before the contact state was tried
   std::vector<ContactState> states;   ///< one per contact
   std::vector<NamedGuard> failed;     ///< empty: the mode holds
 };
 
 using RoundListener = std::function<void(const DecisionRound&)>;
 
-/// simulate() of signorini/simulate.hpp with a listener that is called for every tried mode.
+/// simulate() of signorini/simulate.hpp with a listener that is called for every tried contact state.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               const RoundListener& listener);
 

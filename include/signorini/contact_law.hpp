@@ -5,8 +5,8 @@
 //   at their zero   i <- next,  p <- memory                p: memory of the contact, such as an anchor or a dent
 //
 // A law is constant and shared. The numbers of one contact (stiffnesses, friction, gap) are in Contact, from which the
-// built-in laws make their rows; a user law (user_contact_law.hpp) contains its own numbers. Engines, decisions, law checker
-// and statics query the capabilities, never the name of a law.
+// built-in laws make their rows; a user law (user_contact_law.hpp) contains its own numbers. Engines, decisions, law
+// checker and statics query the capabilities, never the name of a law.
 #pragma once
 
 #include <array>

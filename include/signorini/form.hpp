@@ -15,8 +15,8 @@
 namespace signorini {
 
 /// inside: open with g < 0, where a dashpot has released before the gap opened. static_limit_plus, static_limit_minus:
-/// friction is at its static limit and the contact does not slip, because other sticking contacts prevent it; they count
-/// as slip_plus, slip_minus.
+/// friction is at its static limit and the contact does not slip, because other sticking contacts prevent it; they
+/// count as slip_plus, slip_minus.
 enum class State : unsigned char {
   open,
   inside,

@@ -1,14 +1,21 @@
-# compile_together(TARGET MOST): the sources of each folder are compiled up to MOST at a time (unity build), where SIGNORINI_TOGETHER
-# asks for it. What costs is what each file includes and instantiates anew, a third of which is left this way. Grouped by folder, so
-# that a new file disturbs its own folder only; the clang and debug presets compile each file alone, which shows a missing include.
+# compile_together(TARGET MOST [DEPTH]): sources of one folder are compiled up to MOST at a time (unity build), where
+# SIGNORINI_TOGETHER asks for it. The cost of a file is what it includes and instantiates anew; a third of it is left this way. Files
+# of subfolders join those of their parent at DEPTH folders below the top level (default: each folder by itself), so that a new file
+# disturbs its own group only. The clang and debug presets compile each file alone, which shows a missing include.
 function(compile_together target most)
   if(NOT SIGNORINI_TOGETHER)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH folder)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    if(ARGC GREATER 2)
+      string(REPLACE "/" ";" parts "${folder}")
+      list(SUBLIST parts 0 ${ARGV2} parts)
+      list(JOIN parts "/" folder)
+    endif()
     string(MAKE_C_IDENTIFIER "${folder}" group)
     if(NOT DEFINED count_${group})
       set(count_${group} 0)

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -89,6 +90,7 @@ struct Contact {
   int initial_slip = 0;               ///< sign of the slip at t = 0, undetermined by T below the static limit
   std::size_t initial_law_state = 0;  ///< user law: initial state
   double initial_memory = 0.0;        ///< user law: initial memory p
+  std::uint32_t unused_forces = 0, unused_guards = 0;  ///< ForceLayout::Counts
 
   [[nodiscard]] bool has_friction() const { return friction.any(); }
 

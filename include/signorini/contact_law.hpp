@@ -10,6 +10,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -52,6 +54,8 @@ struct LawCapabilities {
   bool linear_guards = true;
   /// Its springs are compliance of the structure: results contain the motion of the touching surfaces.
   bool compliance_split = false;
+  /// Numbers of its forces along the surface and of its guards, for ForceLayout.
+  std::uint32_t tangents = 1, guards = 3;
 };
 
 /// Capabilities of the laws that a scene can name.

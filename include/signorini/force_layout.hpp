@@ -1,29 +1,108 @@
-// force_layout.hpp: places of a contact's forces among those of all contacts.
+// force_layout.hpp: places of a contact's forces among those of all contacts, and of its guards among theirs.
 //
-//   N_1, T_1,  N_2, T_2, ...          one normal force for each contact, then one force for each tangent
+//   forces   N_1, T_1,  N_2, T_2, ...      a normal force for each contact, then a force for each of its tangents
+//   guards   G_11, G_12, ...,  G_21, ...   the guards of each contact in turn, in the order of its law
 //
-// It gives the place of a force, the number of all forces and the contact of a row. Residual rows of contacts have the
-// same order as the forces. All contacts of a model have places for equally many tangents.
+// Residual rows of contacts have the same order as the forces. The numbers of tangents and guards belong to the contact:
+// its law gives them (LawCapabilities), and nothing else computes a place from them. Some contacts of a model, such as
+// those of a part or of a decision, have a layout of their own (`part`).
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace signorini {
 
-struct ForceLayout {
-  std::size_t tangents = 1;  ///< tangents of each contact
-  std::size_t unused = 0;    ///< places after the tangents of each contact; their force is zero
+class ForceLayout {
+ public:
+  /// Numbers of one contact.
+  struct Counts {
+    std::uint32_t tangents = 1, guards = 3;
+    std::uint32_t unused_forces = 0;  ///< places after the tangents; their force is zero
+    std::uint32_t unused_guards = 0;  ///< slots after the guards, without a guard
+  };
 
-  /// Distance from a place of one contact to the same place of the next.
-  [[nodiscard]] constexpr std::size_t stride() const { return 1 + tangents + unused; }
-  /// Number of all forces.
-  [[nodiscard]] constexpr std::size_t size(std::size_t contacts) const { return stride() * contacts; }
-  [[nodiscard]] constexpr std::size_t normal(std::size_t contact) const { return stride() * contact; }
-  [[nodiscard]] constexpr std::size_t tangent(std::size_t contact, std::size_t i = 0) const {
-    return stride() * contact + 1 + i;
+  /// Layout of no contact.
+  ForceLayout() = default;
+  explicit ForceLayout(const std::vector<Counts>& contacts) {
+    auto table = std::make_shared<Table>();
+    table->counts = contacts;
+    table->starts.reserve(contacts.size() + 1);
+    std::uint32_t place = 0, slot = 0;
+    for (std::uint32_t c = 0; c < contacts.size(); ++c) {
+      const Counts& n = contacts[c];
+      table->starts.push_back({place, n.tangents, slot, n.guards});
+      place += 1 + n.tangents + n.unused_forces;
+      slot += n.guards + n.unused_guards;
+      table->contact_of_place.resize(place, c);
+      table->contact_of_guard.resize(slot, c);
+    }
+    table->starts.push_back({place, 0, slot, 0});
+    starts_ = table->starts.data();
+    contacts_ = contacts.size();
+    table_ = std::move(table);
   }
-  [[nodiscard]] constexpr std::size_t contact_of(std::size_t place) const { return place / stride(); }
-  [[nodiscard]] constexpr bool is_normal(std::size_t place) const { return place % stride() == 0; }
+  /// All contacts have the same numbers.
+  explicit ForceLayout(std::size_t contacts) : ForceLayout(std::vector<Counts>(contacts)) {}
+
+  /// Layout of the listed contacts alone, in this order.
+  [[nodiscard]] ForceLayout part(const std::vector<std::size_t>& contacts) const {
+    std::vector<Counts> counts;
+    counts.reserve(contacts.size());
+    for (const std::size_t c : contacts) counts.push_back(table_->counts[c]);
+    return ForceLayout(counts);
+  }
+
+  [[nodiscard]] std::size_t contacts() const { return contacts_; }
+  [[nodiscard]] const Counts& counts(std::size_t contact) const { return table_->counts[contact]; }
+
+  /// Number of all places.
+  [[nodiscard]] std::size_t size() const { return contacts_ == 0 ? 0 : starts_[contacts_].place; }
+  [[nodiscard]] std::size_t tangents(std::size_t contact) const { return starts_[contact].tangents; }
+  [[nodiscard]] std::size_t normal(std::size_t contact) const { return starts_[contact].place; }
+  [[nodiscard]] std::size_t tangent(std::size_t contact, std::size_t i = 0) const {
+    return starts_[contact].place + 1 + i;
+  }
+  [[nodiscard]] std::size_t contact_of(std::size_t place) const { return table_->contact_of_place[place]; }
+  [[nodiscard]] bool is_normal(std::size_t place) const { return place == normal(contact_of(place)); }
+  /// False for a place after the tangents of its contact.
+  [[nodiscard]] bool is_used(std::size_t place) const {
+    const Start& start = starts_[contact_of(place)];
+    return place <= start.place + start.tangents;
+  }
+
+  /// Number of the slots of all guards.
+  [[nodiscard]] std::size_t guard_count() const { return contacts_ == 0 ? 0 : starts_[contacts_].slot; }
+  [[nodiscard]] std::size_t guards(std::size_t contact) const { return starts_[contact].guards; }
+  /// Slot of a contact's guard.
+  [[nodiscard]] std::size_t guard(std::size_t contact, std::size_t i = 0) const {
+    return starts_[contact].slot + i;
+  }
+  /// Slot after the last one of a contact.
+  [[nodiscard]] std::size_t guard_end(std::size_t contact) const { return starts_[contact + 1].slot; }
+  [[nodiscard]] std::size_t contact_of_guard(std::size_t slot) const {
+    return table_->contact_of_guard[slot];
+  }
+  /// Number of a guard among those of its contact, from its slot.
+  [[nodiscard]] std::size_t guard_within(std::size_t slot) const {
+    return slot - starts_[contact_of_guard(slot)].slot;
+  }
+
+ private:
+  struct Start {
+    std::uint32_t place = 0, tangents = 0, slot = 0, guards = 0;
+  };
+  struct Table {
+    std::vector<Start> starts;  // one more than contacts: the ends
+    std::vector<std::uint32_t> contact_of_place, contact_of_guard;
+    std::vector<Counts> counts;
+  };
+  std::shared_ptr<const Table> table_;  // shared by copies
+  const Start* starts_ = nullptr;
+  std::size_t contacts_ = 0;
 };
 
 }  // namespace signorini

@@ -222,7 +222,7 @@ struct Model {
   SparseMatrix mass, damping, stiffness;
   std::vector<Load> loads;
   std::vector<Contact> contacts;
-  ForceLayout layout;  ///< layout of the forces of all contacts
+  ForceLayout layout;  ///< layout of the forces and guards of all contacts
   std::vector<Column> columns;
   std::vector<Output> outputs;
   /// Sum of reactions minus loads and inertia, along x and y; zero up to the residual of the equation of motion. Empty
@@ -255,9 +255,7 @@ struct Model {
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   /// Length of the vector of all contact forces.
-  [[nodiscard]] Eigen::Index force_count() const {
-    return static_cast<Eigen::Index>(layout.size(contacts.size()));
-  }
+  [[nodiscard]] Eigen::Index force_count() const { return static_cast<Eigen::Index>(layout.size()); }
   /// True if the computed displacements are those of physical_dofs().
   [[nodiscard]] bool is_physical() const { return !reduction && !basis && !ties; }
   /// Displacements (or velocities) of physical_dofs(), without terms of moving supports of rigid bodies and of

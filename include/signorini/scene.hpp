@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -425,6 +426,8 @@ struct ContactSpec {
   bool of_stop = false;
   /// User law in place of the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
   std::shared_ptr<const UserContactLaw> user_law = {};
+  /// ForceLayout::Counts; results do not depend on them.
+  std::uint32_t unused_forces = 0, unused_guards = 0;
 
   /// Capabilities of the named law; a user law replaces a compliant one.
   [[nodiscard]] LawCapabilities capabilities() const { return capabilities_of(law); }

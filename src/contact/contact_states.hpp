@@ -1,10 +1,11 @@
-// contact_states.hpp: the states of all contacts together.
+// contact_states.hpp: the states of all contacts together, and the layout of their forces.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "signorini/contact.hpp"
+#include "signorini/force_layout.hpp"
 
 namespace signorini::contact {
 
@@ -24,19 +25,14 @@ using ContactStates = std::vector<ContactState>;
   return states;
 }
 
-// Index of a contact's guards among the guards of all contacts: three per contact, in the order of
-// contact/law.hpp. Index of its forces: signorini/force_layout.hpp.
-
-inline constexpr std::size_t guards_per_contact = 3;
-
-[[nodiscard]] constexpr std::size_t guard_count(std::size_t contacts) {
-  return guards_per_contact * contacts;
+/// Layout of the forces and guards of these contacts, from the numbers of their laws.
+[[nodiscard]] inline ForceLayout layout_of(const std::vector<Contact>& contacts) {
+  std::vector<ForceLayout::Counts> counts;
+  counts.reserve(contacts.size());
+  for (const Contact& contact : contacts)
+    counts.push_back({contact.law->capabilities.tangents, contact.law->capabilities.guards,
+                      contact.unused_forces, contact.unused_guards});
+  return ForceLayout(counts);
 }
-/// Index among the guards of all contacts, and the contact and guard of such an index.
-[[nodiscard]] constexpr std::size_t guard_slot(std::size_t contact, std::size_t guard) {
-  return guards_per_contact * contact + guard;
-}
-[[nodiscard]] constexpr std::size_t contact_of_guard(std::size_t slot) { return slot / guards_per_contact; }
-[[nodiscard]] constexpr std::size_t guard_within(std::size_t slot) { return slot % guards_per_contact; }
 
 }  // namespace signorini::contact

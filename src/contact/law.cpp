@@ -163,8 +163,7 @@ namespace signorini::contact {
 
 Rows rows(const Contact& contact, const ContactState& state) { return contact.law->rows(contact, state); }
 
-std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const ContactState& state) {
-  static_assert(guards_per_contact == ContactLaw::most_guards);
+ContactLaw::Guards guards(const Contact& contact, const ContactState& state) {
   return contact.law->guards(contact, state);
 }
 

@@ -125,8 +125,8 @@ struct Rows {
 namespace signorini::contact {
 
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
-[[nodiscard]] std::array<GuardForm, guards_per_contact> guards(const Contact& contact,
-                                                               const ContactState& state);
+/// Those that the law does not have (ForceLayout::guards) are absent.
+[[nodiscard]] ContactLaw::Guards guards(const Contact& contact, const ContactState& state);
 /// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
 

@@ -95,7 +95,7 @@ std::vector<TriggeredGuard> find_resting_limits(const Decision& decision) {
     const GuardStart& guard = decision.guards[i];
     const bool limit = contact::is_friction_limit(guard.kind);
     if (limit && guard.at_zero && guard.leading_order < 0)
-      result.push_back({contact::contact_of_guard(i), guard.kind});
+      result.push_back({decision.layout.contact_of_guard(i), guard.kind});
   }
   return result;
 }
@@ -320,9 +320,10 @@ void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverSta
   if (turning.empty()) return;
   const motion::StateSystemPtr system = systems_.system_of(solver_state.states);
   if (!system) return;
+  const ForceLayout layout = model_.layout.part(turning);
   std::vector<FixedVelocity> fixed;
   for (std::size_t i = 0; i < turning.size(); ++i)
-    fixed.push_back({tangent_place(i), &model_.contacts[turning[i]].tangent,
+    fixed.push_back({tangent_place(layout, i), &model_.contacts[turning[i]].tangent,
                      solver_state.after.surface(turning[i], solver_state.instant.t, 1)});
   if (has_velocities(fixed, solver_state.instant.v)) return;
   const Eigen::VectorXd impulses =
@@ -474,7 +475,7 @@ void ContactStateSolver::finish(SolverState& solver_state) {
   d.unresolved = solver_state.impact_result.unresolved;
   d.slides_after = slides(solver_state.after, d);
   d.after.reserve(solver_state.states.size());
-  d.guards.reserve(contact::guard_count(solver_state.states.size()));
+  d.guards.assign(d.layout.guard_count(), {});
   for (std::size_t c = 0; c < solver_state.states.size(); ++c) {
     const MotionJet& jet = solver_state.jets[c];
     const ContactMotion& now = jet.motion[0];
@@ -482,8 +483,10 @@ void ContactStateSolver::finish(SolverState& solver_state) {
     d.jumped[c] = std::abs(now.N - d.before[c].N) > solver_state.noise_before[c].N + jet.noise[0].N ||
                   std::abs(now.T - d.before[c].T) > solver_state.noise_before[c].T + jet.noise[0].T;
     const bool clear = clearly_holds(solver_state, c);
-    for (const GuardForm& guard : guards_.of(c, solver_state.states[c])) {
-      GuardStart& start = d.guards.emplace_back();
+    const GuardsOfState& guards = guards_.of(c, solver_state.states[c]);
+    for (std::size_t i = 0; i < d.layout.guards(c); ++i) {
+      const GuardForm& guard = guards[i];
+      GuardStart& start = d.guards[d.layout.guard(c, i)];
       // Other contacts may hold its slip rate at zero, except for rounding: the guard is then absent.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, solver_state)))
         continue;
@@ -517,7 +520,7 @@ Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const 
   const Decision& d = solver_state.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
     const GuardStart& guard = d.guards[slot];
-    const std::size_t c = contact::contact_of_guard(slot);
+    const std::size_t c = d.layout.contact_of_guard(slot);
     const bool rests = guard.kind == Guard::sliding && guard.at_zero && guard.leading_order < 0;
     if (!rests || !model_.contacts[c].sticks_rigidly()) continue;
     contact::ContactStates sticking = d.states;
@@ -536,6 +539,7 @@ ContactStateSolver::Attempt ContactStateSolver::attempt(const Instant& instant, 
   const std::size_t count = model_.contacts.size();
   SolverState solver_state{instant, after, {}, {}, {}, {}, {}, {}, ImpactResult(count), {}};
   solver_state.jets = std::move(scratch_);
+  solver_state.decision.layout = model_.layout;
   solver_state.decision.visited.assign(count, false);
   solver_state.decision.jumped.assign(count, false);
   solver_state.decision.refusal = iterate(before, solver_state);
@@ -583,6 +587,7 @@ Decision ContactStateSolver::adopt(const Instant& instant, const contact::Contac
                                    const motion::Forcing& forcing) {
   SolverState solver_state{instant, forcing, {}, {}, {}, {}, {}, {}, ImpactResult(states.size()), {}};
   Decision& d = solver_state.decision;
+  d.layout = model_.layout;
   d.visited.assign(states.size(), false);
   d.jumped.assign(states.size(), false);
   contact::ContactStates taken = states;
@@ -595,8 +600,10 @@ Decision ContactStateSolver::adopt(const Instant& instant, const contact::Contac
   for (const MotionJet& jet : solver_state.jets) d.after.push_back(jet.motion[0]);
   d.before = d.after;
   d.slides_after = d.slides_before = slides(forcing, d);
+  d.guards.assign(d.layout.guard_count(), {});
   for (std::size_t c = 0; c < taken.size(); ++c)
-    for (const GuardForm& guard : guards_.of(c, taken[c])) d.guards.push_back({guard.kind});
+    for (std::size_t i = 0; i < d.layout.guards(c); ++i)
+      d.guards[d.layout.guard(c, i)].kind = guards_.of(c, taken[c])[i].kind;
   d.forms = guards_.all();
   return std::move(d);
 }

@@ -42,8 +42,11 @@ Scaled scaled(const CoulombProblem& p) {
   const VectorXd inverse = s.unit.cwiseInverse();
   s.W = inverse.asDiagonal() * p.W * inverse.asDiagonal();
   s.b = inverse.cwiseProduct(p.b);
+  // An unused place responds to itself alone; its force is zero.
+  for (std::size_t place = 0; place < p.layout.size(); ++place)
+    if (!p.layout.is_used(place)) s.W(static_cast<Index>(place), static_cast<Index>(place)) = 1.0;
   for (std::size_t i = 0; i < p.items.size(); ++i)
-    s.ratio.push_back(s.unit[tangent_place(i)] / s.unit[normal_place(i)]);
+    s.ratio.push_back(s.unit[p.tangent(i)] / s.unit[p.normal(i)]);
   return s;
 }
 
@@ -76,7 +79,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   Index at = 0;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Index ni = normal_place(i), ti = tangent_place(i);
+    const Index ni = p.normal(i), ti = p.tangent(i);
     // In scaled units: force_t = physical * unit_t; f l * unit_t = f (l unit_n) unit_t / unit_n.
     const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     switch (item.kind) {
@@ -145,7 +148,7 @@ std::vector<TrialState> choices(const CoulombItem& item) {
   return {};
 }
 
-/// Equations of one combination of states: at most one unknown per row; A x = c with x the 2m forces.
+/// Equations of one combination of states: at most one unknown per row; A x = c with x the forces.
 struct Equations {
   MatrixXd A;
   VectorXd c;
@@ -155,16 +158,18 @@ Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vect
                        const std::vector<bool>& kinetic) {
   const Index n = s.b.size();
   Equations e{MatrixXd::Zero(n, n), VectorXd::Zero(n)};
+  const auto no_force = [&](Index row) { e.A(row, row) = 1.0; };
+  for (std::size_t place = 0; place < p.layout.size(); ++place)
+    if (!p.layout.is_used(place)) no_force(static_cast<Index>(place));
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Index ni = normal_place(i), ti = tangent_place(i);
+    const Index ni = p.normal(i), ti = p.tangent(i);
     const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     const int sign = sign_of(states[i]);
     const auto respond = [&](Index row) {
       e.A.row(row) = s.W.row(row);
       e.c[row] = -s.b[row];
     };
-    const auto no_force = [&](Index row) { e.A(row, row) = 1.0; };
     const bool own_normal = item.kind != Kind::pressed && item.kind != Kind::limit;
     if (own_normal && states[i] != TrialState::open)
       respond(ni);
@@ -199,7 +204,7 @@ Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<Tria
   const auto must_not_be_negative = [&](double value) { miss = std::max(miss, -value); };
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Index ni = normal_place(i), ti = tangent_place(i);
+    const Index ni = p.normal(i), ti = p.tangent(i);
     const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     const int sign = sign_of(states[i]);
     if (item.kind == Kind::limit) {
@@ -235,15 +240,15 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
   const auto complementary = [&](double a, double b) { return std::abs(std::min(a, b)) <= zero; };
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const double xt = x[tangent_place(i)], rt = r[tangent_place(i)];
+    const double xt = x[p.tangent(i)], rt = r[p.tangent(i)];
     if (item.kind == Kind::limit) {
       if (!complementary(item.sign * xt, item.sign * rt)) return false;
       continue;
     }
-    if (item.kind != Kind::pressed && !complementary(x[normal_place(i)], r[normal_place(i)])) return false;
+    if (item.kind != Kind::pressed && !complementary(x[p.normal(i)], r[p.normal(i)])) return false;
     if (item.kind == Kind::normal) continue;
     const double l =
-        item.kind == Kind::pressed ? item.applied_normal_force * s.unit[normal_place(i)] : x[normal_place(i)];
+        item.kind == Kind::pressed ? item.applied_normal_force * s.unit[p.normal(i)] : x[p.normal(i)];
     const double most = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i] * l;
     const int sign = item.kind == Kind::sliding ? item.sign : rt > zero ? 1 : rt < -zero ? -1 : 0;
     const bool good = sign == 0 ? std::abs(xt) <= most + zero : std::abs(xt + sign * most) <= zero;
@@ -267,8 +272,8 @@ bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, 
     const CoulombItem& item = p.items[i];
     if (kinetic[i] || item.static_friction == item.kinetic_friction) continue;
     if (item.kind != Kind::frictional && item.kind != Kind::pressed) continue;
-    const double l = item.kind == Kind::pressed ? item.applied_normal_force : x[normal_place(i)];
-    if (l > zero && std::abs(r[tangent_place(i)]) > zero) kinetic[i] = changed = true;
+    const double l = item.kind == Kind::pressed ? item.applied_normal_force : x[p.normal(i)];
+    if (l > zero && std::abs(r[p.tangent(i)]) > zero) kinetic[i] = changed = true;
   }
   return changed;
 }
@@ -348,7 +353,8 @@ bool may_be_nonunique(const CoulombProblem& p) {
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) {
       const auto at = static_cast<std::size_t>(j);
-      nt(i, j) = s.W(normal_place(i), tangent_place(j)) * p.items[at].static_friction * s.ratio[at];
+      nt(i, j) = s.W(normal_place(p.layout, i), tangent_place(p.layout, j)) * p.items[at].static_friction *
+                 s.ratio[at];
     }
   const MatrixXd symmetric = 0.5 * (s.W + s.W.transpose());
   const double least = base::symmetric_eigenvalues(symmetric)[0];
@@ -378,7 +384,7 @@ Acting acting(const CoulombProblem& p, const CoulombSolution& s) {
   Acting result;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    const Eigen::Index n = p.normal(i), t = p.tangent(i);
     const double l = s.force[n], k = s.force[t];
     const double f = item.friction(s.kinetic[i]);
     const bool presses = item.kind != Kind::pressed && item.kind != Kind::limit && l > 0.0;
@@ -416,7 +422,7 @@ CoulombSignificance::CoulombSignificance(const CoulombProblem& p, const CoulombS
 }
 
 double CoulombSignificance::applied_normal_force(std::size_t i) const {
-  return item(i).kind == Kind::pressed ? item(i).applied_normal_force : force(normal_place(i));
+  return item(i).kind == Kind::pressed ? item(i).applied_normal_force : force(normal(i));
 }
 
 double CoulombSignificance::friction(std::size_t i) const { return item(i).friction(solution_.kinetic[i]); }
@@ -430,7 +436,7 @@ bool CoulombSignificance::is_zero_response(Eigen::Index row) const {
 }
 
 bool CoulombSignificance::is_inside_cone(std::size_t i) const {
-  const Eigen::Index n = normal_place(i), t = tangent_place(i);
+  const Eigen::Index n = normal(i), t = tangent(i);
   const double f = friction(i);
   return f * applied_normal_force(i) - std::abs(force(t)) > force_tolerance(t) + f * force_tolerance(n);
 }

@@ -16,32 +16,26 @@
 #include <optional>
 #include <vector>
 
+#include "signorini/force_layout.hpp"
+
 namespace signorini::decide {
 
-// Index of a listed contact in vectors that contain l, k or rn, rt of each contact in turn.
+// Rows of a listed contact in vectors that contain l, k or rn, rt of each contact in turn, by the layout of the list.
 //
 //   (n_1, t_1, n_2, t_2, ...)         the list: touching, undecided, or reversing contacts
 
-/// Entries per listed contact: n, and one tangent.
-inline constexpr Eigen::Index places_per_contact = 2;
-
 template <class Integer>
-[[nodiscard]] constexpr Eigen::Index normal_place(Integer i) {
-  return places_per_contact * static_cast<Eigen::Index>(i);
+[[nodiscard]] Eigen::Index normal_place(const ForceLayout& layout, Integer i) {
+  return static_cast<Eigen::Index>(layout.normal(static_cast<std::size_t>(i)));
 }
 template <class Integer>
-[[nodiscard]] constexpr Eigen::Index tangent_place(Integer i) {
-  return normal_place(i) + 1;
+[[nodiscard]] Eigen::Index tangent_place(const ForceLayout& layout, Integer i) {
+  return static_cast<Eigen::Index>(layout.tangent(static_cast<std::size_t>(i)));
 }
 /// Length of such a vector.
-template <class Integer>
-[[nodiscard]] constexpr Eigen::Index place_count(Integer contacts) {
-  return places_per_contact * static_cast<Eigen::Index>(contacts);
+[[nodiscard]] inline Eigen::Index place_count(const ForceLayout& layout) {
+  return static_cast<Eigen::Index>(layout.size());
 }
-[[nodiscard]] constexpr std::size_t contact_of_place(Eigen::Index place) {
-  return static_cast<std::size_t>(place / places_per_contact);
-}
-[[nodiscard]] constexpr bool is_normal_place(Eigen::Index place) { return place % places_per_contact == 0; }
 
 struct CoulombItem {
   enum class Kind : unsigned char {
@@ -59,13 +53,18 @@ struct CoulombItem {
 };
 
 struct CoulombProblem {
-  Eigen::MatrixXd W;  ///< 2m x 2m, symmetric positive semidefinite except for `limit`
-  Eigen::VectorXd b;  ///< 2m
+  Eigen::MatrixXd
+      W;  ///< places x places, symmetric positive semidefinite except for `limit`; unused places: zero
+  Eigen::VectorXd b;  ///< one entry per place
   std::vector<CoulombItem> items;
+  ForceLayout layout = {};  ///< of the items
+
+  [[nodiscard]] Eigen::Index normal(std::size_t i) const { return normal_place(layout, i); }
+  [[nodiscard]] Eigen::Index tangent(std::size_t i) const { return tangent_place(layout, i); }
 };
 
 struct CoulombSolution {
-  Eigen::VectorXd force, response;  ///< 2m each
+  Eigen::VectorXd force, response;  ///< one entry per place
   std::vector<bool> kinetic;        ///< items that have begun to slip: f is the kinetic coefficient
 };
 
@@ -106,6 +105,8 @@ class CoulombSignificance {
                       const Eigen::VectorXd& noise);
 
   [[nodiscard]] const CoulombItem& item(std::size_t i) const { return problem_.items[i]; }
+  [[nodiscard]] Eigen::Index normal(std::size_t i) const { return problem_.normal(i); }
+  [[nodiscard]] Eigen::Index tangent(std::size_t i) const { return problem_.tangent(i); }
   [[nodiscard]] double force(Eigen::Index row) const { return solution_.force[row]; }
   [[nodiscard]] double response(Eigen::Index row) const { return solution_.response[row]; }
   /// Compression of item i, and its coefficient of friction in the solution.

@@ -53,7 +53,8 @@ struct Decision {
   motion::Jet jet;
   std::vector<ContactMotion> before, after;  ///< one entry per contact
   std::vector<motion::BodySlide> slides_before, slides_after;
-  std::vector<GuardStart> guards;             ///< guards_per_contact entries per contact
+  ForceLayout layout;                         ///< of forces and guards
+  std::vector<GuardStart> guards;             ///< one entry for each slot of `layout`
   GuardForms forms;                           ///< forms of these guards, including absent ones
   std::map<std::size_t, Crossing> crossings;  ///< of visited contacts
   std::vector<bool> visited;  ///< contacts that changed state in between, one entry per contact
@@ -82,7 +83,7 @@ struct Decision {
 
   /// Guard after the decision.
   [[nodiscard]] const GuardForm& guard(std::size_t slot) const {
-    return forms[contact::contact_of_guard(slot)][contact::guard_within(slot)];
+    return forms[layout.contact_of_guard(slot)][layout.guard_within(slot)];
   }
   /// Form of a linear guard.
   [[nodiscard]] const Form& form(std::size_t slot) const { return guard(slot).form; }

@@ -16,20 +16,23 @@ namespace signorini::decide {
 Delassus delassus(const Model& model, const motion::StateSystem& system,
                   const std::vector<std::size_t>& contacts) {
   const auto n = static_cast<Eigen::Index>(model.size());
-  const Eigen::Index m = place_count(contacts.size());
-  Delassus d{Eigen::MatrixXd(n, m), Eigen::MatrixXd(m, m)};
+  const ForceLayout layout = model.layout.part(contacts);
+  const Eigen::Index m = place_count(layout);
+  Delassus d{Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(m, m), layout};
   Vector x(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
   for (Eigen::Index j = 0; j < m; ++j) {
-    const Contact& contact = model.contacts[contacts[contact_of_place(j)]];
+    const auto place = static_cast<std::size_t>(j);
+    if (!layout.is_used(place)) continue;
+    const Contact& contact = model.contacts[contacts[layout.contact_of(place)]];
     x.setZero();
-    (is_normal_place(j) ? contact.normal : contact.tangent).add_to(x, 1.0);
+    (layout.is_normal(place) ? contact.normal : contact.tangent).add_to(x, 1.0);
     system.solve(x.data(), work.data());
     for (Eigen::Index i = 0; i < n; ++i)
       d.effect(i, j) = system.kinds()[static_cast<std::size_t>(i)] == linear::DofKind::massive ? x[i] : 0.0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Contact& other = model.contacts[contacts[i]];
-      d.W(normal_place(i), j) = other.normal.dot(d.effect.col(j));
-      d.W(tangent_place(i), j) = other.tangent.dot(d.effect.col(j));
+      d.W(normal_place(layout, i), j) = other.normal.dot(d.effect.col(j));
+      d.W(tangent_place(layout, i), j) = other.tangent.dot(d.effect.col(j));
     }
   }
   return d;
@@ -38,16 +41,17 @@ Delassus delassus(const Model& model, const motion::StateSystem& system,
 Eigen::VectorXd with_reactions(const Model& model, const motion::StateSystem& system,
                                const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return {};
+  const ForceLayout layout = model.layout.part(contacts);
   Vector x = Vector::Zero(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    model.contacts[contacts[i]].normal.add_to(x, impulses[normal_place(i)]);
-    model.contacts[contacts[i]].tangent.add_to(x, impulses[tangent_place(i)]);
+    model.contacts[contacts[i]].normal.add_to(x, impulses[normal_place(layout, i)]);
+    model.contacts[contacts[i]].tangent.add_to(x, impulses[tangent_place(layout, i)]);
   }
   system.solve(x.data(), work.data());
   Eigen::VectorXd all = -x.tail(model.force_count());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    all.data()[model.layout.normal(contacts[i])] += impulses[normal_place(i)];
-    all.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(i)];
+    all.data()[model.layout.normal(contacts[i])] += impulses[normal_place(layout, i)];
+    all.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(layout, i)];
   }
   return all;
 }
@@ -73,8 +77,9 @@ Eigen::VectorXd impose_velocities(const Delassus& d, const std::vector<FixedVelo
   v += effect * impulses(rows);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const FixedVelocity& f = fixed[i];
-    const bool both = i + 1 < fixed.size() && is_normal_place(f.row) &&
-                      fixed[i + 1].row == tangent_place(contact_of_place(f.row));
+    const auto place = static_cast<std::size_t>(f.row);
+    const bool both = i + 1 < fixed.size() && d.layout.is_normal(place) &&
+                      fixed[i + 1].row == tangent_place(d.layout, d.layout.contact_of(place));
     if (both)
       linear::set_exactly(*f.form, f.value, *fixed[i + 1].form, fixed[i + 1].value, v);
     else
@@ -96,17 +101,17 @@ bool holds(const Contact& contact, const ContactState& state) {
 
 /// Matrix A: constraint rows of accelerations, and their response to the constraint forces.
 Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& states,
-                          const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& W) {
+                          const std::vector<std::size_t>& contacts, const Delassus& d) {
   std::vector<Eigen::Index> rows;
-  Eigen::MatrixXd effect = W;
+  Eigen::MatrixXd effect = d.W;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model.contacts[contacts[i]];
     const ContactState& state = states[contacts[i]];
-    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    const Eigen::Index n = normal_place(d.layout, i), t = tangent_place(d.layout, i);
     if (contact.takes_impulses()) rows.push_back(n);
     if (contact.has_friction() && state.state == State::stick) rows.push_back(t);
     if (const int s = slip_sign(state.state); s != 0)
-      effect.col(n) -= s * contact::slipping_friction(contact, state.state) * W.col(t);
+      effect.col(n) -= s * contact::slipping_friction(contact, state.state) * d.W.col(t);
   }
   return effect(rows, rows);
 }
@@ -114,17 +119,18 @@ Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& stat
 /// Adds the terms that make shares unique for feet of one body that share a motion: s z z' for directions z without
 /// effect (linear/redundant_rows.hpp).
 void add_shares(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
-                const std::vector<std::size_t>& contacts, Eigen::MatrixXd& W) {
+                const std::vector<std::size_t>& contacts, Delassus& d) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
     const auto at = std::find(contacts.begin(), contacts.end(), layout.contact_of(row));
     if (at == contacts.end()) return std::nullopt;
-    return layout.is_normal(row) ? normal_place(at - contacts.begin()) : tangent_place(at - contacts.begin());
+    const auto i = at - contacts.begin();
+    return layout.is_normal(row) ? normal_place(d.layout, i) : tangent_place(d.layout, i);
   };
   for (const linear::SharedForces& of : shared)
     for (std::size_t i = 0; i < of.rows.size(); ++i)
       for (std::size_t j = 0; j < of.rows.size(); ++j) {
         const auto a = place(of.rows[i]), b = place(of.rows[j]);
-        if (a && b) W(*a, *b) += of.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (a && b) d.W(*a, *b) += of.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       }
 }
 
@@ -154,10 +160,10 @@ bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStat
   if (contacts.size() < 2) return true;  // normal and tangent of one contact are independent
   const motion::StateSystemPtr system = systems.system_of(free);
   if (!system) return true;
-  Eigen::MatrixXd W = delassus(model, *system, contacts).W;
+  Delassus d = delassus(model, *system, contacts);
   if (const motion::StateSystemPtr held = systems.system_of(states))
-    add_shares(model.layout, held->factorised().shared, contacts, W);
-  Eigen::MatrixXd a = held_part(model, states, contacts, W);
+    add_shares(model.layout, held->factorised().shared, contacts, d);
+  Eigen::MatrixXd a = held_part(model, states, contacts, d);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
   for (Eigen::Index i = 0; i < a.rows(); ++i)
@@ -186,7 +192,7 @@ Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, co
   };
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    const Eigen::Index n = p.normal(i), t = p.tangent(i);
     if (!may_share[i] || item.kind == Kind::limit) continue;
     if (item.kind == Kind::pressed) {
       if (!rests(t) || !(item.applied_normal_force > 0.0)) continue;

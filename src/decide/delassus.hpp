@@ -20,7 +20,8 @@ struct Delassus {
   Eigen::MatrixXd
       effect;  ///< n x places of the list: accelerations for unit forces (l along n, k along t); 0 at massless degrees
                ///< of freedom
-  Eigen::MatrixXd W;  ///< places x places of the list
+  Eigen::MatrixXd W;   ///< places x places of the list; unused places: zero
+  ForceLayout layout;  ///< of the list
 };
 
 /// A velocity along n or t of a listed contact that is known exactly. row: decide/coulomb_problem.hpp.

@@ -23,7 +23,7 @@ int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 void hold_normals(CoulombProblem& p) {
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     if (p.items[i].kind != Kind::limit) continue;
-    const Eigen::Index n = normal_place(i);
+    const Eigen::Index n = p.normal(i);
     p.W.row(n).setZero();
     p.W.col(n).setZero();
     p.b[n] = 0.0;
@@ -41,7 +41,7 @@ void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& g
 Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t i, ContactState& state,
                     KnownGuards& guards) {
   const int sign = r.item(i).sign;
-  const Eigen::Index t = tangent_place(i);
+  const Eigen::Index t = r.tangent(i);
   if (sign * r.force(t) > r.force_tolerance(t)) {
     state.state = State::stick;
     (sign > 0 ? guards.slip_plus : guards.slip_minus) = {order, true};
@@ -56,7 +56,7 @@ Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t
 Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::size_t i,
                         Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
-  const Eigen::Index t = tangent_place(i);
+  const Eigen::Index t = r.tangent(i);
   state.state = State::stick;
   if (r.is_inside_cone(i)) return Verdict::decided;
   if (!r.is_zero_response(t)) {
@@ -77,7 +77,7 @@ Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::si
 Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
                        Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
-  const Eigen::Index n = normal_place(i), t = tangent_place(i);
+  const Eigen::Index n = r.normal(i), t = r.tangent(i);
   if (item.kind != Kind::pressed && !(r.force(n) > r.force_tolerance(n))) {
     if (!(r.force(n) > 0.0) && !r.is_zero_response(n)) {
       guards.closing = {order + 2, true};
@@ -163,7 +163,7 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
   const double per_force = acceleration / model::in_scene_units(model_, 1.0, unit::force);
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
     const CoulombItem& item = problem.items[i];
-    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    const Eigen::Index n = problem.normal(i), t = problem.tangent(i);
     result.reason +=
         fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
                     model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
@@ -183,16 +183,17 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
 void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forcing,
                             const std::vector<Entry>& entries, const std::vector<MotionJet>& jets,
                             Level& level) const {
-  const auto size = place_count(level.entries.size());
+  level.problem.layout = model_.layout.part(level.contacts);
+  const Eigen::Index size = place_count(level.problem.layout);
   level.problem.b = Eigen::VectorXd::Zero(size);
-  level.noise.resize(size);
+  level.noise = Eigen::VectorXd::Zero(size);
   for (std::size_t i = 0; i < level.entries.size(); ++i) {
     const MotionJet& jet = jets[level.contacts[i]];
     const ContactMotion &now = jet.motion[level.order], &zero = jet.noise[level.order];
     const bool last = level.order + 1 == MotionJet::orders;
     const double an = last ? 0.0 : jet.motion[level.order + 1].an,
                  at = last ? 0.0 : jet.motion[level.order + 1].at;
-    const Eigen::Index n = normal_place(i), t = tangent_place(i);
+    const Eigen::Index n = level.problem.normal(i), t = level.problem.tangent(i);
     level.noise[n] = instant.noise_factor * zero.an + instant.resolution * std::abs(an);
     level.noise[t] = instant.noise_factor * zero.at + instant.resolution * std::abs(at);
     if (std::abs(now.an) > level.noise[n]) level.problem.b[n] = now.an;

@@ -120,7 +120,7 @@ struct Sign {
 [[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
-using GuardsOfState = std::array<GuardForm, contact::guards_per_contact>;
+using GuardsOfState = ContactLaw::Guards;
 
 /// True if the first `orders` orders determine the signs of all guards of a contact that is decided separately, with
 /// their known signs, even if zeros are blurred by `most_blur`.

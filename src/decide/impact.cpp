@@ -36,11 +36,12 @@ Vector ImpactSolver::close_gaps(const contact::ContactStates& states,
   if (!system) return u;
   const Delassus d = delassus(model_, *system, touching);
   const auto m = static_cast<Eigen::Index>(touching.size());
-  const auto normals = Eigen::seqN(0, m, 2);
+  std::vector<Eigen::Index> normals;
   Eigen::VectorXd gap(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
     gap[i] = contact.gap_at(u);
+    normals.push_back(normal_place(d.layout, i));
   }
   const Eigen::MatrixXd W = d.W(normals, normals);
   const Eigen::MatrixXd effect = d.effect(Eigen::all, normals);
@@ -55,22 +56,18 @@ ImpactSolver::ImpactProblem ImpactSolver::set_up(const motion::Forcing& forcing,
                                                  const std::vector<std::size_t>& touching,
                                                  const Vector& v) const {
   const auto m = static_cast<Eigen::Index>(touching.size());
-  ImpactProblem hit{delassus(model_, system, touching),
-                    {},
-                    Eigen::VectorXd(place_count(m)),
-                    Eigen::VectorXd(place_count(m)),
-                    {},
-                    Eigen::VectorXd(m),
-                    {},
-                    {}};
+  ImpactProblem hit{delassus(model_, system, touching), {}, {}, {}, {}, Eigen::VectorXd(m), {}, {}};
+  const ForceLayout& layout = hit.d.layout;
+  hit.before = hit.size = Eigen::VectorXd::Zero(place_count(layout));
   hit.problem.W = hit.d.W;
+  hit.problem.layout = layout;
   for (Eigen::Index i = 0; i < m; ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const Contact& contact = model_.contacts[c];
-    hit.before[normal_place(i)] = contact::gap_rate(contact, v);
-    hit.before[tangent_place(i)] = contact::along_surface(contact, v, forcing.surface(c, t, 1));
-    hit.size[normal_place(i)] = contact.normal.magnitude(v);
-    hit.size[tangent_place(i)] = contact.tangent.magnitude(v) + std::abs(forcing.surface(c, t, 1));
+    hit.before[normal_place(layout, i)] = contact::gap_rate(contact, v);
+    hit.before[tangent_place(layout, i)] = contact::along_surface(contact, v, forcing.surface(c, t, 1));
+    hit.size[normal_place(layout, i)] = contact.normal.magnitude(v);
+    hit.size[tangent_place(layout, i)] = contact.tangent.magnitude(v) + std::abs(forcing.surface(c, t, 1));
     hit.restitution[i] = contact.restitution;
     CoulombItem item;
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
@@ -79,7 +76,7 @@ ImpactSolver::ImpactProblem ImpactSolver::set_up(const motion::Forcing& forcing,
     // In a hit, friction that rises with the slip rate keeps its value from just before.
     if (contact.friction.is_rate_strengthening())
       item.static_friction = item.kinetic_friction =
-          contact::sliding_friction(contact, std::abs(hit.before[tangent_place(i)]));
+          contact::sliding_friction(contact, std::abs(hit.before[tangent_place(layout, i)]));
     hit.problem.items.push_back(item);
   }
   return hit;
@@ -96,7 +93,8 @@ bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProbl
     captured = false;
     hit.problem.b = hit.before;
     for (Eigen::Index i = 0; i < m; ++i)
-      hit.problem.b[normal_place(i)] += hit.restitution[i] * std::min(hit.before[normal_place(i)], 0.0);
+      hit.problem.b[normal_place(hit.d.layout, i)] +=
+          hit.restitution[i] * std::min(hit.before[normal_place(hit.d.layout, i)], 0.0);
     hit.solution = signorini::decide::solve(hit.problem);
     if (!hit.solution) return false;
     min_norm_forces(hit.problem, may_share, *hit.solution);
@@ -104,9 +102,9 @@ bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProbl
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
       const double slowest = contact.capture_velocity.value_or(capture_velocity_);
-      if (hit.restitution[i] == 0.0 || !(hit.before[normal_place(i)] < 0.0)) continue;
-      hit.rebound[i] = hit.after[normal_place(i)] / slowest;
-      if (hit.after[normal_place(i)] >= slowest) continue;
+      if (hit.restitution[i] == 0.0 || !(hit.before[normal_place(hit.d.layout, i)] < 0.0)) continue;
+      hit.rebound[i] = hit.after[normal_place(hit.d.layout, i)] / slowest;
+      if (hit.after[normal_place(hit.d.layout, i)] >= slowest) continue;
       hit.restitution[i] = 0.0;
       captured = true;
     }
@@ -123,7 +121,7 @@ void ImpactSolver::come_to_rest(const motion::Forcing& forcing, double t,
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const std::size_t c = touching[at];
-    const Eigen::Index along_n = normal_place(i), along_t = tangent_place(i);
+    const Eigen::Index along_n = normal_place(hit.d.layout, i), along_t = tangent_place(hit.d.layout, i);
     if (!(hit.solution->force[along_n] > 0.0)) continue;
     hit.after[along_n] = -hit.restitution[i] * std::min(hit.before[along_n], 0.0);
     fixed.push_back({along_n, &model_.contacts[c].normal, hit.after[along_n]});
@@ -144,18 +142,21 @@ void ImpactSolver::balance(const motion::Forcing& forcing, double t, const conta
   double greatest = 0.0;
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
-    const double n = hit.solution->force[normal_place(i)], k = hit.solution->force[tangent_place(i)];
+    const double n = hit.solution->force[normal_place(hit.d.layout, i)],
+                 k = hit.solution->force[tangent_place(hit.d.layout, i)];
     Impulse& impulse = impact.impulses[c];
     impulse.hit = n > 0.0 && states[c].is_open();
     impulse.normal = n;
     impulse.tangent = k;
     impulse.rebound = hit.rebound[i];
-    const double normal = 0.5 * n * (hit.before[normal_place(i)] + hit.after[normal_place(i)]);
-    const double tangent = 0.5 * k * (hit.before[tangent_place(i)] + hit.after[tangent_place(i)]);
+    const double normal =
+        0.5 * n * (hit.before[normal_place(hit.d.layout, i)] + hit.after[normal_place(hit.d.layout, i)]);
+    const double tangent =
+        0.5 * k * (hit.before[tangent_place(hit.d.layout, i)] + hit.after[tangent_place(hit.d.layout, i)]);
     impact.loss -= normal + tangent;
     impact.surface_work += k * forcing.surface(c, t, 1);
-    greatest = std::max(
-        {greatest, std::abs(n * hit.before[normal_place(i)]), std::abs(k * hit.before[tangent_place(i)])});
+    greatest = std::max({greatest, std::abs(n * hit.before[normal_place(hit.d.layout, i)]),
+                         std::abs(k * hit.before[tangent_place(hit.d.layout, i)])});
   }
   impact.gains = impact.loss < -no_gain * greatest;
 }
@@ -177,10 +178,10 @@ Impact ImpactSolver::solve(const motion::Forcing& forcing, double t, const conta
                       condition_number(hit.problem)};
     const double shown = model::in_scene_units(model_, 1.0, unit::velocity);
     for (std::size_t i = 0; i < touching.size(); ++i) {
-      const Eigen::Index n = normal_place(i);
+      const Eigen::Index n = normal_place(hit.d.layout, i);
       impact.refusal.reason +=
           fmt::format("; '{}': vn = {:.6g}, vt = {:.6g}", model_.contacts[touching[i]].name,
-                      hit.before[n] * shown, hit.before[tangent_place(i)] * shown);
+                      hit.before[n] * shown, hit.before[tangent_place(hit.d.layout, i)] * shown);
     }
     return impact;
   }

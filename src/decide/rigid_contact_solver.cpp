@@ -65,9 +65,10 @@ void ImpactResult::capture(const Model& model, const std::vector<std::size_t>& c
                            const Eigen::VectorXd& impulses) {
   if (impulses.size() == 0) return;
   if (capture_impulses.size() == 0) capture_impulses.setZero(model.force_count());
+  const ForceLayout layout = model.layout.part(contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    capture_impulses.data()[model.layout.normal(contacts[i])] += impulses[normal_place(i)];
-    capture_impulses.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(i)];
+    capture_impulses.data()[model.layout.normal(contacts[i])] += impulses[normal_place(layout, i)];
+    capture_impulses.data()[model.layout.tangent(contacts[i])] += impulses[tangent_place(layout, i)];
   }
 }
 
@@ -164,6 +165,7 @@ void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& b
 bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
                                                 const motion::StateSystem& free, const TouchingContacts& met,
                                                 ImpactResult& found) const {
+  const ForceLayout layout = model_.layout.part(met.contacts);
   std::vector<FixedVelocity> fixed;
   for (std::size_t i = 0; i < met.contacts.size(); ++i) {
     const std::size_t c = met.contacts[i];
@@ -171,11 +173,10 @@ bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::
     const auto participant = std::find_if(found.participants.begin(), found.participants.end(),
                                           [&](const Participant& p) { return p.contact == c; });
     if (participant == found.participants.end()) continue;
-    const Eigen::Index row = normal_place(i);
-    fixed.push_back({row, &contact.normal, 0.0});
+    fixed.push_back({normal_place(layout, i), &contact.normal, 0.0});
     found.known[c].closing.zeros = 2;
     if (!contact.has_friction() || participant->slipping) continue;
-    fixed.push_back({row + 1, &contact.tangent, forcing.surface(c, instant.t, 1)});
+    fixed.push_back({tangent_place(layout, i), &contact.tangent, forcing.surface(c, instant.t, 1)});
     found.known[c].sliding.zeros = 1;
   }
   if (has_velocities(fixed, instant.v)) return false;

@@ -104,12 +104,13 @@ std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
 
 double StateEnumeration::condition(const std::vector<std::size_t>& contacts,
                                    contact::ContactStates contact_states) {
+  const ForceLayout layout = model_.layout.part(contacts);
   std::vector<Eigen::Index> rows;  // rows of existing forces
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model_.contacts[contacts[i]];
-    if (contact.takes_impulses()) rows.push_back(normal_place(i));
+    if (contact.takes_impulses()) rows.push_back(normal_place(layout, i));
     if (contact.has_friction() && (contact.takes_impulses() || contact.sticks_rigidly()))
-      rows.push_back(tangent_place(i));
+      rows.push_back(tangent_place(layout, i));
     contact_states[contacts[i]] = {State::open, 0.0};
   }
   if (rows.empty()) return 1.0;

@@ -49,11 +49,10 @@ struct ForcePlaces {
     return {normal(contact), tangent(contact)};
   }
   /// Places without a force.
-  [[nodiscard]] std::vector<int> unused(std::size_t contacts) const {
+  [[nodiscard]] std::vector<int> unused() const {
     std::vector<int> result;
-    for (std::size_t c = 0; c < contacts; ++c)
-      for (std::size_t i = layout.tangents; i + 1 < layout.stride(); ++i)
-        result.push_back(dofs + static_cast<int>(layout.tangent(c, i)));
+    for (std::size_t place = 0; place < layout.size(); ++place)
+      if (!layout.is_used(place)) result.push_back(dofs + static_cast<int>(place));
     return result;
   }
 };
@@ -88,7 +87,7 @@ Pattern pattern_of(const Model& model, const SystemMatrices& structure, const Re
       }
       for (const int other : at.of(c)) pattern.add(force, other);
     }
-  for (const int place : at.unused(model.contacts.size())) pattern.add(place, place);
+  for (const int place : at.unused()) pattern.add(place, place);
   for (const std::vector<std::size_t>& group : shared.groups())
     for (const std::size_t a : group)
       for (const std::size_t b : group)
@@ -164,7 +163,7 @@ SystemMatrix::SystemMatrix(const Model& model, const SystemMatrices& structure)
     slots.TT = at(T, T);
     contacts_.push_back(std::move(slots));
   }
-  for (const int place : places.unused(model.contacts.size())) unused_.push_back(at(place, place));
+  for (const int place : places.unused()) unused_.push_back(at(place, place));
 }
 
 std::size_t SystemMatrix::slot(int row, int column) const {

@@ -28,7 +28,6 @@ namespace {
 /// Scales, frequencies and factors are those of the whole, so that decisions that depend on them agree.
 Model common_to_parts(const Model& whole) {
   Model model;
-  model.layout = whole.layout;
   model.units = whole.units;
   model.unit = whole.unit;
   model.internal_units = whole.internal_units;
@@ -62,6 +61,7 @@ Load without_direction(const Load& load) {
 
 Model restricted(const Model& whole, const std::vector<int>& dofs, const std::vector<std::size_t>& contacts) {
   Model model = common_to_parts(whole);
+  model.layout = whole.layout.part(contacts);
   std::vector<int> place(whole.dofs.size(), -1);
   const auto n = static_cast<Eigen::Index>(dofs.size());
   model.u0.resize(n);

@@ -13,14 +13,14 @@
 namespace signorini::linear {
 
 struct Unknowns {
-  std::size_t dofs = 0, contacts = 0;
+  std::size_t dofs = 0;
   ForceLayout layout = {};
 
   /// N of a contact, and its normal row.
   [[nodiscard]] std::size_t normal(std::size_t contact) const { return dofs + layout.normal(contact); }
   /// T of a contact, and its tangent row.
   [[nodiscard]] std::size_t tangent(std::size_t contact) const { return dofs + layout.tangent(contact); }
-  [[nodiscard]] std::size_t size() const { return dofs + layout.size(contacts); }
+  [[nodiscard]] std::size_t size() const { return dofs + layout.size(); }
 };
 
 // The unknown in the equation of a degree of freedom.

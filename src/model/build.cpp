@@ -15,6 +15,7 @@
 
 #include "base/history/pieces.hpp"
 #include "base/rounding.hpp"
+#include "contact/contact_states.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
@@ -284,6 +285,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   if (!scene.matrices) assembly::add_drawing(scene, map, model);
   model.damping = assembly.dampers;
   const std::optional<ComplianceSplit> borrowed = split_compliance(scene, assembly.dampers, model);
+  model.layout = contact::layout_of(model.contacts);
   start(scene, map, model);
   if (borrowed) continue_split(*borrowed, scene, model);
   if (!scene.matrices) outputs::find_hangers(scene, map, model);

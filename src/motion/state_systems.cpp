@@ -110,7 +110,7 @@ std::shared_ptr<const FactorisedStates> StateSystems::cached(const contact::Cont
 FactorisedStates StateSystems::describe(const contact::ContactStates& contact_states,
                                         const std::vector<Rows>& rows) const {
   FactorisedStates result;
-  result.unknowns = {own_kinds_.size(), contact_states.size(), model_.layout};
+  result.unknowns = {own_kinds_.size(), model_.layout};
   result.massless = massless_;
   if (massless_) {
     linear::MotionKinds in_mode = linear::kinds_in_states(own_kinds_, model_, rows);
@@ -259,7 +259,7 @@ Eigen::VectorXd project_constraints(const Model& model, const StateSystem& syste
   bool any = false;
   for (std::size_t c = 0; c < contact_states.size() && !any; ++c) any = is_held(c) || sticks(c);
   if (!any) return {};
-  std::vector<double> places(model.layout.size(contact_states.size()), 0.0), rates(places);
+  std::vector<double> places(model.layout.size(), 0.0), rates(places);
   for (std::size_t c = 0; c < contact_states.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (is_held(c)) {

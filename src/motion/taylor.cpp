@@ -131,7 +131,7 @@ Taylor::Taylor(StateSystems& systems)
       structure_(systems.structure()),
       massless_(linear::has_massless(model_)) {
   const auto n = static_cast<std::size_t>(structure_.size);
-  const linear::Unknowns unknowns{n, model_.contacts.size(), model_.layout};
+  const linear::Unknowns unknowns{n, model_.layout};
   x_.resize(unknowns.size());
   work_.resize(unknowns.size());
   known_u_.resize(n);
@@ -266,7 +266,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
   if (order == 0 || forcing.varies()) {
     for (std::size_t i = 0; i < size; ++i) x[i] = 0.0;
     forcing.add_load(series.forcing, static_cast<std::size_t>(order), x);
-    for (std::size_t c = 0; c < mode.unknowns.contacts; ++c) {
+    for (std::size_t c = 0; c < mode.unknowns.layout.contacts(); ++c) {
       if (order > 0 && !(forcing.is_driven(c) && is_driven(series.forcing, c, order))) continue;
       double r = 0.0, q = 0.0;
       known_of_rows(c, order, series, r, q);
@@ -440,7 +440,7 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series,
   if (additional_loads_) additional_loads_(order, x_.data());
   structure_.subtract_forces(known_v_.data(), known_u_.data(), x_.data());
   const linear::Unknowns& at = system_->unknowns();
-  for (std::size_t c = 0; c < at.contacts; ++c) {
+  for (std::size_t c = 0; c < at.layout.contacts(); ++c) {
     const Contact& contact = model_.contacts[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
     double r = 0.0, q = 0.0;

@@ -239,7 +239,7 @@ RunSpec by_exact(RunSpec run) {
 ExpectedCost expected_cost(const Model& model, const RunSpec& run, const Method& method) {
   ExpectedCost result;
   for (const Dof& dof : model.dofs) result.unknowns += dof.massless ? 1 : 2;
-  result.unknowns += 2 * static_cast<long>(model.contacts.size());
+  result.unknowns += static_cast<long>(model.force_count());
   result.omega_max = model.omega_max;
   for (const Load& load : model.loads)
     for (const Piece& piece : load.history.pieces())

@@ -39,6 +39,7 @@ class ZeroTracker {
  public:
   /// Updates the times after a decision at t. changed: the forcing has another formula from here on.
   void update(double t, const decide::Decision& decision, bool changed) {
+    layout_ = decision.layout;
     since_.resize(decision.guards.size(), none);
     for (std::size_t slot = 0; slot < since_.size(); ++slot) {
       const decide::GuardStart& guard = decision.guards[slot];
@@ -55,12 +56,11 @@ class ZeroTracker {
   [[nodiscard]] std::vector<double> zero_durations(double t,
                                                    const std::vector<decide::TriggeredGuard>& fired) const {
     std::vector<double> result;
+    if (layout_.contacts() == 0) return result;  // not updated yet
     for (const decide::TriggeredGuard& f : fired)
-      for (std::size_t slot = contact::guards_per_contact * f.contact;
-           slot < contact::guards_per_contact * (f.contact + 1); ++slot) {
-        if (!f.never_positive || slot >= since_.size() || kinds_[slot] != f.guard || !(since_[slot] < t))
-          continue;
-        result.resize(since_.size() / contact::guards_per_contact, 0.0);
+      for (std::size_t slot = layout_.guard(f.contact); slot < layout_.guard_end(f.contact); ++slot) {
+        if (!f.never_positive || kinds_[slot] != f.guard || !(since_[slot] < t)) continue;
+        result.resize(layout_.contacts(), 0.0);
         result[f.contact] = t - since_[slot];
       }
     return result;
@@ -68,6 +68,7 @@ class ZeroTracker {
 
  private:
   static constexpr double none = std::numeric_limits<double>::infinity();
+  ForceLayout layout_;
   std::vector<double> since_;  // one entry per guard slot
   std::vector<Guard> kinds_;   // guard kind of each slot
 };

@@ -91,8 +91,8 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
   // Slip at the limit without a guard of the slip rate: other contacts hold the contact.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     bool asleep = slip_sign(decision.states[c].state) != 0 && model.contacts[c].sticks_rigidly();
-    for (std::size_t i = 0; i < contact::guards_per_contact; ++i)
-      asleep = asleep && decision.guards[contact::guard_slot(c, i)].kind != Guard::sliding;
+    for (std::size_t slot = model.layout.guard(c); slot < model.layout.guard_end(c); ++slot)
+      asleep = asleep && decision.guards[slot].kind != Guard::sliding;
     if (asleep) names.push_back(model.contacts[c].name);
   }
   if (names.empty()) return std::nullopt;

@@ -294,15 +294,17 @@ void TangentEvents::check_kinks(PassState& course) const {
   const Vector &w = course.after.point.u, &wv = course.after.point.v;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const decide::GuardStart& guard = decision.guards[slot];
+    if (guard.kind == Guard::none || !guard.at_zero) continue;
     const Form& form = decision.form(slot);  // laws with products are refused (contact_rates.hpp)
-    if (guard.kind == Guard::none || !guard.at_zero || form.an != 0.0) continue;
-    const std::size_t c = contact::contact_of_guard(slot);
+    if (form.an != 0.0) continue;
+    const std::size_t c = decision.layout.contact_of_guard(slot);
     const Contact& contact = model_.contacts[c];
     const double dt = course.dt_of(c);
     const ContactMotion p = parameter_rate(contact, derivative_.contacts[c], model_.layout, c, m.after,
                                            course.after.point, course.after.driven[c]);
     const Form& form_rate =
-        derivative_.contacts[c].guards[index_of(decision.states[c].state)][contact::guard_within(slot)];
+        derivative_.contacts[c]
+            .guards[index_of(decision.states[c].state)][decision.layout.guard_within(slot)];
     const ContactMotion D = sum(p, m.rate_after[c], dt);
     const double value = form_rate.value(m.motion_after[c]) + form.rate(D);
     ContactMotion terms = p;

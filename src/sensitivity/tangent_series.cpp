@@ -212,7 +212,7 @@ void TangentSeries::add_rows(int k) {
   const motion::Series& s = *motion_;
   const bool source = k <= s.levels;
   const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
-  for (std::size_t c = 0; c < at.contacts; ++c) {
+  for (std::size_t c = 0; c < at.layout.contacts(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactState& state = system_->states()[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;

@@ -28,9 +28,10 @@ constexpr double relative_resolution = 1e-12;  // relative to a step; the engine
 }
 
 void GuardMonitor::start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
-                         std::vector<double> levels) {
+                         std::vector<double> levels, const ForceLayout& layout) {
   active_guards_.start(guards);
   forms_ = std::move(forms);
+  layout_ = layout;
   levels_ = std::move(levels);
 }
 
@@ -40,9 +41,10 @@ void GuardMonitor::set_waiting(std::size_t slot, double level) {
 }
 
 double GuardMonitor::allowed_depth(std::size_t contact, const GuardForm& guard) const {
-  const std::size_t end = std::min(contact::guard_slot(contact + 1, 0), active_guards_.size());
-  for (std::size_t slot = contact::guard_slot(contact, 0); slot < end; ++slot)
-    if (!active_guards_.idle(slot) && forms_[contact][contact::guard_within(slot)] == guard)
+  if (layout_.contacts() == 0) return 0.0;  // not started
+  const std::size_t first = layout_.guard(contact), end = layout_.guard_end(contact);
+  for (std::size_t slot = first; slot < end; ++slot)
+    if (!active_guards_.idle(slot) && forms_[contact][slot - first] == guard)
       return active_guards_.armed(slot) ? 0.0 : levels_[slot];
   return 0.0;
 }

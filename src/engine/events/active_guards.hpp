@@ -16,7 +16,7 @@ namespace signorini::events {
 
 class ActiveGuards {
  public:
-  /// One entry for each slot (contact/contact_states.hpp).
+  /// One entry for each slot (signorini/force_layout.hpp).
   void start(const std::vector<decide::GuardStart>& guards);
 
   [[nodiscard]] std::size_t size() const { return guards_.size(); }
@@ -60,7 +60,7 @@ inline constexpr double re_arm_tolerances = 10.0;
 
 /// Place inside the last step at which a guard reaches zero.
 struct ZeroCrossing {
-  std::size_t slot = 0;  ///< contact/contact_states.hpp
+  std::size_t slot = 0;  ///< signorini/force_layout.hpp
   double x = 0.0;        ///< 0..1 on the step
 };
 
@@ -68,7 +68,7 @@ class GuardMonitor {
  public:
   /// levels: re-arming levels, one for each slot.
   void start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
-             std::vector<double> levels);
+             std::vector<double> levels, const ForceLayout& layout);
   [[nodiscard]] bool armed(std::size_t slot) const { return active_guards_.armed(slot); }
   /// The guard reached zero without an event: it waits again, and is an event only once it is below -`level`.
   void set_waiting(std::size_t slot, double level);
@@ -81,6 +81,7 @@ class GuardMonitor {
  private:
   ActiveGuards active_guards_;
   decide::GuardForms forms_;
+  ForceLayout layout_;
   std::vector<double> levels_;
 };
 

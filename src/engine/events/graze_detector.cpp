@@ -69,11 +69,12 @@ constexpr std::size_t max_near_hits = 100000;
 
 }  // namespace
 
-void NearHitDetector::start(const std::vector<decide::GuardStart>& guards,
-                            const std::vector<double>& levels) {
+void NearHitDetector::start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels,
+                            const ForceLayout& layout) {
   gaps_.clear();
   for (std::size_t slot = 0; slot < guards.size(); ++slot)
-    if (guards[slot].kind == Guard::closing) gaps_.push_back({slot, levels[slot], 0.0, 0, {}, {}});
+    if (guards[slot].kind == Guard::closing)
+      gaps_.push_back({slot, static_cast<int>(layout.contact_of_guard(slot)), levels[slot], 0.0, 0, {}, {}});
 }
 
 void NearHitDetector::update(const StepHistory& history, double limit) {
@@ -105,9 +106,7 @@ void NearHitDetector::update_gap(GapHistory& gap, const GapSample& now) {
   const double least = b.gap - bend * off * off;
   if (!(gap.high > gap.level)) return;
   gap.high = 0.0;
-  if (least < near_levels * gap.level)
-    list_.push_back(
-        {b.t + off, static_cast<int>(contact::contact_of_guard(gap.slot)), std::max(0.0, least), bend});
+  if (least < near_levels * gap.level) list_.push_back({b.t + off, gap.contact, std::max(0.0, least), bend});
 }
 
 }  // namespace signorini::events

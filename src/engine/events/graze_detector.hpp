@@ -67,7 +67,8 @@ class GrazeDetector {
 class NearHitDetector {
  public:
   /// levels: one for each slot, as for Watch.
-  void start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels);
+  void start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels,
+             const ForceLayout& layout);
   /// Examines the part [0, limit] of the last step; scalars 0.. of the history are the guards.
   void update(const StepHistory& history, double limit);
   /// Near hits of the run so far, in the order of time except for those of the same step.
@@ -79,6 +80,7 @@ class NearHitDetector {
   };
   struct GapHistory {
     std::size_t slot = 0;
+    int contact = -1;
     double level = 0.0;
     double high = 0.0;     // greatest gap since the last least gap
     int sample_count = 0;  // number of last samples that are kept

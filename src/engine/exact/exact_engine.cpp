@@ -47,7 +47,7 @@ ExactEngine::ExactEngine(const Model& model, const linear::SystemMatrices& struc
       growth_(model, taylor_, norm_, scales_, t_end),
       motion_(model),
       local_remainders_(model.contacts.size()),
-      crossings_(contact::guard_count(model.contacts.size())),
+      crossings_(model.layout.guard_count()),
       sizes_(max_levels + 3),
       guard_(std::max<std::size_t>(max_levels, events::max_root_degree) + 1),
       works_(model, structure),
@@ -109,7 +109,7 @@ bool ExactEngine::continue_series(const contact::ContactStates& before) {
     const LocalRemainder reached{local_remainder(*near, reach), reach};
     for (const std::size_t c : near->where->contacts) {
       local_remainders_[c] = reached;
-      for (std::size_t slot = contact::guard_slot(c, 0); slot < contact::guard_slot(c + 1, 0); ++slot)
+      for (std::size_t slot = model_.layout.guard(c); slot < model_.layout.guard_end(c); ++slot)
         crossings_[slot] = {};
     }
   }
@@ -156,7 +156,7 @@ double ExactEngine::flights_limit() const {
     if (!model_.contacts[c].takes_impulses() || !decision.states[c].is_open() || !(m.an < 0.0)) continue;
     // A contact that leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight computed
     // from it.
-    const decide::GuardStart& closing = decision.guards[contact::guard_slot(c, 0)];
+    const decide::GuardStart& closing = decision.guards[model_.layout.guard(c)];
     if (closing.leading_order < 0 || closing.leading_order > 1) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
@@ -286,7 +286,7 @@ double ExactEngine::drift_of(const decide::GuardStart& guard, double x) const {
 /// First zero crossing on the remaining series; x: 1 at its end.
 events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
-  const std::size_t c = contact::contact_of_guard(slot);
+  const std::size_t c = model_.layout.contact_of_guard(slot);
   const motion::ContactSeries& contact = motion_.contacts()[c];
   const GuardForm& form = segment_.decision->guard(slot);
   const auto [degree, cut, products] =
@@ -418,7 +418,7 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
     warnings.push_back(fmt::format(
         "contact '{}': its {} touches zero at {:.9g}; this precision cannot decide whether it crosses zero; "
         "no event is recorded",
-        model_.contacts[contact::contact_of_guard(slot)].name,
+        model_.contacts[model_.layout.contact_of_guard(slot)].name,
         contact::to_string(segment_.decision->guards[slot].kind), model::time_in_scene_units(model_, t)));
   else if (touches_ == max_touches + 1)
     warnings.emplace_back("more guards touch zero; these are not listed");
@@ -429,7 +429,7 @@ void ExactEngine::update_unarmed(double x) {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot) || active_guards_.armed(slot)) continue;
     const decide::GuardStart& guard = segment_.decision->guards[slot];
-    const motion::ContactSeries& contact = motion_.contacts()[contact::contact_of_guard(slot)];
+    const motion::ContactSeries& contact = motion_.contacts()[model_.layout.contact_of_guard(slot)];
     const auto polynomial = contact.expand(segment_.decision->guard(slot), x - contact.origin(),
                                            events::max_root_degree, guard_.data());
     active_guards_.update(slot, motion::value_at(guard_.data(), polynomial.degree, x - contact.origin()),
@@ -469,8 +469,8 @@ engine::Step ExactEngine::advance() {
   double end = reach_time_;
   if (first.slot) {
     step_.kind = engine::Step::Kind::event;
-    step_.triggered = {{contact::contact_of_guard(*first.slot), segment_.decision->guards[*first.slot].kind,
-                        !active_guards_.armed(*first.slot)}};
+    step_.triggered = {{model_.layout.contact_of_guard(*first.slot),
+                        segment_.decision->guards[*first.slot].kind, !active_guards_.armed(*first.slot)}};
     end = motion_.whole.t + motion_.whole.scale * x;
   } else {
     update_unarmed(x);

@@ -373,7 +373,8 @@ BdfStep BdfIntegrator::advance() {
     IDAGetRootInfo(m_->ida, found.data());
     for (std::size_t slot = 0; slot < found.size(); ++slot)
       if (found[slot] != 0)
-        step.triggered.push_back({contact::contact_of_guard(slot), m_->segment.decision->guards[slot].kind});
+        step.triggered.push_back(
+            {m_->segment.decision->layout.contact_of_guard(slot), m_->segment.decision->guards[slot].kind});
   }
   return step;
 }

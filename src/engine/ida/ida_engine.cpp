@@ -42,8 +42,8 @@ IdaEngine::IdaEngine(const Model& model, const linear::SystemMatrices& structure
       flight_tolerances_(flight_tolerances),
       powers_(model, structure),
       bdf_(model, structure, tolerance, max_order, counters),
-      turns_(model.contacts.size(), contact::guard_count(model.contacts.size()) + powers_.count()),
-      history_(contact::guard_count(model.contacts.size()) + powers_.count() + turns_.count()),
+      turns_(model.contacts.size(), model.layout.guard_count() + powers_.count()),
+      history_(model.layout.guard_count() + powers_.count() + turns_.count()),
       flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
@@ -58,7 +58,10 @@ bool IdaEngine::follows_low_flights(const Model& model) {
 /// Writes guards, powers, and the contacts' quantities at the end of a step, for its polynomials.
 void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   const decide::Decision& decision = *segment_.decision;
-  double* shown = out + contact::guard_count(model_.contacts.size()) + powers_.count();
+  const ForceLayout& layout = model_.layout;
+  const double* const guards = out;
+  double* const powers = out + layout.guard_count();
+  double* shown = powers + powers_.count();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t, point);
@@ -66,10 +69,13 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
     const double ut = contact.body_tangent().dot(point.u) - still;  // locate.hpp
     for (const double value : {m.N, m.T, m.gap, ut})
       *shown++ = value;  // order: TurningPointDetector::watched
-    for (const GuardForm& guard : decision.forms[k])
-      *out++ = guard.is_linear() ? decide::QuickForm(guard.form).value(m) : guard.value(m);
+    const GuardForm* guard = decision.forms[k].data();
+    for (const GuardForm* const end = guard + layout.guards(k); guard != end; ++guard)
+      *out++ = guard->is_linear() ? decide::QuickForm(guard->form).value(m) : guard->value(m);
+    for (const double* const end = guards + layout.guard_end(k); out != end;)
+      *out++ = 0.0;  // slots without a guard
   }
-  powers_.at(*segment_.forcing, t, decision.states, point, out);
+  powers_.at(*segment_.forcing, t, decision.states, point, powers);
 }
 
 /// Below the mean of tolerance and size half of a height's digits are lost: the series takes lower flights (04a at rtol
@@ -103,7 +109,11 @@ void IdaEngine::start(const engine::Segment& segment) {
   std::vector<double> levels;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const decide::GuardStart& guard = decision.guards[slot];
-    const ContactMotion& motion = decision.after[contact::contact_of_guard(slot)];
+    if (guard.kind == Guard::none) {
+      levels.push_back(0.0);
+      continue;
+    }
+    const ContactMotion& motion = decision.after[model_.layout.contact_of_guard(slot)];
     double level =
         guard.noise + events::re_arm_tolerances * engine::tolerance(decision.guard(slot), motion, tolerance_);
     // The decision's zero is limited by the resolution of time, which a stiff contact turns into a force above the
@@ -113,9 +123,9 @@ void IdaEngine::start(const engine::Segment& segment) {
     if (guard.at_zero && guard.kind != Guard::closing) add_zero_start_guard(slot);
   }
   graze_detector_.start(decision.guards, levels);
-  near_hits_.start(decision.guards, levels);
+  near_hits_.start(decision.guards, levels, decision.layout);
   turns_.start(decision, *segment.forcing);
-  guard_monitor_.start(decision.guards, decision.forms, std::move(levels));
+  guard_monitor_.start(decision.guards, decision.forms, std::move(levels), decision.layout);
   if (!decision.jet.is_complete())
     jet_ = jets_.expand(decision.system, *segment.forcing, decision.jet.t, decision.u, decision.v);
   const motion::Jet& jet = decision.jet.is_complete() ? decision.jet : jet_;
@@ -212,8 +222,8 @@ engine::Step IdaEngine::advance() {
     triggered_slots_ = {event->slot};
     step.kind = engine::Step::Kind::event;
     step.end = event->time;
-    step.triggered = {{contact::contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind,
-                       !guard_monitor_.armed(event->slot)}};
+    step.triggered = {{model_.layout.contact_of_guard(event->slot),
+                       segment_.decision->guards[event->slot].kind, !guard_monitor_.armed(event->slot)}};
   }
   turns_.find(history_, event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0);
   return step;
@@ -227,8 +237,8 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   for (const events::ZeroCrossing& fall : guard_monitor_.check(history_, 1.0))
     candidates.push_back({fall.slot, step.begin + fall.x * h});
   for (const decide::TriggeredGuard& fired : step.triggered)
-    for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
-      const std::size_t slot = contact::guard_slot(fired.contact, i);
+    for (std::size_t slot = model_.layout.guard(fired.contact); slot < model_.layout.guard_end(fired.contact);
+         ++slot) {
       if (guards[slot].kind != fired.guard) continue;
       const auto same = std::find_if(candidates.begin(), candidates.end(),
                                      [&](const Located& c) { return c.slot == slot; });
@@ -242,7 +252,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
           fmt::format("contact '{}': its {} touches zero at {:.9g} and passes it by less than the error of "
                       "the steps; no event is recorded there, nor at later touches of this kind; a smaller "
                       "{}, or engine exact, decides whether it crosses zero",
-                      model_.contacts[contact::contact_of_guard(c.slot)].name,
+                      model_.contacts[model_.layout.contact_of_guard(c.slot)].name,
                       contact::to_string(guards[c.slot].kind), model::time_in_scene_units(model_, c.time),
                       tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
     return true;
@@ -262,10 +272,10 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
 /// sticking contact exceeds the limit before the contact opens. If the limit's own error covers the time between the
 /// two, the contact opens from stick: the slip before is no more than this error.
 bool IdaEngine::opens_instead(const Located& slip, const Located& opening, double x, double h) const {
-  const std::size_t contact = contact::contact_of_guard(slip.slot);
+  const std::size_t contact = model_.layout.contact_of_guard(slip.slot);
   const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
-  if (contact != contact::contact_of_guard(opening.slot) || guards[opening.slot].kind != Guard::separation ||
-      !contact::is_friction_limit(guards[slip.slot].kind))
+  if (contact != model_.layout.contact_of_guard(opening.slot) ||
+      guards[opening.slot].kind != Guard::separation || !contact::is_friction_limit(guards[slip.slot].kind))
     return false;
   const double rate = -history_.polynomial(slip.slot).derivative().value(x) / h;
   return (opening.time - slip.time) * rate <=
@@ -279,7 +289,7 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
 bool IdaEngine::is_touch(std::size_t slot, double x) const {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   if (guard.kind == Guard::closing || !guard.at_zero || !guard_monitor_.armed(slot)) return false;
-  const std::size_t contact = contact::contact_of_guard(slot);
+  const std::size_t contact = model_.layout.contact_of_guard(slot);
   if (model_.contacts[contact].friction.is_rate_strengthening() &&
       slip_sign(segment_.decision->states[contact].state) != 0)
     return false;
@@ -292,7 +302,7 @@ bool IdaEngine::is_touch(std::size_t slot, double x) const {
 
 void IdaEngine::add_zero_start_guard(std::size_t slot) {
   const decide::Decision& decision = *segment_.decision;
-  const std::size_t contact = contact::contact_of_guard(slot);
+  const std::size_t contact = model_.layout.contact_of_guard(slot);
   const GuardForm& guard = decision.guard(slot);
   const Form& form = guard.form;
   const bool by_velocity = form.vn != 0.0 || form.vt != 0.0;
@@ -309,10 +319,10 @@ void IdaEngine::add_errors() {
   if (zero_start_guards_.empty()) return;
   bdf_.keep_correction();
   for (ZeroStartGuard& guard : zero_start_guards_) {
-    const double change = guard.known
-                              ? std::abs(segment_.decision->form(guard.slot)
-                                             .rate(bdf_.correction(contact::contact_of_guard(guard.slot))))
-                              : guard.tolerance;
+    const double change =
+        guard.known ? std::abs(segment_.decision->form(guard.slot)
+                                   .rate(bdf_.correction(model_.layout.contact_of_guard(guard.slot))))
+                    : guard.tolerance;
     guard.off += std::min(change, guard.tolerance);
   }
 }
@@ -356,7 +366,7 @@ engine::StepperReport IdaEngine::report() {
   bdf_.count();
   engine::StepperReport report{counters, warnings, {}, near_hits_.list()};
   if (const auto& first = graze_detector_.first())
-    report.graze = {first->t, static_cast<int>(contact::contact_of_guard(first->slot)),
+    report.graze = {first->t, static_cast<int>(model_.layout.contact_of_guard(first->slot)),
                     contact::to_string(first->guard)};
   return report;
 }

@@ -15,6 +15,7 @@ IdaLinearSolver::IdaLinearSolver(const Model& model, const linear::SystemMatrice
                                  const Layout& layout)
     : model_(model),
       layout_(layout),
+      unknowns_{static_cast<std::size_t>(layout.dofs), layout.contacts},
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(layout.dofs)),
       rhs_(static_cast<std::size_t>(matrix_.size())) {
@@ -51,7 +52,7 @@ void IdaLinearSolver::solve(const double* b, double* x) {
     for (std::size_t i = 0; i < n; ++i) rhs_[i] = layout_.velocity[i] >= 0 ? b[layout_.velocity[i]] : b[i];
     std::copy(b + n + massive, b + massive + rhs_.size(), rhs_.data() + n);
   }
-  const linear::Unknowns at{n, rows_.size(), layout_.contacts};
+  const linear::Unknowns& at = unknowns_;
   for (std::size_t i = 0; i < held_.size(); ++i) {
     const linear::PrescribedDof& p = pinned_[i];
     held_[i] =

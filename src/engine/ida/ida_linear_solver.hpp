@@ -65,6 +65,7 @@ class IdaLinearSolver {
  private:
   const Model& model_;
   const Layout& layout_;
+  const linear::Unknowns unknowns_;  // of the condensed system
   linear::SystemMatrix matrix_;
   std::optional<linear::CondensedRows> condensed_rows_;  // used if they save time
   std::optional<linear::CondensedMatrix> condensed_;     // matrix of these rows

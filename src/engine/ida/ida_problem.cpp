@@ -69,9 +69,8 @@ IdaProblem::IdaProblem(const Model& model, const linear::SystemMatrices& structu
       u_(static_cast<std::size_t>(layout_.dofs)) {
   const auto size = static_cast<std::size_t>(layout_.size());
   atol_.assign(size, tolerance.force);
-  for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    for (std::size_t i = 0; i < model.layout.unused; ++i)
-      unused_.push_back(layout_.force(model.layout.tangent(c, model.layout.tangents + i)));
+  for (std::size_t place = 0; place < model.layout.size(); ++place)
+    if (!model.layout.is_used(place)) unused_.push_back(layout_.force(place));
   std::vector<std::size_t> group(size, 2 * model.contacts.size());
   for (std::size_t i = 0; i < model.dofs.size(); ++i) {
     const bool rotation = model.dofs[i].rotation;
@@ -151,8 +150,9 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   const Contact& contact = model_.contacts[k];
   const motion::Forcing& forcing = *segment_.forcing;
   ContactMotion m;
-  m.N = y[layout_.normal(k)];
-  m.T = y[layout_.tangent(k)];
+  const double N = y[layout_.normal(k)], T = y[layout_.tangent(k)];
+  m.N = N;
+  m.T = T;
   contact::set_displacement(contact, y, forcing.surface(k, t, 0), m);
   if (step != 0.0) {
     const auto off = by_dof([&](std::size_t i, int v) { return v >= 0 ? yp[i] - y[v] : 0.0; });
@@ -299,10 +299,11 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactMotion m = motion(k, t, y, yp);
     const decide::GuardsOfState& forms = segment_.decision->forms[k];
-    for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
-      const std::size_t slot = contact::guard_slot(k, i);
+    std::size_t slot = layout_.contacts.guard(k);
+    const std::size_t unused = slot + layout_.contacts.guards(k), end = layout_.contacts.guard_end(k);
+    for (const GuardForm* guard = forms.data(); slot < unused; ++slot, ++guard) {
       const Guard kind = segment_.decision->guards[slot].kind;
-      const Form& form = forms[i].form;
+      const Form& form = guard->form;
       // IDA does not interpolate accelerations; the polynomial check examines guards that contain one.
       if (kind == Guard::none || form.an != 0.0 || !guard_monitor_->armed(slot)) {
         g[slot] = 1.0;
@@ -313,10 +314,11 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
       const double unit = kind == Guard::closing ? scale.displacement
                           : of_rate              ? scale.velocity
                                                  : scale.force;
-      g[slot] = forms[i].is_linear()
+      g[slot] = guard->is_linear()
                     ? decide::QuickForm(form).value(m) / unit
-                    : forms[i].value(m) * tolerance_.rtol / engine::tolerance(forms[i], m, tolerance_);
+                    : guard->value(m) * tolerance_.rtol / engine::tolerance(*guard, m, tolerance_);
     }
+    for (; slot < end; ++slot) g[slot] = 1.0;
   }
 }
 

@@ -37,7 +37,7 @@ class IdaProblem {
   void read(const double* y, const double* yp, motion::Point& point) const;
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
-  [[nodiscard]] std::size_t slots() const { return contact::guard_count(model_.contacts.size()); }
+  [[nodiscard]] std::size_t slots() const { return layout_.contacts.guard_count(); }
 
   /// True if a contact slips whose friction rises with its slip rate.
   [[nodiscard]] bool has_rate_dependent_friction() const { return rate_dependent_; }

@@ -10,7 +10,7 @@ namespace signorini::ida {
 double locate(BdfIntegrator& bdf, motion::ConsistentMotion& consistent, const engine::Segment& segment,
               const Model& model, std::size_t slot, double begin, double end, double time,
               double resolution) {
-  const std::size_t contact = contact::contact_of_guard(slot);
+  const std::size_t contact = model.layout.contact_of_guard(slot);
   const GuardForm& guard = segment.decision->guard(slot);
   const motion::Forcing& forcing = *segment.forcing;
   motion::Point point;

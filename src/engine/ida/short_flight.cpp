@@ -32,7 +32,7 @@ std::optional<engine::Step> ShortFlight::take(const engine::Segment& segment,
   const auto leaves = [&](std::size_t slot) {
     const decide::GuardStart& guard = decision.guards[slot];
     return guard.kind == Guard::closing && guard.at_zero && guard.leading_order > 0 &&
-           model_.contacts[contact::contact_of_guard(slot)].takes_impulses();
+           model_.contacts[model_.layout.contact_of_guard(slot)].takes_impulses();
   };
   bool any = false;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) any = any || leaves(slot);
@@ -43,7 +43,7 @@ std::optional<engine::Step> ShortFlight::take(const engine::Segment& segment,
   // Another guard may end the step: a flight that is low up to there has to be followed as well as one that ends there.
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     if (!leaves(slot)) continue;
-    const Contact& contact = model_.contacts[contact::contact_of_guard(slot)];
+    const Contact& contact = model_.contacts[model_.layout.contact_of_guard(slot)];
     const double lowest = level(contact);
     motion::Point point;
     for (int i = 1; i <= looks; ++i) {

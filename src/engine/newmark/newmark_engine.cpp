@@ -92,8 +92,8 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
 
 /// Same, from the contact's neighbourhood; end_: end of the step of length `longer`. NaN: no neighbourhood result.
 double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
-  const motion::Point* near =
-      step_.local_end(contact::contact_of_guard(slot), *segment_.forcing, begin_, t0_ + h, h, end_, longer);
+  const motion::Point* near = step_.local_end(model_.layout.contact_of_guard(slot), *segment_.forcing, begin_,
+                                              t0_ + h, h, end_, longer);
   if (near == nullptr) return nan;
   ++counters.guard_evaluations;
   return guards_.value(slot, t0_ + h, *near);
@@ -103,7 +103,7 @@ double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
 /// the remainder of their gap, slip rate or force at once: modes above the step keep that impulse, and such impulses
 /// cause the next events.
 bool NewmarkEngine::is_soft(std::size_t slot) const {
-  const Contact& contact = model_.contacts[contact::contact_of_guard(slot)];
+  const Contact& contact = model_.contacts[model_.layout.contact_of_guard(slot)];
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
@@ -368,7 +368,7 @@ engine::Step NewmarkEngine::advance() {
   step.resolution = motion::resolution_at(t1_, h);
   if (event) {
     step.kind = engine::Step::Kind::event;
-    step.triggered = {{contact::contact_of_guard(slot), segment_.decision->guards[slot].kind}};
+    step.triggered = {{model_.layout.contact_of_guard(slot), segment_.decision->guards[slot].kind}};
   }
   guards_.update_active_guards(t1_, end_);
   return step;

@@ -11,9 +11,7 @@
 namespace signorini::newmark {
 
 StepGuards::StepGuards(const Model& model)
-    : model_(model),
-      contact_guards_(model.contacts.size()),
-      before_(contact::guard_count(model.contacts.size()), 1.0) {
+    : model_(model), contact_guards_(model.contacts.size()), before_(model.layout.guard_count(), 1.0) {
   g0_ = g1_ = before_;
   rate0_.assign(before_.size(), 0.0);
   rate1_ = rate0_;
@@ -57,8 +55,8 @@ void StepGuards::gather(std::size_t k) {
   seen.normal_gap = rows.normal.gap;
   seen.tangent_N = rows.tangent.N;
   seen.tangent_ut = rows.tangent.ut;
-  for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
-    const std::size_t slot = contact::guard_slot(k, i);
+  for (std::size_t i = 0; i < model_.layout.guards(k); ++i) {
+    const std::size_t slot = model_.layout.guard(k, i);
     const bool idle = active_guards_.idle(slot);
     has_rate_[slot] = !idle && rates_known(slot);
     for (std::vector<double>* values : {&before_, &g0_, &g1_}) (*values)[slot] = 1.0;
@@ -75,7 +73,7 @@ void StepGuards::gather(std::size_t k) {
 
 /// True if the derivative of the guard follows from displacements, velocities and accelerations.
 bool StepGuards::rates_known(std::size_t slot) const {
-  const std::size_t k = contact::contact_of_guard(slot);
+  const std::size_t k = model_.layout.contact_of_guard(slot);
   const Form& form = segment_.decision->form(slot);
   const Rows& rows = segment_.decision->system->rows()[k];
   const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
@@ -119,9 +117,9 @@ void StepGuards::evaluate_linear(std::size_t k, const motion::Point& point) {
   ut -= seen.surface;
   const double N = point.N(model_.layout, k), T = point.T(model_.layout, k);
   const double dN = -(seen.normal_gap * vn), dT = -(seen.tangent_N * dN + seen.tangent_ut * vt);
-  for (std::size_t i = 0; i < contact::guards_per_contact; ++i) {
+  for (std::size_t i = 0; i < model_.layout.guards(k); ++i) {
     const LinearGuard& g = seen.guards[i];
-    const std::size_t slot = contact::guard_slot(k, i);
+    const std::size_t slot = model_.layout.guard(k, i);
     g1_[slot] = g.constant + (g.N * N + g.T * T + g.gap * gap + g.ut * ut + g.vn * vn + g.vt * vt);
     if (has_rate_[slot]) rate1_[slot] = g.N * dN + g.T * dT + g.gap * vn + g.ut * vt + g.vn * an + g.vt * at;
   }
@@ -141,7 +139,7 @@ void StepGuards::evaluate_general(std::size_t k, const motion::Point& point, dou
   d.N = -(rows.normal.gap * d.gap + rows.normal.vn * d.vn +
           rows.normal.applied_normal_force * d.applied_normal_force);
   d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // rates_known: no row of T has velocities
-  for (std::size_t slot = contact::guard_slot(k, 0); slot < contact::guard_slot(k + 1, 0); ++slot) {
+  for (std::size_t slot = model_.layout.guard(k); slot < model_.layout.guard_end(k); ++slot) {
     if (active_guards_.idle(slot)) continue;
     const Form& form = segment_.decision->form(slot);
     g1_[slot] = form.value(m);
@@ -157,13 +155,13 @@ void StepGuards::begin_next_step() {
 }
 
 double StepGuards::value(std::size_t slot, double t, const motion::Point& point) const {
-  const std::size_t k = contact::contact_of_guard(slot);
+  const std::size_t k = model_.layout.contact_of_guard(slot);
   return segment_.decision->form(slot).value(
       motion::motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
 }
 
 double StepGuards::level(std::size_t slot, double t, const motion::Point& point) const {
-  const std::size_t k = contact::contact_of_guard(slot);
+  const std::size_t k = model_.layout.contact_of_guard(slot);
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   return guard.noise + rounding::many_operations * segment_.decision->form(slot).magnitude(motion::motion_of(
                                                        model_.contacts[k], k, *segment_.forcing, t, point));

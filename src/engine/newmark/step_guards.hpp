@@ -59,7 +59,7 @@ class StepGuards {
     bool needs_accelerations = false;  // a rate needs accelerations
     double gap = 0.0, surface = 0.0;   // constant values
     double normal_gap = 0.0, tangent_N = 0.0, tangent_ut = 0.0;
-    std::array<LinearGuard, contact::guards_per_contact> guards{};
+    std::array<LinearGuard, ContactLaw::most_guards> guards{};
   };
   struct Term {
     std::size_t dof;

@@ -117,6 +117,8 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.friction = spec.friction;
     c.pendulum_surface = spec.pendulum_surface;
     c.initial_shear = spec.initial_shear;
+    c.unused_forces = spec.unused_forces;
+    c.unused_guards = spec.unused_guards;
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;
     c.tangent = tangent_form(spec, map);

@@ -187,7 +187,7 @@ class Watcher final : public Recorder {
   void event(const Event& /*event*/) override {}
   void sample(const Sample& s) override {
     const ForceLayout& layout = left_out_.layout();
-    forces_.assign(layout.size(s.contacts.size()), 0.0);
+    forces_.assign(layout.size(), 0.0);
     for (std::size_t k = 0; k < s.contacts.size(); ++k) {
       forces_[layout.normal(k)] = s.contacts[k].N;
       forces_[layout.tangent(k)] = s.contacts[k].T;

@@ -56,7 +56,7 @@ decide::CoulombProblem random_problem(std::mt19937_64& random, std::size_t m, do
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto size = static_cast<Eigen::Index>(2 * m);
   const MatrixXd a = random_matrix(random, size, size + 2);
-  decide::CoulombProblem p{a * a.transpose(), random_matrix(random, size, 1), {}};
+  decide::CoulombProblem p{a * a.transpose(), random_matrix(random, size, 1), {}, ForceLayout(m)};
   for (std::size_t i = 0; i < m; ++i) {
     decide::CoulombItem item;
     const double choice = uniform(random);
@@ -211,7 +211,7 @@ TEST_CASE(
 TEST_CASE("up to six contacts all states are tried, and no more") {
   for (const std::size_t count : {decide::max_enumerated, decide::max_enumerated + 1}) {
     const auto n = static_cast<Eigen::Index>(2 * count);
-    decide::CoulombProblem p{MatrixXd::Identity(n, n), VectorXd::Zero(n), {}};
+    decide::CoulombProblem p{MatrixXd::Identity(n, n), VectorXd::Zero(n), {}, ForceLayout(count)};
     for (std::size_t i = 0; i < count; ++i) {
       p.items.push_back({Kind::frictional, 0.5, 0.5, 0.0, 0});
       p.b[static_cast<Eigen::Index>(2 * i)] = -1.0;
@@ -248,7 +248,7 @@ TEST_CASE("a seam of contacts that share few smooth motions: a hit has a solutio
       v -= base::least_squares(resting, off);
     }
     if (rows.row(2 * hit).dot(v) > 0.0) v = -v;
-    decide::CoulombProblem p{rows * rows.transpose(), rows * v, {}};
+    decide::CoulombProblem p{rows * rows.transpose(), rows * v, {}, ForceLayout(m)};
     for (Eigen::Index i = 0; i < m; ++i) {
       decide::CoulombItem item;
       item.kind = Kind::frictional;
@@ -276,7 +276,8 @@ TEST_CASE("an impact without restitution has a solution whatever the friction, a
 
 TEST_CASE(
     "static above kinetic friction: what sticks has the static coefficient, what slips the kinetic one") {
-  decide::CoulombProblem p{MatrixXd::Identity(2, 2), VectorXd(2), {{Kind::frictional, 0.5, 0.3, 0.0, 0}}};
+  decide::CoulombProblem p{
+      MatrixXd::Identity(2, 2), VectorXd(2), {{Kind::frictional, 0.5, 0.3, 0.0, 0}}, ForceLayout(1)};
   p.b << -1.0, 0.4;
   auto s = decide::solve(p);
   REQUIRE(s.has_value());
@@ -291,7 +292,7 @@ TEST_CASE(
 
 TEST_CASE("Painleve's rod: no state where the sliding contact digs in, two where it may also let go") {
   // g'' = b_n + (W_nn - s f W_nt) l with a negative factor
-  decide::CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::sliding, 1.5, 1.5, 0.0, 1}}};
+  decide::CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::sliding, 1.5, 1.5, 0.0, 1}}, ForceLayout(1)};
   p.W << 1.0, 0.9, 0.9, 1.2;
   p.b << -1.0, 0.0;
   CHECK(!decide::solve(p).has_value());
@@ -305,7 +306,7 @@ TEST_CASE("just below Painleve's limit, and at that of friction: sticking and sl
   // Slipping, g'' = b_n + (1 - 0.9 f) l with a factor of 1e-6 to 1e-10; l = 1 and T = -f hold either way.
   for (const double below : {1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
     const double f = (1.0 - below) / 0.9;
-    decide::CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::frictional, f, f, 0.0, 1}}};
+    decide::CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::frictional, f, f, 0.0, 1}}, ForceLayout(1)};
     p.W << 1.0, 0.9, 0.9, 1.2;
     for (const double off : {-2e-14, 0.0, 2e-14}) {
       CAPTURE(below);

@@ -1,4 +1,5 @@
 #include "certify/error_bounds.hpp"
+#include "contact/contact_states.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,6 +14,7 @@ Model one_mass() {
   model.dofs.resize(1);
   model.columns = {{"d0.u", 0, false}, {"d0.v", 0, true}};
   model.contacts.resize(1);
+  model.layout = contact::layout_of(model.contacts);
   return model;
 }
 

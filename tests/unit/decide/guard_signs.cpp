@@ -1,4 +1,5 @@
 #include "decide/guard_signs.hpp"
+#include "contact/contact_states.hpp"
 
 #include <doctest/doctest.h>
 
@@ -30,6 +31,7 @@ TEST_CASE(
   contact.name = "c";
   contact.friction.static_ = contact.friction.kinetic = 0.5;
   model.contacts.push_back(contact);
+  model.layout = contact::layout_of(model.contacts);
   MotionJet
       jet;  // N = t^2, T = t^2: compression ends and the limit is exceeded, both in the second derivative
   for (std::size_t k = 0; k < jet.motion.size(); ++k) jet.noise[k].N = jet.noise[k].T = 1e-12;

@@ -1,5 +1,6 @@
 // Parts without mass that move at once: what they touch first, what waits until they arrive, where they stop.
 #include "decide/massless_jump.hpp"
+#include "contact/contact_states.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,6 +25,7 @@ Model point_between_walls() {
   Contact heavy = leaning(0.0, 0.0, 0.0);
   heavy.normal.terms = heavy.tangent.terms = {{2, 1.0}};
   model.contacts.push_back(heavy);
+  model.layout = contact::layout_of(model.contacts);
   return model;
 }
 

@@ -1,4 +1,5 @@
 // Who is asked first where several contacts change at one instant.
+#include "contact/contact_states.hpp"
 #include "decide/cycle_fallback.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@ namespace {
 Model sliders() {
   Model model;
   model.contacts.resize(5);
+  model.layout = contact::layout_of(model.contacts);
   for (Contact& c : model.contacts) {
     c.law = Law::slider;
     c.friction.static_ = c.friction.kinetic = 0.3;

@@ -52,7 +52,9 @@ class Drawn {
       driven[0].ds = c.tangent.dot(v);
     }
   }
-  [[nodiscard]] law_check::CheckedSide side() const { return {&u, &v, &a, &mode, &forces, {}, driven}; }
+  [[nodiscard]] law_check::CheckedSide side() const {
+    return {&u, &v, &a, &mode, &forces, ForceLayout(1), driven};
+  }
 
   Contact c;
   Vector u = Vector::Zero(5), v = u, a = u, forces;

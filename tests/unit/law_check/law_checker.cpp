@@ -1,5 +1,6 @@
 // law_check/law_checker.hpp: every law, at records that keep it and at one that does not. Numbers by hand.
 #include "law_check/law_checker.hpp"
+#include "contact/contact_states.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,6 +25,7 @@ Model block(const Contact& contact) {
   model.damping.resize(2, 2);
   model.stiffness.resize(2, 2);
   model.contacts.push_back(contact);
+  model.layout = contact::layout_of(model.contacts);
   return model;
 }
 
@@ -162,6 +164,7 @@ TEST_CASE("hits of one instant come one after the other: each by its own velocit
   wall.friction.static_ = wall.friction.kinetic = 0.0;
   Model model = block(wall);
   model.contacts.push_back(floor);
+  model.layout = contact::layout_of(model.contacts);
   const Vector u = along(0.0, 0.0), before = along(-1.0, 0.9), none = Vector::Zero(4);
   const std::vector<ContactState> open = {{State::open, 0.0}, {State::open, 0.0}};
   const auto found = [&](double at_wall, int turn_of_wall) {
@@ -194,6 +197,7 @@ TEST_CASE("a contact that is hit twice at one instant: each hit by its own veloc
   wall.tangent.terms = {{0, tangent[0]}, {1, tangent[1]}};
   Model model = block(floor);
   model.contacts.push_back(wall);
+  model.layout = contact::layout_of(model.contacts);
   const Vector u = along(0.0, 0.0), before = along(-1.0, -0.7), none = Vector::Zero(4);
   const std::vector<ContactState> open = {{State::open, 0.0}, {State::open, 0.0}};
   const auto found = [&](double last) {
@@ -348,6 +352,7 @@ TEST_CASE(
   for (Contact* contact : {&flat, &inclined}) contact->friction.static_ = contact->friction.kinetic = 0.0;
   Model model = block(flat);
   model.contacts.push_back(inclined);
+  model.layout = contact::layout_of(model.contacts);
   for (const int dof : {0, 1}) model.damping.insert(dof, dof) = 3.0;
   const Vector u = Vector::Zero(2);
   const std::vector<ContactState> closed = {{State::closed, 0.0}, {State::closed, 0.0}};
@@ -411,6 +416,7 @@ TEST_CASE("what a rigid stop holds, too, has no friction force of its own: no re
     if (!held) stop.gap = 0.1;
     Model model = block(foot);
     model.contacts.push_back(stop);
+    model.layout = contact::layout_of(model.contacts);
     Recorded r;
     const Eigen::VectorXd before = Eigen::Vector4d(-10.0, 3.5, held ? -1.0 : 0.0, 0.0),
                           after = Eigen::Vector4d(-10.0, 3.0, held ? -1.5 : 0.0, 0.0);

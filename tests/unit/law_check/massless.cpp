@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "contact/contact_states.hpp"
 #include "law_check/law_checker.hpp"
 
 using namespace signorini;
@@ -41,6 +42,7 @@ struct Chain {
     c.tangential_stiffness = 90.0;
     c.friction.static_ = c.friction.kinetic = friction;
     model.contacts.push_back(c);
+    model.layout = contact::layout_of(model.contacts);
     follow(u, -0.9, load);
     follow(v, 0.4, rate);
     follow(a, -1.3, bend);
@@ -57,7 +59,7 @@ struct Chain {
     return law_check::LawChecker(model, {}).check_point(1.0, side);
   }
   [[nodiscard]] law_check::CheckedSide sides() const {
-    law_check::CheckedSide side{&u, &v, &a, &mode, &forces, {}, {law_check::Driven{}}};
+    law_check::CheckedSide side{&u, &v, &a, &mode, &forces, model.layout, {law_check::Driven{}}};
     for (const double P : {load, rate, bend}) side.loads.emplace_back(Eigen::Vector3d(0.0, P, 0.0));
     return side;
   }
@@ -225,6 +227,7 @@ struct LetGo {
     beside.tangential_stiffness = 30.0;
     beside.friction.static_ = beside.friction.kinetic = 5.0;
     if (chain.model.contacts.size() == 1) chain.model.contacts.push_back(beside);
+    chain.model.layout = contact::layout_of(chain.model.contacts);
     chain.model.contacts[0].friction.static_ = 0.6;
     const double N = chain.forces[0];
     const auto x_of = [&](double T) { return -T / (20.0 + 30.0); };  // -20 x - T - 30 x = 0

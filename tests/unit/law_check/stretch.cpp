@@ -1,6 +1,7 @@
 // law_check/law_checker.hpp: laws of a stretch by its ends, and of the structure just after an instant. Numbers by hand.
 #include <doctest/doctest.h>
 
+#include "contact/contact_states.hpp"
 #include "law_check/law_checker.hpp"
 
 using namespace signorini;
@@ -28,6 +29,7 @@ Model rubbed_block(std::optional<double> tangential_stiffness) {
   c.friction.static_ = c.friction.kinetic = 0.5;
   c.tangential_stiffness = tangential_stiffness;
   model.contacts.push_back(c);
+  model.layout = contact::layout_of(model.contacts);
   return model;
 }
 

@@ -1,3 +1,4 @@
+#include "contact/contact_states.hpp"
 #include "linear/undamped_motion.hpp"
 
 #include <doctest/doctest.h>
@@ -40,6 +41,7 @@ TEST_CASE("forms of other degrees of freedom are left alone, single terms are se
 TEST_CASE("rows that hold a contact along both directions pin both degrees of freedom, one row none") {
   Model model;
   model.contacts.resize(1);
+  model.layout = contact::layout_of(model.contacts);
   model.contacts[0].normal.terms = {{0, -0.6}, {1, 0.8}};
   model.contacts[0].tangent.terms = {{0, 0.8}, {1, 0.6}};
   std::vector<Rows> held(1);

@@ -42,6 +42,7 @@ inline Model rubbing_row(int masses) {
     contact.tangential_stiffness = 200.0;
     contact.friction.static_ = contact.friction.kinetic = 0.3;
     model.contacts.push_back(contact);
+    model.layout = contact::layout_of(model.contacts);
   }
   model.u0 = Vector::LinSpaced(n, -0.03, 0.02);
   model.v0 = Vector::LinSpaced(n, 0.4, -0.3);

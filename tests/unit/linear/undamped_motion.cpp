@@ -1,5 +1,6 @@
 // Motions without mass that dashpots do not resist.
 #include "linear/undamped_motion.hpp"
+#include "contact/contact_states.hpp"
 
 #include <doctest/doctest.h>
 
@@ -22,6 +23,7 @@ Model massless_model(const std::vector<Combination>& normals) {
     contact.normal = normal;
     contact.normal_damping = 1.0;
     model.contacts.push_back(contact);
+    model.layout = contact::layout_of(model.contacts);
   }
   return model;
 }

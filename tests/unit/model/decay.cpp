@@ -1,3 +1,4 @@
+#include "contact/contact_states.hpp"
 #include "model/slip_growth.hpp"
 
 #include <doctest/doctest.h>
@@ -43,6 +44,7 @@ TEST_CASE("dashpots of contacts damp, springs of contacts hurry what has no mass
   c.normal_stiffness = 100.0;
   c.tangential_stiffness = 16.0;
   model.contacts = {c};
+  model.layout = contact::layout_of(model.contacts);
   CHECK(model::fastest_decay(model) == 10.0);  // (1 + 4) / 0.5
   model.contacts[0].tangential_stiffness.reset();
   CHECK(model::fastest_decay(model) == 6.5);  // (1 + 12) / 2

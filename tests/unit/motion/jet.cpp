@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/rounding.hpp"
+#include "contact/contact_states.hpp"
 #include "unit/linear/rubbing_row.hpp"
 
 using namespace signorini;
@@ -39,6 +40,7 @@ Model at_limit(double degrees) {
     contact.tangent.terms = {{2 * body, c}, {2 * body + 1, s}};
     contact.friction.static_ = contact.friction.kinetic = friction;
     model.contacts.push_back(contact);
+    model.layout = contact::layout_of(model.contacts);
     Load load;  // weight 1 a mass, and the limit
     const double m = 1.0 + body;
     load.direction.terms = {{2 * body, m * (s + friction * c)}, {2 * body + 1, m * (-c + friction * s)}};

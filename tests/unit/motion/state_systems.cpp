@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "contact/contact_states.hpp"
 #include "motion/taylor.hpp"
 
 using namespace signorini;
@@ -34,6 +35,7 @@ Model row_of_masses(int n) {
     c.friction.static_ = c.friction.kinetic = 0.3;
     c.tangential_stiffness = 50.0;
     model.contacts.push_back(c);
+    model.layout = contact::layout_of(model.contacts);
   }
   if (n > 3) model.contacts.back().tangential_stiffness.reset();
   model.u0 = model.v0 = Vector::LinSpaced(n, 0.1, 1.0);
@@ -178,6 +180,7 @@ TEST_CASE("dependent rows are no system, and that is remembered too") {
   model.contacts[0] = twin;
   twin.name = "twin";
   model.contacts.push_back(twin);
+  model.layout = contact::layout_of(model.contacts);
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   for (int i = 0; i < 2; ++i)

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "contact/contact_states.hpp"
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
@@ -65,6 +66,7 @@ inline Model model() {
   pad.friction.static_ = 0.4;
   pad.friction.kinetic = 0.3;
   m.contacts = {foot, pad};
+  m.layout = contact::layout_of(m.contacts);
   m.static_start = true;
   m.statics.reactions = {58.86, 0.0};
   m.statics.free_motions = {"horizontal motion held at contact 'foot'"};

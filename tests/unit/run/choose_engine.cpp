@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include "contact/contact_states.hpp"
 #include "engine/ida/restart_order.hpp"
 #include "model/slip_growth.hpp"
 #include "signorini/simulate.hpp"
@@ -82,5 +83,6 @@ TEST_CASE("max_order auto: below rtol 1e-4 always 5; above, what is stable for t
   Contact spring;
   spring.normal_stiffness = 1.0;
   model.contacts = {spring};  // which beta K does not damp
+  model.layout = contact::layout_of(model.contacts);
   CHECK(model::min_damping_ratio(model) == doctest::Approx(0.005));
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "contact/contact_states.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -49,6 +50,7 @@ TEST_CASE("of pendulums ut beyond a quarter of the radius counts, and amplitudes
   contact.pendulum_surface = CurvedSurface{};
   contact.pendulum_surface->radius = 2.0;
   model.contacts.push_back(contact);
+  model.layout = contact::layout_of(model.contacts);
   model.unit = {1.0, 1.0, 4.0};
   const motion::Forcing forcing = motion::Forcing::none(model);
   const auto told = [&](double u) {

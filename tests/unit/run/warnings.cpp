@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contact/contact_states.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -56,6 +57,7 @@ TEST_CASE(
   const auto told = [&](double asked) {
     c.initial_shear = asked;
     model.contacts = {c};
+    model.layout = contact::layout_of(model.contacts);
     return run::shear_limit_warnings(model, start);
   };
   // 64 eps 0.3 5e4 (1 + 1 + 2e-4) = 4.3e-10

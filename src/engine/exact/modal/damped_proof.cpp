@@ -28,7 +28,7 @@ void DampedProof::start() {
     const decide::Decision& decision = motion_.decision();
     Watched guard{slot,
                   decision.guards[slot].noise,
-                  motion_.quantity_of(decision.form(slot), contact::contact_of_guard(slot)),
+                  motion_.quantity_of(decision.form(slot), decision.layout.contact_of_guard(slot)),
                   {},
                   0.0};
     guard.leading_derivative = guard.guard;

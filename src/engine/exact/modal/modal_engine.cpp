@@ -113,7 +113,7 @@ void ModalEngine::warn_of_touches(const Passage& passage, double begin) {
       warnings.push_back(
           fmt::format("contact '{}': its {} touches zero near {:.9g}; this precision cannot decide whether "
                       "it crosses zero; no event is recorded",
-                      model_.contacts[contact::contact_of_guard(slot)].name,
+                      model_.contacts[model_.layout.contact_of_guard(slot)].name,
                       contact::to_string(segment_.decision->guards[slot].kind),
                       model::time_in_scene_units(model_, begin)));
 }
@@ -121,7 +121,7 @@ void ModalEngine::warn_of_touches(const Passage& passage, double begin) {
 /// Time from here to the root of the guard according to u, v and the forces that the decision will use, and its
 /// uncertainty due to the rounding of the modes.
 ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motion::Point& point) const {
-  const std::size_t c = contact::contact_of_guard(slot);
+  const std::size_t c = model_.layout.contact_of_guard(slot);
   const ContactMotion now = motion::motion_of(model_.contacts[c], c, *segment_.forcing, t_, point);
   const double slope = flow_->slope(slot, now_, point, t_);
   if (!(slope < 0.0)) return {};
@@ -189,7 +189,7 @@ engine::Step ModalEngine::advance() {
     if (passage.triggered) {
       step.resolution = refine_crossing(*passage.triggered);
       step.kind = engine::Step::Kind::event;
-      step.triggered = {{contact::contact_of_guard(*passage.triggered),
+      step.triggered = {{model_.layout.contact_of_guard(*passage.triggered),
                          segment_.decision->guards[*passage.triggered].kind, passage.unseen}};
       break;
     }

@@ -218,7 +218,7 @@ void ModalProof::watch(const engine::Segment& segment, const StateModes& state) 
   for (std::size_t slot = 0; slot < decision_->guards.size(); ++slot) {
     if (active_guards_.idle(slot)) continue;
     const Form& form = decision_->form(slot);
-    const std::size_t c = contact::contact_of_guard(slot);
+    const std::size_t c = decision_->layout.contact_of_guard(slot);
     Watched guard;
     guard.slot = slot;
     guard.noise = decision_->guards[slot].noise;
@@ -374,7 +374,7 @@ void ModalProof::bound_fast_modes() {
 
 /// Computes the guard's slow part, and its error bound without the ripple.
 void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
-  const std::size_t c = contact::contact_of_guard(guard.slot);
+  const std::size_t c = decision_->layout.contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);
   slow_[c].combine(decision_->form(guard.slot), p.data());
   const ModalKinematics& form = guard.form;

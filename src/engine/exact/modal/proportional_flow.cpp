@@ -101,7 +101,7 @@ void ProportionalFlow::forces(const ModalPoint& /*at*/, motion::Point& point) co
 
 double ProportionalFlow::slope(std::size_t slot, const ModalPoint& /*at*/, const motion::Point& point,
                                double /*t*/) const {
-  const std::size_t c = contact::contact_of_guard(slot);
+  const std::size_t c = model_.layout.contact_of_guard(slot);
   const ContactMotion now =
       motion::motion_of(model_.contacts[c], c, *segment_->forcing, segment_->decision->jet.t, point);
   const ForceLaw law = proof_.law(c);

@@ -17,7 +17,7 @@ std::vector<double> falls(const std::function<double(double)>& g, bool at_zero, 
   start.kind = Guard::separation;
   start.at_zero = at_zero;
   events::GuardMonitor watch;
-  watch.start({start}, decide::GuardForms(1), {level});
+  watch.start({start}, decide::GuardForms(1), {level}, ForceLayout(1));
   events::StepHistory history(1);
   *history.restart(0.0) = g(0.0);
   std::vector<double> found;
@@ -45,9 +45,10 @@ TEST_CASE("an event is late by the level of a guard that has not risen, and of n
   decide::GuardStart at_zero, clear, idle;
   at_zero.kind = clear.kind = Guard::separation;
   at_zero.at_zero = true;
-  std::vector<decide::GuardStart> guards(2 * contact::guards_per_contact, idle);
-  guards[contact::guards_per_contact] = at_zero;
-  guards[contact::guards_per_contact + 1] = clear;
+  const ForceLayout layout({{1, 2, 0, 2}, {1, 3, 0, 1}});  // slots 0 to 3 and 4 to 7
+  std::vector<decide::GuardStart> guards(layout.guard_count(), idle);
+  guards[4] = at_zero;
+  guards[5] = clear;
   decide::GuardsOfState of_second;
   of_second[0].form.N = -1.0;
   of_second[1].form.T = 1.0;
@@ -55,14 +56,14 @@ TEST_CASE("an event is late by the level of a guard that has not risen, and of n
   forms.set(1, of_second);
   events::GuardMonitor watch;
   CHECK(watch.allowed_depth(1, of_second[0]) == 0.0);  // before any segment
-  watch.start(guards, forms, std::vector<double>(guards.size(), 1e-6));
+  watch.start(guards, forms, std::vector<double>(guards.size(), 1e-6), layout);
   CHECK(watch.allowed_depth(1, of_second[0]) == 1e-6);
   CHECK(watch.allowed_depth(0, of_second[0]) == 0.0);
   CHECK(watch.allowed_depth(1, of_second[1]) == 0.0);
   events::StepHistory history(guards.size());
   double* start = history.restart(0.0);
   std::fill_n(start, guards.size(), 1.0);
-  start[contact::guards_per_contact] = 0.0;
+  start[4] = 0.0;
   std::fill_n(history.push(1.0), guards.size(), 1.0);  // rises above its level
   history.prepare(1);
   CHECK(watch.check(history, 1.0).empty());
@@ -95,7 +96,7 @@ TEST_CASE("a guard that starts at zero and rises fires only after it has clearly
 
 TEST_CASE("idle guards never fall") {
   events::GuardMonitor watch;
-  watch.start({decide::GuardStart{}}, decide::GuardForms(1), {1.0});
+  watch.start({decide::GuardStart{}}, decide::GuardForms(1), {1.0}, ForceLayout(1));
   events::StepHistory history(1);
   *history.restart(0.0) = 1.0;
   *history.push(1.0) = -1.0;
@@ -108,7 +109,7 @@ TEST_CASE("what was taken not to fall waits: deeper it falls, and once it has ri
     decide::GuardStart clear;
     clear.kind = Guard::sliding;
     events::GuardMonitor watch;
-    watch.start({clear}, decide::GuardForms(1), {1e-9});
+    watch.start({clear}, decide::GuardForms(1), {1e-9}, ForceLayout(1));
     events::StepHistory history(1);
     *history.restart(0.0) = g(0.0);
     std::vector<double> result;

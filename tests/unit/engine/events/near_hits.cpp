@@ -13,19 +13,20 @@ namespace {
 
 constexpr double level_of_gap = 1e-6;
 
-/// What is seen of a gap in steps of 0.1 of a method of order three; slot 3: of the second contact.
+/// What is seen of a gap in steps of 0.1 of a method of order three: that of the second contact.
 std::vector<events::NearHit> near_hits_of(const std::function<double(double)>& gap, double end,
                                           double limit = 1.0) {
-  std::vector<decide::GuardStart> guards(contact::guard_slot(2, 0));
+  const ForceLayout layout({{1, 2, 0, 3}, {1, 3, 0, 1}});  // slot 5
+  std::vector<decide::GuardStart> guards(layout.guard_count());
   std::vector<double> levels(guards.size(), level_of_gap);
-  guards[contact::guard_slot(1, 0)].kind = Guard::closing;
+  guards[layout.guard(1)].kind = Guard::closing;
   events::StepHistory history(guards.size());
   const auto fill = [&](double* out, double t) {
     std::fill_n(out, guards.size(), 1.0);
-    out[contact::guard_slot(1, 0)] = gap(t);
+    out[layout.guard(1)] = gap(t);
   };
   events::NearHitDetector hits;
-  hits.start(guards, levels);
+  hits.start(guards, levels, layout);
   fill(history.restart(0.0), 0.0);
   int steps = 0;
   for (double t = 0.1; t < end; t += 0.1) {

@@ -20,6 +20,7 @@ struct OneForce {
     series.t = 1.0;
     series.scale = 2.0;
     series.u = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(degree + 3));
+    series.layout = ForceLayout(1);
     series.forces = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(degree + 1));
     for (std::size_t k = 0; k <= degree; ++k) series.forces(0, static_cast<Eigen::Index>(k)) = N[k];
     series.forcing.count = degree + 3;

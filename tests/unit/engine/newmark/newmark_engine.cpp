@@ -185,7 +185,7 @@ TEST_CASE(
       const engine::Step last = s.go();
       if (last.kind != engine::Step::Kind::event) break;
       const auto& [contact, kind, unseen] = last.triggered.at(0);
-      std::size_t slot = contact::guard_slot(contact, 0);
+      std::size_t slot = s.model.layout.guard(contact);
       while (s.decision.guards[slot].kind != kind) ++slot;
       newmark::NewmarkStep whole(s.model, s.structure, 0);
       whole.set({0}, s.decision.system->rows());

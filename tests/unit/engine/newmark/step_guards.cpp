@@ -17,6 +17,7 @@ decide::Decision decided(const Model& model, motion::StateSystems& systems,
                          const contact::ContactStates& contact_states, std::size_t waiting) {
   decide::Decision decision;
   decision.states = contact_states;
+  decision.layout = model.layout;
   decision.system = systems.system_of(contact_states);
   decision.forms = decide::GuardForms(contact_states.size());
   for (std::size_t k = 0; k < contact_states.size(); ++k) {
@@ -24,7 +25,7 @@ decide::Decision decided(const Model& model, motion::StateSystems& systems,
     for (const GuardForm& guard : decision.forms[k])
       decision.guards.push_back({guard.kind, false, 0, 1e-9 * static_cast<double>(k)});
   }
-  decide::GuardStart& first = decision.guards[contact::guard_slot(waiting, 0)];
+  decide::GuardStart& first = decision.guards[model.layout.guard(waiting)];
   first.at_zero = first.kind != Guard::none;
   return decision;
 }
@@ -85,7 +86,7 @@ TEST_CASE(
           CHECK_FALSE(listed);
           continue;
         }
-        const std::size_t k = contact::contact_of_guard(slot);
+        const std::size_t k = model.layout.contact_of_guard(slot);
         double value[3];
         for (int i = 0; i < 3; ++i)
           value[i] = decision.form(slot).value(
@@ -106,7 +107,7 @@ TEST_CASE(
           d.T = -rows.tangent.N * d.N - rows.tangent.ut * m.vt;
           CHECK(path.r1 == doctest::Approx(h * decision.form(slot).rate(d)).epsilon(1e-12).scale(10.0));
         }
-        const bool waits = slot == contact::guard_slot(waiting, 0) && !seen.active_guards().armed(slot);
+        const bool waits = slot == model.layout.guard(waiting) && !seen.active_guards().armed(slot);
         const auto dip = seen.dip(slot, h, h_before);
         if (waits) CHECK(listed);
         if (path.g1 <= 0.0 || dip) CHECK(listed);
@@ -115,7 +116,7 @@ TEST_CASE(
         at_rest += listed ? 0 : 1;
       }
       seen.update_active_guards(t + h, points[2]);
-      const std::size_t slot = contact::guard_slot(waiting, 0);
+      const std::size_t slot = model.layout.guard(waiting);
       if (decision.guards[slot].at_zero && seen.path(slot, h).g1 > seen.level(slot, t + h, points[2]))
         CHECK(seen.active_guards().armed(slot));
     }
@@ -144,7 +145,7 @@ TEST_CASE("what was dismissed dips no more, until the next step") {
   seen.begin_next_step();
   point.v = -point.v;
   seen.evaluate(point, 0.1);
-  const std::size_t slot = contact::guard_slot(1, 0);
+  const std::size_t slot = model.layout.guard(1);
   REQUIRE(seen.dip(slot, 0.1, 0.0));
   CHECK(*seen.dip(slot, 0.1, 0.0) == doctest::Approx(0.5));
   seen.dismiss(slot);

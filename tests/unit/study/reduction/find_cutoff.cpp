@@ -1,5 +1,6 @@
 // What the modes left out would have added: a mode under a force, in closed form.
 #include "study/reduction/find_cutoff.hpp"
+#include "contact/contact_states.hpp"
 
 #include <doctest/doctest.h>
 
@@ -27,6 +28,7 @@ Model two_masses() {
   contact.name = "stop";
   contact.normal.terms = {{1, 1.0}};
   model.contacts.push_back(contact);
+  model.layout = contact::layout_of(model.contacts);
   return model;
 }
 

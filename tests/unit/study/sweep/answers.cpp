@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "contact/contact_states.hpp"
 #include "signorini/model.hpp"
 #include "study/sweep/response_query.hpp"
 
@@ -57,6 +58,7 @@ direction = [1.0, 0.0]
 TEST_CASE("answers: a contact's name may have an @") {
   Model model;
   model.contacts.resize(2);
+  model.layout = contact::layout_of(model.contacts);
   model.contacts[0].name = "a@2";
   model.contacts[1].name = "b";
   CHECK(sweep::parse_query("residual:a@2", model).name == "a@2");

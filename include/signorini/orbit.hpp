@@ -98,7 +98,7 @@ struct BranchCheckpoint {
   bool towards_to = true;                   ///< direction of the walk: the parameter moves towards `to`
   Orbit orbit;                              ///< period, phase, autonomous, start
   std::vector<std::string> sequences = {};  ///< sequences of events met so far, by number
-  std::size_t points = 0;                   ///< number of Branch::points up to the mark
+  std::size_t point_count = 0;              ///< number of Branch::points up to this checkpoint
 };
 
 /// Settings for a branch of orbits over a key of the scene.

@@ -59,12 +59,12 @@ struct Output {
   std::vector<std::string> contains = {};  ///< parts of a spring's force: "preload", "stiffness", "damper"
 };
 
-/// Calls `use` with each linear output that this output consists of, in order: itself if it has no stretches.
+/// Calls `use` with each linear output that this output consists of, in order: itself if it has no segments.
 template <class AnOutput, class Use>
 void for_each_linear(AnOutput& output, const Use& use) {
   if (output.segments.empty()) return use(output);
-  for (auto& stretch : output.segments)
-    for (auto& at : stretch.at) use(at);
+  for (auto& segment : output.segments)
+    for (auto& at : segment.at) use(at);
 }
 
 /// True if the output is a maximum, not a sum of motions and forces; it then cannot be part of a combination.

@@ -81,9 +81,9 @@ struct InstantSide {
   Vector forces;                     ///< forces of all contacts, in the order of the model's layout
 };
 
-/// Impulse of one impact on a rigid contact; the impacts of one instant are ordered by turn 1, 2, ...
+/// Impulse of one impact on a rigid contact; the successive impacts of an instant have the numbers 1, 2, ...
 struct InstantImpact {
-  int contact = 0, turn = 1;
+  int contact = 0, impact_number = 1;
   double normal = 0.0, tangent = 0.0;  ///< on the body along n and t; force * time
 };
 

@@ -162,7 +162,8 @@ void add_keys(Program& program) {
   auto words = std::make_shared<std::vector<std::string>>();
   CLI::App* command = program.app.add_subcommand("keys", "list the keys of a scene file");
   command->add_option("WORD", *words,
-                      "list only keys whose description contains all these words (upper or lower case)");
+                      "list only keys with all these words in name, description, type, unit or default; case "
+                      "does not matter");
   command->add_flag("--markdown", *markdown, "print docs/scene.md, the reference with examples");
   command->callback([&program, markdown, words] {
     program.action = [markdown, words] {

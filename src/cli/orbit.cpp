@@ -66,7 +66,7 @@ class MarkWriter {
     took_ = *written_ - begin;
   }
   void write(BranchCheckpoint mark) const {
-    mark.points += before_;
+    mark.point_count += before_;
     orbit_study::write_mark(path_, read_, over_, mark);
   }
 
@@ -130,7 +130,7 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   std::vector<BranchPoint> before;
   if (resume) {
     over.resume_from = orbit_study::read_mark(path, read, over);
-    before = orbit_study::read_branch(path, outputs.size(), over.resume_from->points);
+    before = orbit_study::read_branch(path, outputs.size(), over.resume_from->point_count);
   } else {
     begin_folder(path, branch_folder());
     orbit_study::remove_mark(path);

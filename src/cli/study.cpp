@@ -295,7 +295,8 @@ void add_study(Program& program) {
       ->option_text("RANGE");
   command
       ->add_option("--dt", options->dt,
-                   "steps of " + engines_with(Accuracy::step) + " (default: five decades from t_end/50)")
+                   "steps of " + engines_with(Accuracy::step) +
+                       " (default: five steps, each a tenth of the one before, from about t_end/50)")
       ->option_text("RANGE");
   command
       ->add_option("--vary", options->varied,

@@ -19,18 +19,18 @@ struct WitnessOptions {
 
 std::string text_of(const directory_check::DirectoryLawCheck& found, const std::string& directory) {
   std::string text;
-  for (const Violation& v : found.testimony.violations)
+  for (const Violation& v : found.law_checks.violations)
     text += fmt::format("t = {:<14.9g} {:<14} {:<12} {:<22} {:.4g}, limit {:.2g}\n", v.t,
                         v.event.empty() ? "-" : v.event,
                         v.contact < 0 ? "-" : found.model.contacts[static_cast<std::size_t>(v.contact)].name,
                         v.law, v.value, v.limit);
-  if (const auto more = found.testimony.violated - static_cast<long>(found.testimony.violations.size());
+  if (const auto more = found.law_checks.violated - static_cast<long>(found.law_checks.violations.size());
       more > 0)
     text += fmt::format("and {} more\n", more);
   text += fmt::format("{}: {} instants, {} events, {} rows of contacts: ", directory, found.instants,
                       found.events, found.rows);
-  text += found.testimony.violated == 0 ? "all laws hold\n"
-                                        : fmt::format("{} violations\n", found.testimony.violated);
+  text += found.law_checks.violated == 0 ? "all laws hold\n"
+                                         : fmt::format("{} violations\n", found.law_checks.violated);
   return text;
 }
 
@@ -44,12 +44,12 @@ ExitCode hear_witness(const WitnessOptions& options) {
                        {"events", found.events},
                        {"rows", found.rows},
                        {"ended", found.complete}};
-    json.update(result::law_check_json(found.model, found.testimony));
+    json.update(result::law_check_json(found.model, found.law_checks));
     print(base::json_text(json));
   } else {
     print(text_of(found, options.directory));
   }
-  return found.testimony.violated == 0 ? ExitCode::done : ExitCode::limit;
+  return found.law_checks.violated == 0 ? ExitCode::done : ExitCode::limit;
 }
 
 }  // namespace

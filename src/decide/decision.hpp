@@ -62,7 +62,7 @@ struct Decision {
   std::vector<std::size_t>
       released;                   ///< contacts that massless parts left instantaneously (massless_jump.hpp)
   std::vector<Impulse> impulses;  ///< one entry per contact if rigid contacts were hit; otherwise empty
-  std::vector<SingleImpact> single_impacts;  ///< single impacts, turn by turn, whose sums are `impulses`
+  std::vector<SingleImpact> single_impacts;  ///< successive impacts, whose sums are `impulses`
   std::vector<double> departures;            ///< ImpactResult::departures
   double impact_loss = 0.0;                  ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;          ///< work of moving surfaces in the impacts

@@ -32,10 +32,10 @@ struct Impulse {
   double rebound = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Impulse on one touching contact in one impact. Impacts of an instant are successive: turn 1, 2, ...
+/// Impulse on one touching contact in one impact. The successive impacts of an instant have the numbers 1, 2, ...
 struct SingleImpact {
   std::size_t contact = 0;
-  int turn = 1;
+  int impact_number = 1;
   double normal = 0.0, tangent = 0.0;
 };
 

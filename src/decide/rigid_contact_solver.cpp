@@ -336,10 +336,12 @@ Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing
   decision.impact_surface_work += result.surface_work;
   decision.impact_gains = decision.impact_gains || result.gains;
   if (decision.impulses.empty()) decision.impulses.resize(states.size());
-  const int turn = decision.single_impacts.empty() ? 1 : decision.single_impacts.back().turn + 1;
+  const int impact_number =
+      decision.single_impacts.empty() ? 1 : decision.single_impacts.back().impact_number + 1;
   for (const std::size_t c : struck) {
     Impulse& sum = decision.impulses[c];
-    decision.single_impacts.push_back({c, turn, result.impulses[c].normal, result.impulses[c].tangent});
+    decision.single_impacts.push_back(
+        {c, impact_number, result.impulses[c].normal, result.impulses[c].tangent});
     sum.hit = sum.hit || result.impulses[c].hit;
     sum.normal += result.impulses[c].normal;
     sum.tangent += result.impulses[c].tangent;

@@ -28,7 +28,7 @@ std::vector<Violation> LawChecker::check_instant(const InstantRecord& record) co
   finder.continuity();
   finder.releases();
   finder.continuation();
-  finder.rows();
+  finder.event_rows();
   finder.balance();
   return found;
 }

@@ -138,7 +138,7 @@ class InstantLawChecker {
   void continuity();
   void releases();
   void continuation();
-  void rows();
+  void event_rows();
   void balance();
 
  private:
@@ -167,7 +167,7 @@ class InstantLawChecker {
   [[nodiscard]] Vector closing() const;
   [[nodiscard]] double massless_uncertainty(int dof) const;
   [[nodiscard]] ContactKinematics touching(std::size_t k, const CheckedSide& side) const;
-  void row_of(const RecordedEvent& event);
+  void event_row(const RecordedEvent& event);
   void row_before(const RecordedEvent& event, const ContactKinematics& before,
                   const ContactKinematics& after);
   void row_gap(const RecordedEvent& event, const ContactKinematics& after);

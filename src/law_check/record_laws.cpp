@@ -81,8 +81,8 @@ void InstantLawChecker::balance() {
   }
 }
 
-void InstantLawChecker::rows() {
-  for (const RecordedEvent& event : record_.events) row_of(event);
+void InstantLawChecker::event_rows() {
+  for (const RecordedEvent& event : record_.events) event_row(event);
 }
 
 /// Rates of the surfaces in contact: for a compliance split, event rows exclude the deformation of its springs.
@@ -189,7 +189,7 @@ void InstantLawChecker::row_gap(const RecordedEvent& event, const ContactKinemat
 
 /// Checks that an event row agrees with both sides. Values before are those of the decision, which removes velocities
 /// left by tolerances: these are part of its captures.
-void InstantLawChecker::row_of(const RecordedEvent& event) {
+void InstantLawChecker::event_row(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const ContactKinematics b = touching(k, record_.before), a = touching(k, record_.after);

@@ -17,12 +17,14 @@ struct ConstraintRows {
   std::vector<const Combination*> rows;
   std::vector<double> asked, noise;  // noise: of the accelerations along the rows
 
-  /// swung: accelerations that were present when a guard was located and have been removed since; empty: none.
+  /// removed_accelerations: those that were present when a guard was located and have been removed since; empty: none.
   void add(const Contact& c, const ContactState& state, const ContactResponse& response,
-           const ContactKinematics& m, const Vector& swung, bool hold) {
+           const ContactKinematics& m, const Vector& removed_accelerations, bool hold) {
     const bool tangent = c.holds_tangent(state.state);
     double of_row = rounding::elimination * m.acceleration_size;
-    if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
+    if (removed_accelerations.size() > 0)
+      of_row +=
+          std::abs(c.normal.dot(removed_accelerations)) + std::abs(c.tangent.dot(removed_accelerations));
     if (c.takes_impulses() && !is_open(state.state)) {
       const double friction =
           tangent ? 0.0 : -slip_direction(state.state) * friction_in(c, state.state, m.dut, m.N);
@@ -229,8 +231,8 @@ std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_ol
   Vector push = -(m.N - N) * own->by_n;
   if (!solved_T) push -= (m.T - T) * own->by_t;
   ConstraintRows held;
-  const Vector swung = context_.capture_accelerations(record_);
-  held.add(c, old, *own, m, swung, true);
+  const Vector removed_accelerations = context_.capture_accelerations(record_);
+  held.add(c, old, *own, m, removed_accelerations, true);
   for (std::size_t j = 0; j < model_.contacts.size(); ++j) {
     const Contact& other = model_.contacts[j];
     const ContactState& state = (*record_.after.mode)[j];
@@ -238,7 +240,7 @@ std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_ol
     if (j == k || !other.obeys_coulomb() || is_open(state.state) || !rigid) continue;
     const ContactResponse* response = context_.contact_response(j);
     if (response == nullptr) return std::nullopt;
-    held.add(other, state, *response, kinematics(other, j, record_.after), swung, false);
+    held.add(other, state, *response, kinematics(other, j, record_.after), removed_accelerations, false);
   }
   if (solved_T && held.is_shared(solved_N ? 1 : 0)) return std::nullopt;
   const ConstraintRows::Change change = held.solve(push);

@@ -194,16 +194,16 @@ class GmshReader {
 
   void read_entities() {
     std::array<long, 4> counts{};
-    for (long& n : counts) n = words_.count("a number of entities");
+    for (long& n : counts) n = words_.count("the number of entities");
     for (int dimension = 0; dimension < 4; ++dimension)
       for (long n = counts[static_cast<std::size_t>(dimension)]; n > 0; --n) {
         const long tag = words_.integer("the tag of an entity");
         for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) static_cast<void>(words_.number("a coordinate"));
         std::vector<long>& groups = content_.of_entities[{dimension, tag}];
-        for (long k = words_.count("a number of physical groups"); k > 0; --k)
+        for (long k = words_.count("the number of physical groups of an entity"); k > 0; --k)
           groups.push_back(std::abs(words_.integer("a physical tag")));
         if (dimension == 0) continue;
-        for (long k = words_.count("a number of bounding entities"); k > 0; --k)
+        for (long k = words_.count("the number of bounding entities"); k > 0; --k)
           static_cast<void>(words_.integer("the tag of an entity"));
       }
   }
@@ -226,7 +226,7 @@ class GmshReader {
       static_cast<void>(words_.integer("the tag of an entity"));
       const bool parametric = words_.integer("0 or 1") != 0;
       std::vector<std::pair<long, SourcePlace>> numbers(
-          static_cast<std::size_t>(words_.count("a number of nodes")));
+          static_cast<std::size_t>(words_.count("the number of nodes of a block")));
       for (auto& [number, place] : numbers) {
         number = words_.integer("the tag of a node");
         place = words_.place();

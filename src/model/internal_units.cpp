@@ -11,12 +11,12 @@ namespace signorini::model {
 namespace {
 
 // Limit of the exponents: products of four units then stay in the range of a double (mass = force time^2 / length).
-constexpr int farthest = 120;
+constexpr int max_exponent = 120;
 
 // For scenes without stiffness: the unit of time is a quarter of the run, 2^-2, the likely duration of one motion.
 // Scales of displacement follow from it (a time^2). Chosen value; changing it changes the tests of
 // validation/published.
-constexpr int motions = 2;
+constexpr int time_unit_exponent = -2;
 
 /// Largest of several magnitudes, and its exponent: x = 2^e (1 to 2).
 class Greatest {
@@ -119,12 +119,13 @@ Factors find_internal_units(const Scene& scene) {
   run.add(scene.run.t_end);
   if (!sizes.mass.any() || !run.any()) return {};
   const int mass = sizes.mass.exponent();
-  const int time = sizes.stiffness.any() ? half(mass - sizes.stiffness.exponent()) : run.exponent() - motions;
+  const int time =
+      sizes.stiffness.any() ? half(mass - sizes.stiffness.exponent()) : run.exponent() + time_unit_exponent;
   const int length = scene.matrices ? 0
                      : extent.any() ? extent.exponent()
                                     : length_of_motion(sizes, time, mass);
   const int force = mass + length - 2 * time;
-  if (std::max({std::abs(force), std::abs(length), std::abs(time)}) > farthest) return {};
+  if (std::max({std::abs(force), std::abs(length), std::abs(time)}) > max_exponent) return {};
   return {std::ldexp(1.0, force), std::ldexp(1.0, length), std::ldexp(1.0, time)};
 }
 

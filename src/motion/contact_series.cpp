@@ -41,7 +41,7 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   }
 }
 
-void ContactSeries::derive(Field field) const {
+void ContactSeries::fill_rate(Field field) const {
   const double *const g = coefficients(gap), *const slip = coefficients(ut);
   double* out = values_.data() + row_of(field) * stride();
   for (std::size_t k = 0; k <= degree_; ++k) {

@@ -45,7 +45,7 @@ class ContactSeries {
   }
   [[nodiscard]] std::size_t degree() const { return degree_; }
   [[nodiscard]] const double* coefficients(Field field) const {
-    if (!valid_[field]) derive(field);
+    if (!valid_[field]) fill_rate(field);
     return values_.data() + row_of(field) * stride();
   }
   /// Place in the structure's series where x is 0 for these coefficients; value() and integral() take x of the
@@ -89,7 +89,8 @@ class ContactSeries {
   /// Distance from one row to the next: g and ut have two more orders, for their rates.
   [[nodiscard]] std::size_t stride() const { return degree_ + 3; }
   [[nodiscard]] std::size_t row_of(Field field) const { return field == slide ? slide_row_ : field; }
-  void derive(Field field) const;
+  /// Fills the row of vn, vt or an from the coefficients of g and ut; rows of other rates with zeros.
+  void fill_rate(Field field) const;
 
   std::size_t degree_ = 0;
   double origin_ = 0.0, scale_ = 1.0;

@@ -75,14 +75,14 @@ void BranchContinuation::choose_new_section(CorrectedPoint& here, std::optional<
     if (same.done()) place_there = SecantPoint{same.end, place->duration, place->s};
   }
   const double before = map_.section();
-  map_.move_section(std::fmod(before + later / T, 1.0));
+  map_.set_section(std::fmod(before + later / T, 1.0));
   CorrectedPoint moved = here;
   moved.state.state = orbit_state(to.end);
   moved.pass = map_.pass(moved.state);
   moved.derivative_by_s = {};
   moved.multipliers.clear();
   if (!(moved.pass.done() && moved.pass.end_rates.size() > 0)) {
-    map_.move_section(before);
+    map_.set_section(before);
     return;
   }
   here = std::move(moved);
@@ -285,7 +285,7 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
     return true;
   }
   if (found_beyond_) {
-    map_.move_section(found_beyond_->section);
+    map_.set_section(found_beyond_->section);
     next = std::move(found_beyond_->at);
     t = newton_.parameter_direction(next.pass, -found_beyond_->sign);
     found_beyond_.reset();
@@ -404,7 +404,7 @@ void BranchContinuation::keep_mark(const CorrectedPoint& here, const Vector& t) 
 
 std::optional<BranchCheckpoint> BranchContinuation::mark() {
   if (!last_) return std::nullopt;
-  map_.move_section(last_section_);
+  map_.set_section(last_section_);
   return BranchCheckpoint{map_.parameter(last_->s), towards_to_, map_.orbit_at(*last_), branch_.sequences,
                           last_points_};
 }
@@ -444,7 +444,7 @@ bool BranchContinuation::begin_from(const Junction& junction, CorrectedPoint& he
     CorrectedPoint next = newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, {});
     // It must begin along t; elsewhere the orbit belongs to another branch, such as the simple one, counted twice.
     const SecantPoint begin{here.pass.begin, here.state.duration, here.state.s};
-    if (!next.done || bends(begin, next, &t, false)) continue;
+    if (!next.done || chord_deviates(begin, next, &t, false)) continue;
     const std::optional<SecantPoint> place{begin};
     here = std::move(next);
     t = direction(place, here, t);

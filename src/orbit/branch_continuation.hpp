@@ -86,8 +86,9 @@ class BranchContinuation {
                                                   const Vector& t, double& length);
   [[nodiscard]] bool changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
                                     const std::vector<LocatedPoint>& points) const;
-  [[nodiscard]] bool bends(const SecantPoint& from, CorrectedPoint& to, const Vector* before,
-                           bool onward) const;
+  /// True if the chord from -> to deviates from the branch's direction at from (direction), or, if at_to, at to.
+  [[nodiscard]] bool chord_deviates(const SecantPoint& from, CorrectedPoint& to, const Vector* direction,
+                                    bool at_to) const;
   [[nodiscard]] bool too_long(const CorrectedPoint& here, CorrectedPoint& next, const Vector& t,
                               double length, std::vector<LocatedPoint>& points) const;
   [[nodiscard]] std::optional<SecantPoint> cross(std::vector<LocatedPoint> points, const CorrectedPoint& here,

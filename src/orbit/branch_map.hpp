@@ -54,7 +54,7 @@ class BranchMap {
   [[nodiscard]] const Model& model() const { return first_; }
   /// Section as a fraction of the period.
   [[nodiscard]] double section() const { return section_; }
-  void move_section(double part) { section_ = part; }
+  void set_section(double fraction) { section_ = fraction; }
 
   /// The map at s; maps for the last values of s are kept.
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;

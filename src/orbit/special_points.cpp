@@ -180,17 +180,16 @@ bool BranchContinuation::changes_unseen(const CorrectedPoint& here, const Correc
   return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
 }
 
-/// True if the way from one point to another differs from the branch's direction at the first one, `before`, or,
-/// onward, at the second one. Where fast mode shapes rotate the tangent, it is no direction of the branch.
-bool BranchContinuation::bends(const SecantPoint& from, CorrectedPoint& to, const Vector* before,
-                               bool onward) const {
+/// Where fast mode shapes rotate the tangent, it is no direction of the branch.
+bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint& to, const Vector* direction,
+                                        bool at_to) const {
   const std::optional<Vector> secant = newton_.secant(from, to);
   if (!secant) return false;
-  const auto differs = [&](const Vector& direction) {
-    return newton_.split(to, *secant).across.dot(newton_.split(to, direction).across) < same_direction_cosine;
+  const auto differs = [&](const Vector& other) {
+    return newton_.split(to, *secant).across.dot(newton_.split(to, other).across) < same_direction_cosine;
   };
-  if (before != nullptr && before->size() == secant->size() && differs(*before)) return true;
-  return onward && !turning_ && differs(newton_.examine(to, *secant));
+  if (direction != nullptr && direction->size() == secant->size() && differs(*direction)) return true;
+  return at_to && !turning_ && differs(newton_.examine(to, *secant));
 }
 
 /// True if the branch turns on the step by more than its points show: another part of it, or another branch, could lie
@@ -203,18 +202,18 @@ bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& ne
     // If it continues at both ends it has not returned: the other point is on another arm, as across a resonance.
     const double along = t[t.size() - 1];
     if (along * next.tests.fold > 0.0 && along * (next.state.s - here.state.s) < 0.0) return true;
-    return bends(place_of(here), next, &t, true);
+    return chord_deviates(place_of(here), next, &t, true);
   }
   const auto change =
       std::find_if(points.begin(), points.end(), [](const LocatedPoint& p) { return p.kind == "sequence"; });
-  if (change == points.end()) return bends(place_of(here), next, &t, true);
+  if (change == points.end()) return chord_deviates(place_of(here), next, &t, true);
   const auto doubted = [&](double part) { return part * length > shortest_doubted; };
-  if (doubted(change->part) && bends(place_of(here), change->at, &t, false)) return true;
+  if (doubted(change->part) && chord_deviates(place_of(here), change->at, &t, false)) return true;
   if (!doubted(1.0 - change->part)) return false;
   const auto folds = [](const LocatedPoint& p) { return p.kind == "fold"; };
   const double there = next.state.s - change->at.state.s;  // a fold just behind the corner, or at it?
   if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
-  return bends(place_of(change->at), next, nullptr, true);
+  return chord_deviates(place_of(change->at), next, nullptr, true);
 }
 
 /// Special points of the step. If Newton's method has changed to another branch on the way, next becomes the last orbit

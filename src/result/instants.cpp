@@ -100,10 +100,10 @@ void InstantWriter::side(const InstantRow& row, bool after) {
       continue;
     }
     std::string blows;
-    for (const InstantImpact& blow : row.impacts)
-      if (blow.contact == static_cast<int>(k))
-        blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", blow.turn,
-                             base::format_number(blow.normal), base::format_number(blow.tangent));
+    for (const InstantImpact& impact : row.impacts)
+      if (impact.contact == static_cast<int>(k))
+        blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", impact.impact_number,
+                             base::format_number(impact.normal), base::format_number(impact.tangent));
     block_.text(blows);
     for (const Eigen::Index i : {in_N, in_T})
       if (row.capture_impulses.size() > 0)

@@ -203,9 +203,9 @@ std::string sentence_of(const Violation& v, const Model& model) {
                      v.value, v.limit);
 }
 
-std::string sentence_of(const LawCheckSummary& testimony, const Model& model) {
-  std::string sentence = sentence_of(testimony.violations.front(), model);
-  if (testimony.violated > 1) sentence += fmt::format(" (the first of {})", testimony.violated);
+std::string sentence_of(const LawCheckSummary& law_checks, const Model& model) {
+  std::string sentence = sentence_of(law_checks.violations.front(), model);
+  if (law_checks.violated > 1) sentence += fmt::format(" (the first of {})", law_checks.violated);
   return sentence;
 }
 
@@ -267,8 +267,8 @@ void RunLawChecker::instant(const Instant& now) {
   record.after.acceleration_terms = motion_.acceleration_terms(law_checker_, a, now.eigenvector_condition);
   record.after.forces = &forces;
   record.after.mode = &d.states;
-  for (const decide::SingleImpact& blow : d.single_impacts)
-    record.impulses.push_back({blow.contact, blow.turn, blow.normal, blow.tangent});
+  for (const decide::SingleImpact& impact : d.single_impacts)
+    record.impulses.push_back({impact.contact, impact.impact_number, impact.normal, impact.tangent});
   record.captures = d.capture_impulses;
   record.released = d.released;
   for (const Event& event : *now.events)
@@ -398,8 +398,8 @@ void RunLawChecker::peaks(double t, const std::vector<Peak>& recorded) {
 }
 
 void RunLawChecker::store_violations(std::vector<Violation> found) {
-  ++testimony_.checked;
-  testimony_.violated += static_cast<long>(found.size());
+  ++law_checks_.checked;
+  law_checks_.violated += static_cast<long>(found.size());
   for (Violation& v : found) {
     if (v.unexplained && law_violated_.empty()) {
       Violation shown = v;
@@ -408,7 +408,7 @@ void RunLawChecker::store_violations(std::vector<Violation> found) {
       shown.limit = model::in_scene_units(model_, v.limit, v.unit);
       law_violated_ = sentence_of(shown, model_);
     }
-    if (testimony_.violations.size() < max_stored_violations) testimony_.violations.push_back(std::move(v));
+    if (law_checks_.violations.size() < max_stored_violations) law_checks_.violations.push_back(std::move(v));
   }
 }
 

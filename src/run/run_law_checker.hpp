@@ -116,7 +116,7 @@ class RunLawChecker {
   /// Reason for ending the run: the first violation without an explanation. Empty: none.
   [[nodiscard]] const std::string& unexplained() const { return law_violated_; }
   /// Violations in the units of the model; physical() converts them.
-  [[nodiscard]] LawCheckSummary& testimony() { return testimony_; }
+  [[nodiscard]] LawCheckSummary& law_checks() { return law_checks_; }
 
  private:
   void start_peaks(const Instant& now);
@@ -133,7 +133,7 @@ class RunLawChecker {
   std::array<double, 2> reached_ = {0.0, 0.0};  // largest CheckedSide::max_u
   bool has_constraints_ = false;                // some contact has no spring: its forces enforce constraints
   double held_forces_ = 0.0;  // largest LawChecker::constraint_force_terms, if there is such a contact
-  LawCheckSummary testimony_;
+  LawCheckSummary law_checks_;
   std::string law_violated_;
 };
 
@@ -141,6 +141,6 @@ class RunLawChecker {
 /// rounding".
 [[nodiscard]] std::string sentence_of(const Violation& violation, const Model& model);
 /// Sentence about the first violation, with the number of violations.
-[[nodiscard]] std::string sentence_of(const LawCheckSummary& testimony, const Model& model);
+[[nodiscard]] std::string sentence_of(const LawCheckSummary& law_checks, const Model& model);
 
 }  // namespace signorini::run

@@ -211,7 +211,7 @@ void RunRecord::end(const RunPoint& last, const engine::StepperReport& engine) {
   auditor_.finish(report_, last_energy_, last.t, last.states);
   // Rows of a step without an instant at its end are kept, but it contributes no peaks.
   if (report_.outcome.kind == Outcome::Kind::done) law_checker_.peaks(last.t, report_.peaks);
-  report_.law_checks = std::move(law_checker_.testimony());
+  report_.law_checks = std::move(law_checker_.law_checks());
   report_.response = response_.extremes();
   if (auto sentence = large_.warning()) report_.warnings.push_back(std::move(*sentence));
   if (response_.coarse_warning()) report_.warnings.push_back(*response_.coarse_warning());

@@ -143,7 +143,7 @@ InstantRow to_scene_units(InstantRow row, const std::vector<Dof>& dofs, const Fa
     for (ContactState& state : side->states) convert(unit::length, {&state.anchor});
     side->forces *= of.force;
   }
-  for (InstantImpact& blow : row.impacts) convert(unit::impulse, {&blow.normal, &blow.tangent});
+  for (InstantImpact& impact : row.impacts) convert(unit::impulse, {&impact.normal, &impact.tangent});
   row.capture_impulses *= scene::factor_of(unit::impulse, of);
   return row;
 }

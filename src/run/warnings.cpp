@@ -90,10 +90,10 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
           names.push_back(name);
   // Slip at the limit without a guard of the slip rate: other contacts hold the contact.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    bool asleep = slip_sign(decision.states[c].state) != 0 && model.contacts[c].sticks_rigidly();
+    bool held_at_limit = slip_sign(decision.states[c].state) != 0 && model.contacts[c].sticks_rigidly();
     for (std::size_t slot = model.layout.guard(c); slot < model.layout.guard_end(c); ++slot)
-      asleep = asleep && decision.guards[slot].kind != Guard::sliding;
-    if (asleep) names.push_back(model.contacts[c].name);
+      held_at_limit = held_at_limit && decision.guards[slot].kind != Guard::sliding;
+    if (held_at_limit) names.push_back(model.contacts[c].name);
   }
   if (names.empty()) return std::nullopt;
   return fmt::format(
@@ -128,10 +128,10 @@ void DecisionWarnings::add(double t, const decide::Decision& decision, std::vect
   const double at = model::time_in_scene_units(model_, t);
   for (const std::size_t c : decision.released)
     if (++releases_ <= max_warnings_of_a_kind) warnings.push_back(left_at_once(model_, c, at));
-  if (!shares_)
+  if (!shared_motion_reported_)
     if (auto sentence = shared_motion(model_, decision, at)) {
       warnings.push_back(std::move(*sentence));
-      shares_ = true;
+      shared_motion_reported_ = true;
     }
   for (const decide::ContactAtLimit& found : decision.at_limit)
     if (++at_limit_ <= max_warnings_of_a_kind) warnings.push_back(rest_at_limit(model_, found, at));

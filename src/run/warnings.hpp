@@ -27,7 +27,7 @@ class DecisionWarnings {
 
  private:
   const Model& model_;
-  bool shares_ = false;  // a shared motion was reported
+  bool shared_motion_reported_ = false;
   int gains_ = 0, releases_ = 0, at_limit_ = 0;
 };
 

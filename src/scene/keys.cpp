@@ -281,8 +281,8 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "initial_shear", number, "force", "0.0", "", "Shear force at t = 0 in the tangential stiffness."},
     {"contacts[]", "restitution", fraction, "", "0.0", "", "Newton's coefficient of restitution of a rigid contact, 0 to 1."},
     {"contacts[]", "capture_velocity", non_negative, "length/time", "", "", "Rebounds of a rigid contact slower than this come to rest. Default: rtol times the velocity scale, or run.atol.velocity if given."},
-    {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
-    {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs; the two stand in series with the friction."},
+    {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot parallel to the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
+    {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot parallel to the tangential stiffness, which must then be given; both are in series with the friction element."},
 
     {"contacts[].seam", "E", positive, "force/length^2", "required", "", "Young's modulus of the seam."},
     {"contacts[].seam", "G", positive, "force/length^2", "", "", "Shear modulus of the seam; required with friction."},
@@ -304,7 +304,7 @@ constexpr Key table_of_keys[] = {
     {"stops[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state on either side."},
     {"stops[]", "gaps", numbers, "length", "", "", "Gaps [of NAME+, of NAME-] that differ, instead of gap."},
 
-    {"pendulums[]", "name", name, "", "", "", "Name of its contact; its stops are NAME+ and NAME-. Default: pendulum1, pendulum2, ..."},
+    {"pendulums[]", "name", name, "", "", "", "Name of the pendulum and of its sliding contact; the contacts of its stops are NAME+ and NAME-. Default: pendulum1, pendulum2, ..."},
     {"pendulums[]", "node", name, "", "required", "", "Node that slides."},
     {"pendulums[]", "against", name, "", "", "", "Node that has the curved surface, instead of the ground."},
     {"pendulums[]", "normal", vector, "", "[0.0, 1.0]", "", "Direction of the force of the surface on the node when u = 0; it is made a unit vector. The tangent is (ny, -nx)."},

@@ -418,10 +418,10 @@ std::vector<double> of_each(const std::vector<TangentState>& states, const Value
 
 void LandingRecord::begin(std::size_t c, const std::vector<double>& start,
                           const std::vector<TangentState>& states) {
-  ContactPhase& stay = all_[c].emplace_back();
-  stay.landing.contact = static_cast<int>(c);
-  stay.from = of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
-  for (const double t : start) stay.landing.rates.push_back({t, t, 0.0, 0.0});
+  ContactPhase& phase = all_[c].emplace_back();
+  phase.landing.contact = static_cast<int>(c);
+  phase.from = of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
+  for (const double t : start) phase.landing.rates.push_back({t, t, 0.0, 0.0});
 }
 
 void LandingRecord::update_peak(std::size_t c, double force, const std::vector<double>& rates) {
@@ -454,16 +454,16 @@ void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentSta
     if (!was && (is || pushed > 0.0)) begin(c, t, states);
     active_[c] = is;
     if (!was && !is && !(pushed > 0.0)) continue;
-    ContactPhase& stay = all_[c].back();
+    ContactPhase& phase = all_[c].back();
     const auto work =
         of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
     for (std::size_t p = 0; p < parameters_; ++p) {
-      LandingRates& rates = stay.landing.rates[p];
+      LandingRates& rates = phase.landing.rates[p];
       rates.end = t[p];
-      rates.impulse += work[p] - stay.from[p];
+      rates.impulse += work[p] - phase.from[p];
       if (pushed > 0.0) rates.impulse += states[p].valid ? states[p].impulses[c] : EventRates::none;
     }
-    stay.from = work;
+    phase.from = work;
     if (is)
       update_peak(c, -m.motion_after[c].N,
                   of_each(states, [&](const auto& s) { return -s.rates[c].N_after; }));
@@ -474,7 +474,7 @@ void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentSta
 std::vector<std::vector<MovingLanding>> LandingRecord::finish(const std::vector<TangentState>& states) const {
   std::vector<std::vector<MovingLanding>> result(all_.size());
   for (std::size_t c = 0; c < all_.size(); ++c) {
-    for (const ContactPhase& stay : all_[c]) result[c].push_back(stay.landing);
+    for (const ContactPhase& phase : all_[c]) result[c].push_back(phase.landing);
     if (!active_[c]) continue;
     const ContactPhase& last = all_[c].back();
     const auto work =

@@ -28,7 +28,7 @@ const DataLaw& yielding_law() {
       "yielding",
       "a spring that yields and keeps a dent, without friction, engine \"ida\"",
       {{"yield_force", "force",
-        "Compression at which a contact with law = \"yielding\" is crushed; required there."}},
+        "Compressive force at which a contact with law = \"yielding\" yields; required for this law."}},
       [](double kn, const std::vector<double>& constants) { return yielding_pad(kn, constants[0]); },
       [](double kn,
          const std::vector<double>& constants) -> std::optional<std::pair<std::string_view, std::string>> {

@@ -3,7 +3,7 @@
 //   idle      not active: the state has no such guard
 //   armed     was clearly positive; its next zero crossing is an event
 //   waiting   starts at zero, or within its rounding; an event only once it is clearly negative. If
-//             leading > 0 it rises like x^leading: its lower derivatives are zero
+//             leading_order > 0 it rises like x^leading_order: its lower derivatives are zero
 //
 // A waiting guard becomes armed once it exceeds a level: the rounding of the guard for the exact flow, the possible
 // error of the steps for an integrator.
@@ -22,12 +22,12 @@ class ActiveGuards {
   [[nodiscard]] std::size_t size() const { return guards_.size(); }
   [[nodiscard]] bool idle(std::size_t slot) const { return guards_[slot].status == Status::idle; }
   [[nodiscard]] bool armed(std::size_t slot) const { return guards_[slot].status == Status::armed; }
-  /// The guard is x^leading times a polynomial that is positive at 0; 0: the guard is armed, or its derivatives are
+  /// m: the guard is x^m times a polynomial that is positive at 0; 0: the guard is armed, or its derivatives are
   /// unknown.
-  [[nodiscard]] std::size_t leading(std::size_t slot) const { return guards_[slot].leading; }
+  [[nodiscard]] std::size_t leading_order(std::size_t slot) const { return guards_[slot].leading_order; }
 
-  /// The prediction by the guard's derivatives at the start has been refuted.
-  void discard_leading(std::size_t slot) { guards_[slot].leading = 0; }
+  /// Forgets the leading order: the prediction from the derivatives at the start has been refuted.
+  void discard_leading_order(std::size_t slot) { guards_[slot].leading_order = 0; }
   /// The guard is zero again, and its derivatives are unknown.
   void set_waiting(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
   void set_armed(std::size_t slot) { guards_[slot] = {Status::armed, 0}; }
@@ -39,7 +39,7 @@ class ActiveGuards {
   enum class Status : unsigned char { idle, armed, waiting };
   struct GuardEntry {
     Status status = Status::idle;
-    std::size_t leading = 0;
+    std::size_t leading_order = 0;
   };
   std::vector<GuardEntry> guards_;
 };

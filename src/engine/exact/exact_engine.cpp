@@ -309,7 +309,7 @@ events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
   const double slack = remainder_of(form, c, local_remainders_[c].x, local_remainders_[c].rest) + cut +
                        rounding + rounding_of_guard * guard.noise;
   if (active_guards_.armed(slot)) return events::first_root(guard_.data(), degree, slack);
-  if (const std::size_t m = active_guards_.leading(slot);
+  if (const std::size_t m = active_guards_.leading_order(slot);
       m > 0)  // the decision found the lower orders to be zero
     return events::first_root(guard_.data() + m, degree - m, rounding::few_operations * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack + drift_of(guard, x);

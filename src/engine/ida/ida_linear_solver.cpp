@@ -33,8 +33,8 @@ void IdaLinearSolver::set_contact_states(const contact::ContactStates& states) {
 }
 
 bool IdaLinearSolver::factor() {
-  on_band_ = condensed_ && condensed_->set({cj_, 1.0, 1.0 / cj_});
-  if (on_band_) return true;
+  uses_condensed_ = condensed_ && condensed_->set({cj_, 1.0, 1.0 / cj_});
+  if (uses_condensed_) return true;
   for (std::size_t i = 0; i < weights_.size(); ++i)
     weights_[i] =
         layout_.velocity[i] >= 0 ? linear::Weights{cj_, 1.0, 1.0 / cj_} : linear::Weights{0.0, cj_, 1.0};
@@ -58,7 +58,7 @@ void IdaLinearSolver::solve(const double* b, double* x) {
     held_[i] =
         (p.normal * rhs_[at.normal(p.contact)] + p.tangent * rhs_[at.tangent(p.contact)]) / (cj_ * p.divisor);
   }
-  on_band_ ? condensed_->solve(rhs_.data()) : matrix_.solve(rhs_.data());
+  uses_condensed_ ? condensed_->solve(rhs_.data()) : matrix_.solve(rhs_.data());
   for (std::size_t i = 0; i < held_.size(); ++i) rhs_[pinned_[i].dof] = held_[i];
   const double step = 1.0 / cj_;
   if (all_massive) {

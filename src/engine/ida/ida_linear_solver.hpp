@@ -69,7 +69,7 @@ class IdaLinearSolver {
   linear::SystemMatrix matrix_;
   std::optional<linear::CondensedRows> condensed_rows_;  // used if they save time
   std::optional<linear::CondensedMatrix> condensed_;     // matrix of these rows
-  bool on_band_ = false;                                 // the last factors are those of the band
+  bool uses_condensed_ = false;                          // the last factors are those of condensed_
   std::vector<Rows> rows_;
   std::vector<linear::Weights> weights_;
   // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.

@@ -34,8 +34,8 @@ OrderChoice choose_order(const Model& model, const RunSpec& run) {
     greatest = s.order;
     break;
   }
-  return {greatest, fmt::format("auto: above rtol {} the greatest order that is stable for every mode; least "
-                                "damping ratio {:.2g}",
+  return {greatest, fmt::format("auto: rtol is above {}, so the greatest order that is stable for every mode "
+                                "(least damping ratio {:.2g})",
                                 loose, ratio)};
 }
 

@@ -44,14 +44,14 @@ std::optional<LocalStep::Window> LocalStep::window(std::size_t contact) const {
   w.begin -= std::min(w.begin, radius_);
   w.end = std::min(n, w.end + radius_);
   if (least_parts * (w.end - w.begin) > n) return std::nullopt;
-  w.first = w.begin - std::min(w.begin, rows_.width());
-  w.last = std::min(n, w.end + rows_.width());
+  w.outer_begin = w.begin - std::min(w.begin, rows_.width());
+  w.outer_end = std::min(n, w.end + rows_.width());
   return w;
 }
 
 void LocalStep::predict(const Window& w, const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
-  for (std::size_t place = w.first; place < w.last; ++place) {
+  for (std::size_t place = w.outer_begin; place < w.outer_end; ++place) {
     const std::size_t i = rows_.dof_at(place);
     end_.u.data()[i] = u0[i] + h * (v0[i] + 0.25 * h * a0[i]);
     end_.v.data()[i] = v0[i] + 0.5 * h * a0[i];
@@ -117,8 +117,8 @@ bool LocalStep::solve(const Window& w, const motion::Point& from, double h, cons
       for (std::size_t other = begin; other < end; ++other)
         b -= std::exchange(row[width + other - place], 0.0) * beside(other);
     };
-    take_out(std::max(w.first, place - std::min(place, width)), w.begin);
-    take_out(w.end, std::min(w.last, place + width + 1));
+    take_out(std::max(w.outer_begin, place - std::min(place, width)), w.begin);
+    take_out(w.end, std::min(w.outer_end, place + width + 1));
   }
   if (!band_->factor()) return false;
   band_->solve(b_.data());

@@ -30,8 +30,8 @@ class LocalStep {
 
  private:
   struct Window {
-    std::size_t begin = 0, end = 0;   // W
-    std::size_t first = 0, last = 0;  // W and the places that couple to it
+    std::size_t begin = 0, end = 0;              // W
+    std::size_t outer_begin = 0, outer_end = 0;  // W and the places that couple to it
   };
   struct Places {
     std::size_t begin = 0, end = 0;

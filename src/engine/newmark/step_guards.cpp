@@ -45,29 +45,31 @@ void StepGuards::gather(std::size_t k) {
   const decide::Decision& decision = *segment_.decision;
   const Rows& rows = decision.system->rows()[k];
   states_[k] = decision.states[k];
-  ContactGuards& seen = contact_guards_[k];
-  seen = {};
+  ContactGuards& guards = contact_guards_[k];
+  guards = {};
   // A neighbouring contact may hold a guard of a contact that sticks rigidly.
-  seen.is_linear = decide::is_plain(rows.normal) && decide::is_plain(rows.tangent) && rows.normal.vn == 0.0 &&
-                   !segment_.forcing->is_driven(k) && !model_.contacts[k].sticks_rigidly();
-  seen.gap = model_.contacts[k].gap;
-  seen.surface = segment_.forcing->surface(k, decision.jet.t, 0);
-  seen.normal_gap = rows.normal.gap;
-  seen.tangent_N = rows.tangent.N;
-  seen.tangent_ut = rows.tangent.ut;
+  guards.is_linear = decide::is_plain(rows.normal) && decide::is_plain(rows.tangent) &&
+                     rows.normal.vn == 0.0 && !segment_.forcing->is_driven(k) &&
+                     !model_.contacts[k].sticks_rigidly();
+  guards.gap = model_.contacts[k].gap;
+  guards.surface = segment_.forcing->surface(k, decision.jet.t, 0);
+  guards.normal_gap = rows.normal.gap;
+  guards.tangent_N = rows.tangent.N;
+  guards.tangent_ut = rows.tangent.ut;
   for (std::size_t i = 0; i < model_.layout.guards(k); ++i) {
     const std::size_t slot = model_.layout.guard(k, i);
     const bool idle = active_guards_.idle(slot);
     has_rate_[slot] = !idle && rates_known(slot);
     for (std::vector<double>* values : {&before_, &g0_, &g1_}) (*values)[slot] = 1.0;
     rate0_[slot] = rate1_[slot] = 0.0;
-    seen.guards[i].constant = 1.0;
+    guards.guards[i].constant = 1.0;
     if (idle) continue;
-    seen.watched = true;
+    guards.watched = true;
     const Form& f = decision.form(slot);
-    seen.is_linear = seen.is_linear && decide::is_plain(f);
-    seen.needs_accelerations = seen.needs_accelerations || (has_rate_[slot] && (f.vn != 0.0 || f.vt != 0.0));
-    seen.guards[i] = {f.N, f.T, f.gap, f.ut, f.vn, f.vt, f.constant};
+    guards.is_linear = guards.is_linear && decide::is_plain(f);
+    guards.needs_accelerations =
+        guards.needs_accelerations || (has_rate_[slot] && (f.vn != 0.0 || f.vt != 0.0));
+    guards.guards[i] = {f.N, f.T, f.gap, f.ut, f.vn, f.vt, f.constant};
   }
 }
 
@@ -100,7 +102,7 @@ void StepGuards::evaluate(const motion::Point& point, double t) {
 }
 
 void StepGuards::evaluate_linear(std::size_t k, const motion::Point& point) {
-  const ContactGuards& seen = contact_guards_[k];
+  const ContactGuards& guards = contact_guards_[k];
   const double *u = point.u.data(), *v = point.v.data(), *a = point.a.data();
   double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, an = 0.0, at = 0.0;
   for (std::size_t i = ends_[k]; i < ends_[k + 1]; ++i) {
@@ -109,16 +111,16 @@ void StepGuards::evaluate_linear(std::size_t k, const motion::Point& point) {
     ut += term.t * u[term.dof];
     vn += term.n * v[term.dof];
     vt += term.t * v[term.dof];
-    if (!seen.needs_accelerations) continue;
+    if (!guards.needs_accelerations) continue;
     an += term.n * a[term.dof];
     at += term.t * a[term.dof];
   }
-  gap += seen.gap;
-  ut -= seen.surface;
+  gap += guards.gap;
+  ut -= guards.surface;
   const double N = point.N(model_.layout, k), T = point.T(model_.layout, k);
-  const double dN = -(seen.normal_gap * vn), dT = -(seen.tangent_N * dN + seen.tangent_ut * vt);
+  const double dN = -(guards.normal_gap * vn), dT = -(guards.tangent_N * dN + guards.tangent_ut * vt);
   for (std::size_t i = 0; i < model_.layout.guards(k); ++i) {
-    const LinearGuard& g = seen.guards[i];
+    const LinearGuard& g = guards.guards[i];
     const std::size_t slot = model_.layout.guard(k, i);
     g1_[slot] = g.constant + (g.N * N + g.T * T + g.gap * gap + g.ut * ut + g.vn * vn + g.vt * vt);
     if (has_rate_[slot]) rate1_[slot] = g.N * dN + g.T * dT + g.gap * vn + g.ut * vt + g.vn * an + g.vt * at;

@@ -40,28 +40,28 @@ ConstrainedStructure::ConstrainedStructure(const SparseMatrix& k, const std::vec
   for (const assembly::Part& part : assembly::Parts({&k}, fixed)) {
     const std::vector<Combination> own = part.forms(fixed);
     if (own.empty()) continue;
-    ConstraintBlock grip{part.dofs(), form_columns(own, part.size()), {}};
-    Eigen::MatrixXd kt(grip.t.rows(), grip.t.cols());
+    ConstraintBlock block{part.dofs(), form_columns(own, part.size()), {}};
+    Eigen::MatrixXd kt(block.t.rows(), block.t.cols());
     for (Eigen::Index j = 0; j < kt.cols(); ++j) {
       Vector force = Vector::Zero(k.rows());
-      force(grip.dofs) = grip.t.col(j);
-      kt.col(j) = solver_.solve(force)(grip.dofs);
+      force(block.dofs) = block.t.col(j);
+      kt.col(j) = solver_.solve(force)(block.dofs);
     }
     // Two contacts may fix the same motion: the pseudo-inverse counts it once.
-    const base::EigenPairs g = base::symmetric_eigen(grip.t.transpose() * kt);
+    const base::EigenPairs g = base::symmetric_eigen(block.t.transpose() * kt);
     Eigen::VectorXd inverse = g.values;
     const double greatest = inverse[inverse.size() - 1];
     for (double& value : inverse) value = value > fixed_twice * greatest ? 1.0 / value : 0.0;
-    grip.correction = kt * g.vectors * inverse.asDiagonal() * g.vectors.transpose();
-    constraint_blocks_.push_back(std::move(grip));
+    block.correction = kt * g.vectors * inverse.asDiagonal() * g.vectors.transpose();
+    constraint_blocks_.push_back(std::move(block));
   }
 }
 
 Vector ConstrainedStructure::solve(const Vector& b) const {
   Vector u = solver_.solve(b);
-  for (const ConstraintBlock& grip : constraint_blocks_) {
-    const Vector own = u(grip.dofs);
-    u(grip.dofs) = own - grip.correction * (grip.t.transpose() * own);
+  for (const ConstraintBlock& block : constraint_blocks_) {
+    const Vector own = u(block.dofs);
+    u(block.dofs) = own - block.correction * (block.t.transpose() * own);
   }
   return u;
 }

@@ -77,14 +77,14 @@ class DirectoryLawChecker {
     if (has_motion()) result_.rows += rows_.motion(directory_ / "motion.csv", span, found);
     rows_.check_peaks(recorded_.peaks, found);
     rows_.check_loads(recorded_.loads, recorded_.peaks, found);
-    result_.testimony.checked = result_.instants;
+    result_.law_checks.checked = result_.instants;
   }
 
  private:
   void add(Violation v) {
-    ++result_.testimony.violated;
-    if (result_.testimony.violations.size() < max_stored_violations)
-      result_.testimony.violations.push_back(std::move(v));
+    ++result_.law_checks.violated;
+    if (result_.law_checks.violations.size() < max_stored_violations)
+      result_.law_checks.violations.push_back(std::move(v));
   }
   void missing(double t, const char* law) { add({t, result::instants_file, -1, law, 1.0, 0.0, {}, true}); }
   void instants() {
@@ -256,9 +256,9 @@ class DirectoryLawChecker {
     point(row.after, record.after);
     record.after.acceleration_terms =
         motion_.acceleration_terms(law_checker_, row.after.a, row.eigenvector_condition);
-    for (const InstantImpact& blow : row.impacts)
+    for (const InstantImpact& impact : row.impacts)
       record.impulses.push_back(
-          {static_cast<std::size_t>(blow.contact), blow.turn, blow.normal, blow.tangent});
+          {static_cast<std::size_t>(impact.contact), impact.impact_number, impact.normal, impact.tangent});
     std::stable_sort(record.impulses.begin(), record.impulses.end(),
                      [](const law_check::RecordedImpulse& a, const law_check::RecordedImpulse& b) {
                        return a.impact_number < b.impact_number;

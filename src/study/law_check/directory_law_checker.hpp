@@ -25,7 +25,7 @@ struct DirectoryLawCheck {
   long instants = 0, events = 0, rows = 0;  ///< numbers of checked items; rows: of contacts.csv and
                                             ///< motion.csv
   bool complete = true;                     ///< the run had ended
-  LawCheckSummary testimony;
+  LawCheckSummary law_checks;
 };
 
 [[nodiscard]] DirectoryLawCheck check_directory_laws(const std::filesystem::path& directory);

@@ -101,7 +101,7 @@ base::Json mark_json(const SceneReader& read, const BranchOptions& options, cons
           {"from", options.from},
           {"to", options.to},
           {"parameter", mark.parameter},
-          {"points", mark.points},
+          {"points", mark.point_count},
           {"towards_to", mark.towards_to},
           {"sequences", mark.sequences},
           {"scene", owner_of(read, options)}};
@@ -165,7 +165,7 @@ BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, c
     mark.parameter = saved.at("parameter");
     mark.towards_to = saved.at("towards_to");
     mark.sequences = saved.at("sequences");
-    mark.points = saved.at("points");
+    mark.point_count = saved.at("points");
     const base::Json orbit = base::parse_json(orbit_stream);
     mark.orbit.found = true;
     mark.orbit.period = orbit.at("period");

@@ -121,17 +121,18 @@ void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const result::Plo
                  result::PictureFiles& files) {
   const std::vector<const Response*> figures = moved_figures(s);
   const double each = 70.0 + 26.0 * static_cast<double>(std::min(s.parameters.size(), max_bars));
-  result::Picture picture{
-      "tornado",
-      sigmas.empty() ? "Effect of one per cent more of each key: blue increases, red decreases"
-                     : "Effect of one standard deviation more of each key: blue increases, red decreases",
-      result::canvas_of(run.look,
-                        result::margin_above + result::margin_below - 64.0 +
-                            (each + 64.0) * static_cast<double>(figures.size()),
-                        false, true),
-      false,
-      {},
-      64.0};
+  result::Picture picture{"tornado",
+                          sigmas.empty() ? "Change of each result if a key grows by one per cent; blue: the "
+                                           "result increases, red: it decreases"
+                                         : "Change of each result if a key grows by one standard deviation; "
+                                           "blue: the result increases, red: it decreases",
+                          result::canvas_of(run.look,
+                                            result::margin_above + result::margin_below - 64.0 +
+                                                (each + 64.0) * static_cast<double>(figures.size()),
+                                            false, true),
+                          false,
+                          {},
+                          64.0};
   for (const Response* r : figures) {
     std::vector<Bar> bars;
     for (std::size_t p = 0; p < s.parameters.size(); ++p)

@@ -104,7 +104,8 @@ std::optional<long long> integer(const Environment& environment, const char* nam
   if (!text || text->empty()) return std::nullopt;
   const std::optional<long long> value = base::parse_integer(*text);
   if (!value || *value < 0 || *value > max_shares)
-    throw UsageError(fmt::format("--share auto: {} is \"{}\", expected a number >= 0", name, *text));
+    throw UsageError(
+        fmt::format("--share auto: {} is \"{}\", expected an integer from 0 to {}", name, *text, max_shares));
   return value;
 }
 

@@ -117,7 +117,7 @@ std::vector<bool> VerificationRuns::rows_at_events(double until) const {
   return at;
 }
 
-void VerificationRuns::add_columns(double until, std::vector<Kind>& kinds) const {
+void VerificationRuns::add_column_series(double until, std::vector<Kind>& kinds) const {
   std::size_t rows = std::min(ida.rows.t.size(), certificate->history.t.size());
   for (const ObservedRun& run : newmark) rows = std::min(rows, run.rows.t.size());
   const std::vector<bool> left_out = rows_at_events(until);
@@ -144,7 +144,7 @@ void VerificationRuns::add_columns(double until, std::vector<Kind>& kinds) const
 
 std::vector<VerificationRuns::Kind> VerificationRuns::kinds(double until) const {
   std::vector<Kind> list = {event_times(until)};
-  add_columns(until, list);
+  add_column_series(until, list);
   return list;
 }
 

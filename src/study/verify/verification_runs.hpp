@@ -56,7 +56,8 @@ class VerificationRuns {
   [[nodiscard]] Sequence sequence() const;
   [[nodiscard]] std::vector<Kind> kinds(double until) const;
   [[nodiscard]] Kind event_times(double until) const;
-  void add_columns(double until, std::vector<Kind>& kinds) const;
+  /// Adds the series of all columns to their kinds.
+  void add_column_series(double until, std::vector<Kind>& kinds) const;
   /// Rows of IDA's events that are changes, and the same event in another run.
   [[nodiscard]] std::vector<std::optional<double>> times_in(const certify::EventSequence& track) const;
   [[nodiscard]] std::vector<bool> rows_at_events(double until) const;

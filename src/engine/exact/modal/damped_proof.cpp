@@ -32,7 +32,7 @@ void DampedProof::start() {
                   {},
                   0.0};
     guard.leading_derivative = guard.guard;
-    for (std::size_t i = 0; i < active_guards_.leading(slot); ++i)
+    for (std::size_t i = 0; i < active_guards_.leading_order(slot); ++i)
       guard.leading_derivative = motion_.derivative(guard.leading_derivative);
     guards_.push_back(std::move(guard));
   }
@@ -155,7 +155,7 @@ bool DampedProof::find_zero(const Watched& guard, const ModalPoint& at, Passage&
   on_step.fast_bound = part.fast_bound;
   on_step.fast_rate_bound = part.fast_rate_bound;
   on_step.noise = guard.noise;
-  on_step.leading = active_guards_.leading(guard.slot);
+  on_step.leading_order = active_guards_.leading_order(guard.slot);
   on_step.armed = active_guards_.armed(guard.slot);
   ModalPoint point;
   const auto value_at = [&](double x) {
@@ -168,8 +168,8 @@ bool DampedProof::find_zero(const Watched& guard, const ModalPoint& at, Passage&
 Passage DampedProof::pass(const ModalPoint& at, double remaining) {
   measure(at);
   for (const Watched& guard : guards_)
-    if (active_guards_.leading(guard.slot) > 0 && !(guard.now > 0.0))
-      active_guards_.discard_leading(guard.slot);
+    if (active_guards_.leading_order(guard.slot) > 0 && !(guard.now > 0.0))
+      active_guards_.discard_leading_order(guard.slot);
   choose_step(remaining);
   expand(at);
   Passage passage;

@@ -36,18 +36,18 @@ class DampedProof {
   struct Watched {
     std::size_t slot = 0;
     double noise = 0.0;
-    ModalQuantity guard, leading_derivative;  // lead: derivative number arming.leading of guard
-    double now = 0.0;                         // value of guard or lead
+    ModalQuantity guard, leading_derivative;  // the latter: derivative number leading_order()
+    double now = 0.0;                         // value of guard or leading_derivative
   };
   struct Part {  // a quantity on a step
     std::vector<double> p;
     double rest = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;
   };
   [[nodiscard]] const ModalQuantity& watched(const Watched& guard) const {
-    return active_guards_.leading(guard.slot) > 0 ? guard.leading_derivative : guard.guard;
+    return active_guards_.leading_order(guard.slot) > 0 ? guard.leading_derivative : guard.guard;
   }
   [[nodiscard]] bool unknown(const Watched& guard) const {
-    return !active_guards_.armed(guard.slot) && active_guards_.leading(guard.slot) == 0;
+    return !active_guards_.armed(guard.slot) && active_guards_.leading_order(guard.slot) == 0;
   }
   [[nodiscard]] const Watched* find(std::size_t slot) const;
   [[nodiscard]] Eigen::Index slow_for(const ModalQuantity& f, Eigen::Index first, double most) const;

@@ -65,7 +65,7 @@ bool leave_zero(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& armi
   // The decision knows that it rises; the remainder of the series is subtracted.
   q[0] -= std::min(guard.fast_bound + rounding::many_operations * scale, 0.5 * q[0]);
   if (!(q[0] > 0.0)) {
-    arming.discard_leading(slot);
+    arming.discard_leading_order(slot);
     return false;
   }
   const events::FirstRoot fall = events::first_root(q.data(), q.size() - 1, 0.0);
@@ -97,7 +97,7 @@ bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
     passage.triggered = slot;
     passage.unseen = !guard.armed;
   };
-  if (guard.leading > 0) return leave_zero(guard, slot, arming, limit);
+  if (guard.leading_order > 0) return leave_zero(guard, slot, arming, limit);
   if (!guard.armed) {
     p[0] += guard.noise + guard.slack;
     const events::FirstRoot fall = events::first_root(p.data(), degree, 0.0);
@@ -255,7 +255,7 @@ double ModalProof::magnitude(std::size_t slot, const ModalPoint& at) const {
 
 /// Value of the guard's leading derivative.
 double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
-  const std::size_t order = active_guards_.leading(guard.slot);
+  const std::size_t order = active_guards_.leading_order(guard.slot);
   double sum = 0.0;
   const auto add = [&](auto z, auto rate, auto p, auto l, auto place, auto slope) {
     for (std::size_t j = 0; j < order; ++j) {
@@ -394,9 +394,9 @@ bool ModalProof::find_zero(const Watched& guard, const ModalPoint& at, Passage& 
   on_step.fast_bound = guard.fast_bound;
   on_step.fast_rate_bound = guard.fast_rate_bound;
   on_step.noise = guard.noise;
-  on_step.leading = active_guards_.leading(guard.slot);
+  on_step.leading_order = active_guards_.leading_order(guard.slot);
   on_step.armed = active_guards_.armed(guard.slot);
-  if (on_step.leading > 0) on_step.p = derivative_of(on_step.p, on_step.leading, h_);
+  if (on_step.leading_order > 0) on_step.p = derivative_of(on_step.p, on_step.leading_order, h_);
   ModalPoint point;
   const auto value_at = [&](double x) {
     oscillators_->advance(at, *forces_, h_ * x, point);
@@ -408,7 +408,7 @@ bool ModalProof::find_zero(const Watched& guard, const ModalPoint& at, Passage& 
 Passage ModalProof::pass(const ModalPoint& at, double remaining) {
   measure(at);
   for (const Watched& guard : guards_)
-    if (starts_at_zero(guard) && !(guard.now > 0.0)) active_guards_.discard_leading(guard.slot);
+    if (starts_at_zero(guard) && !(guard.now > 0.0)) active_guards_.discard_leading_order(guard.slot);
   choose_step(remaining);
   bound_fast_modes();
   expand(at);

@@ -34,10 +34,10 @@ namespace signorini::modal {
 
 /// A guard on a step, x in [0, 1].
 struct GuardOnStep {
-  std::vector<double> p;  ///< coefficients; of time derivative number `leading` if that is not 0
+  std::vector<double> p;  ///< coefficients; of time derivative number `leading_order` if that is not 0
   double slack = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;  ///< bounds for g, g, g' (by time), or for p
   double noise = 0.0;
-  std::size_t leading = 0;
+  std::size_t leading_order = 0;
   bool armed = false;  ///< the guard was clearly positive
 };
 
@@ -130,13 +130,13 @@ class ModalProof {
                                double& event);
   /// The guard starts at zero, and its leading derivative is watched.
   [[nodiscard]] bool starts_at_zero(const Watched& guard) const {
-    return active_guards_.leading(guard.slot) > 0;
+    return active_guards_.leading_order(guard.slot) > 0;
   }
   [[nodiscard]] bool unknown(const Watched& guard) const {
     return !active_guards_.armed(guard.slot) && !starts_at_zero(guard);
   }
   [[nodiscard]] double order_of(const Watched& guard) const {
-    return static_cast<double>(active_guards_.leading(guard.slot));
+    return static_cast<double>(active_guards_.leading_order(guard.slot));
   }
   [[nodiscard]] double weight_of(const Watched& guard, std::size_t k) const;
 

@@ -143,32 +143,33 @@ void ModalWorkIntegrals::add_two(const Stretch& s, std::size_t k, std::size_t l,
                        state_->normal[c].real[l] * state_->tangent[c].real[k] * (both.changed - both.mixed);
 }
 
-/// Lanes of all modes up to the last moving one; zero for modes that do not move or have no frequency.
-ModalWorkIntegrals::Lanes ModalWorkIntegrals::lanes(const Stretch& s,
-                                                    const std::vector<std::size_t>& oscillating) const {
+/// Ends of all modes up to the last of 'oscillating'; zero for modes that are not in it.
+ModalWorkIntegrals::EndArrays ModalWorkIntegrals::end_arrays(
+    const Stretch& s, const std::vector<std::size_t>& oscillating) const {
   const Eigen::Index n = oscillating.empty() ? 0 : static_cast<Eigen::Index>(oscillating.back()) + 1;
-  Lanes lanes;
-  lanes.l = Eigen::Map<const Eigen::ArrayXd>(oscillators_->real().data(), n);
-  for (Eigen::ArrayXd* lane : {&lanes.y0, &lanes.r0, &lanes.y1, &lanes.r1}) lane->setZero(n);
+  EndArrays arrays;
+  arrays.l = Eigen::Map<const Eigen::ArrayXd>(oscillators_->real().data(), n);
+  for (Eigen::ArrayXd* array : {&arrays.y0, &arrays.r0, &arrays.y1, &arrays.r1}) array->setZero(n);
   for (const std::size_t k : oscillating) {
     const auto i = static_cast<Eigen::Index>(k);
     const Ends<double>& y = s.real[k];
-    lanes.y0[i] = y.y0;
-    lanes.r0[i] = y.r0;
-    lanes.y1[i] = y.y1;
-    lanes.r1[i] = y.r1;
+    arrays.y0[i] = y.y0;
+    arrays.r0[i] = y.r0;
+    arrays.y1[i] = y.y1;
+    arrays.r1[i] = y.r1;
   }
-  return lanes;
+  return arrays;
 }
 
 /// Adds all oscillating modes, each with all those before it.
-void ModalWorkIntegrals::add_oscillating(const Lanes& lanes, Sums& sums) const {
+void ModalWorkIntegrals::add_oscillating(const EndArrays& arrays, Sums& sums) const {
   const ModePairs& pairs = state_->pairs;
-  const Eigen::Index n = lanes.l.size();
-  const ModeEnds ends{lanes.l.data(), lanes.y0.data(), lanes.r0.data(), lanes.y1.data(), lanes.r1.data()};
+  const Eigen::Index n = arrays.l.size();
+  const ModeEnds ends{arrays.l.data(), arrays.y0.data(), arrays.r0.data(), arrays.y1.data(),
+                      arrays.r1.data()};
   Eigen::ArrayXd own(pairs.available() ? 0 : n), yy(n), mixed(n);
   for (Eigen::Index k = 1; k < n; ++k) {
-    if (lanes.y0[k] == 0.0 && lanes.y1[k] == 0.0 && lanes.r0[k] == 0.0 && lanes.r1[k] == 0.0) continue;
+    if (arrays.y0[k] == 0.0 && arrays.y1[k] == 0.0 && arrays.r0[k] == 0.0 && arrays.r1[k] == 0.0) continue;
     if (!pairs.available()) pairs_of_mode(state_->spectrum, alpha_, k, own.data());
     const double* shared = pairs.available() ? pairs.row(k) : own.data();
     sums.rates -= 2.0 * pair_integrals(ends, alpha_, k, shared, yy.data(), mixed.data());
@@ -195,7 +196,7 @@ void ModalWorkIntegrals::add_real(const Stretch& s, const std::vector<std::size_
     for (std::size_t j = 0; j < i; ++j) add_two(s, resting[i], resting[j], sums);
     for (const std::size_t k : oscillating) add_two(s, k, resting[i], sums);
   }
-  add_oscillating(lanes(s, oscillating), sums);
+  add_oscillating(end_arrays(s, oscillating), sums);
 }
 
 /// Adds pairs with real modes, with each other and with each other's conjugates.

@@ -34,7 +34,7 @@ class ModalWorkIntegrals {
     S l{}, y0{}, r0{}, y1{}, r1{};
   };
   /// Same for all modes, for sums over pairs of them.
-  struct Lanes {
+  struct EndArrays {
     Eigen::ArrayXd l, y0, r0, y1, r1;
   };
 
@@ -54,9 +54,9 @@ class ModalWorkIntegrals {
   };
   [[nodiscard]] Stretch stretch(const ModalPoint& from, const ModalPoint& to, double time) const;
   [[nodiscard]] double with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const;
-  [[nodiscard]] Lanes lanes(const Stretch& s, const std::vector<std::size_t>& oscillating) const;
+  [[nodiscard]] EndArrays end_arrays(const Stretch& s, const std::vector<std::size_t>& oscillating) const;
   void add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const;
-  void add_oscillating(const Lanes& lanes, Sums& sums) const;
+  void add_oscillating(const EndArrays& arrays, Sums& sums) const;
   void add_real(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
   void add_pairs(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
   [[nodiscard]] std::vector<std::size_t> moving(const Stretch& s) const;

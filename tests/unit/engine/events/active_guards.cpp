@@ -17,15 +17,15 @@ TEST_CASE("guards that start clear of zero are armed; the others wait until they
   CHECK(arming.armed(1));
   CHECK_FALSE(arming.armed(2));
   CHECK_FALSE(arming.idle(2));
-  CHECK(arming.leading(2) == 2);
-  CHECK(arming.leading(3) == 0);
+  CHECK(arming.leading_order(2) == 2);
+  CHECK(arming.leading_order(3) == 0);
   arming.update(0, 1.0, 0.1);
   CHECK(arming.idle(0));
   arming.update(1, -1.0, 0.1);
   CHECK(arming.armed(1));
   arming.update(2, 0.05, 0.1);  // a step on, not yet above the level: what it began with says no more
   CHECK_FALSE(arming.armed(2));
-  CHECK(arming.leading(2) == 0);
+  CHECK(arming.leading_order(2) == 0);
   arming.update(2, 0.2, 0.1);
   CHECK(arming.armed(2));
   arming.set_armed(3);

@@ -61,8 +61,10 @@ struct Combination {
 };
 
 /// A spring and a dashpot side by side between the body and its sliding point:
-///   T = stiffness (ut - p) + damping (ut' - p'). The sliding point then is a massless degree of freedom of its own,
-/// and Contact::tangent refers to it.
+///
+///   T = stiffness (ut - p) + damping (ut' - p')
+///
+/// The sliding point then is a massless degree of freedom of its own, and Contact::tangent refers to it.
 struct ShearElement {
   Combination body;  ///< tangential displacement of the body
   double stiffness = 0.0, damping = 0.0;

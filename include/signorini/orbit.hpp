@@ -33,7 +33,7 @@ struct OrbitOptions {
   std::optional<double> energy = {};
   int times = 1;       ///< the orbit closes after this number of load periods
   int transient = 20;  ///< periods simulated before Newton's method begins
-  /// Target of Newton's method: residual over amplitude; the iteration continues as long as the residual decreases.
+  /// Target of Newton's method: residual / amplitude; the iteration continues as long as the residual decreases.
   double tolerance = 1e-12;
 };
 
@@ -43,7 +43,7 @@ enum class OrbitLoss { none, fold, flip, neimark_sacker };
 
 /// One iteration of Newton's method.
 struct OrbitStep {
-  double residual = 0.0;  ///< max |R| over amplitude, before the step
+  double residual = 0.0;  ///< max |R| / amplitude, before the step
   double damping = 1.0;   ///< fraction of the step that was taken; 0: none, the iteration ended here
 };
 
@@ -54,7 +54,7 @@ struct Orbit {
   bool autonomous = false;  ///< the motion determines the period, not the loads
   /// Time of the scene (loads, compressions, surfaces) at the orbit's time 0.
   double phase = 0.0;
-  double residual = 0.0;   ///< max |z(T) - z| over amplitude
+  double residual = 0.0;   ///< max |z(T) - z| / amplitude
   double amplitude = 0.0;  ///< half the largest range of a displacement, rotations excluded; length
   std::vector<OrbitStep> steps;
 
@@ -95,7 +95,7 @@ struct Orbit {
 /// A point of a branch from which it can be continued.
 struct BranchCheckpoint {
   double parameter = 0.0;
-  bool towards_to = true;                   ///< direction of the walk: the parameter moves towards `to`
+  bool towards_to = true;                   ///< the branch is followed towards `to`
   Orbit orbit;                              ///< period, phase, autonomous, start
   std::vector<std::string> sequences = {};  ///< sequences of events met so far, by number
   std::size_t point_count = 0;              ///< number of Branch::points up to this checkpoint
@@ -113,9 +113,9 @@ struct BranchOptions {
   /// Number of successive branch switches: at a flip to the branch of twice the period, and at branch points. 0: the
   /// first branch alone.
   int switches = 0;
-  std::optional<BranchCheckpoint> resume_from = {};  ///< continues from this mark, without its point
-  /// Called after each point of the first branch with a function that makes its mark (cost: a run of one period), so
-  /// that an interrupted branch can be resumed.
+  std::optional<BranchCheckpoint> resume_from = {};  ///< continues from this checkpoint, without its point
+  /// Called after each point of the first branch with a function that makes its checkpoint (cost: a run of one period),
+  /// so that an interrupted branch can be resumed.
   std::function<void(const std::function<BranchCheckpoint()>&)> on_checkpoint = {};
 };
 
@@ -155,7 +155,7 @@ struct Branch {
   /// it has no orbit). False: it ended on the way, returned behind a gap, or was interrupted.
   bool complete = false;
   bool interrupted = false;
-  std::optional<BranchCheckpoint> last;  ///< last mark of the first branch, if it has a point
+  std::optional<BranchCheckpoint> last;  ///< last checkpoint of the first branch, if it has a point
   std::vector<SideBranch> sides;         ///< in the order in which they were followed
 };
 

@@ -2,12 +2,10 @@
 //
 //   lines:   a row is dropped if the straight line between the neighbouring kept rows passes each of its quantities q
 //            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-10
-//   bins:    if that is not enough, each bin [i w, (i + 1) w) of time keeps the first and the last row, and those with
-// the
-//            smallest and the largest value of each quantity, in order (M4: Jugel, Jerzak, Hackenbroich, Markl 2014;
-// lines
-//            between bins are those of all rows);   w = duration / 10000, doubled as often as needed up to duration /
-// 1250
+//   bins:    if that is not enough, each bin [i w, (i + 1) w) of time keeps the first and the last row, and those
+//            with the smallest and the largest value of each quantity, in order (M4: Jugel, Jerzak, Hackenbroich,
+//            Markl 2014; lines between bins are those of all rows);   w = duration / 10000, doubled as often as
+//            needed up to duration / 1250
 //
 // Rows are processed once for each c, and once more at the end: a dropped row is at most 3 c, 0.3 % of the range, off
 // the lines, or within a bin whose extremes are drawn. 0.3 % is half a pixel of a panel of 170 pixels; the widest
@@ -56,9 +54,9 @@ class Downsampled {
   using Quantities = std::array<double, count>;
 
   struct Options {
-    /// Target number of rows at the end; bins have more if a picture needs them.
+    /// Target number of rows at the end; with bins it may be exceeded, as a picture of full resolution requires.
     std::size_t max_rows = 8000;
-    /// Never more than `most`, with bins as wide as necessary.
+    /// Never more than max_rows: bins become as wide as necessary.
     bool crowded = false;
     /// Lines keep both of two rows with the same time.
     bool both_sides = false;

@@ -38,8 +38,8 @@ void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& cou
 
 // Change of a static start by a perturbation of its data.
 //
-//   r = P - K u0 - sum_closed n N - sum_stuck t T,   N = kn g of springs, for rigid contacts from the start;  T:
-// initial_shear
+//   r = P - K u0 - sum_closed n N - sum_stuck t T,   N = kn g of springs, for rigid contacts from the
+//   start;  T: initial_shear
 //   (K' + sum_closed kn' n' n'^T + sum_stuck kt' t' t'^T) w = r' - r,   n' . w = 0 for closed rigid contacts, and for
 //   touching contacts without force;   T' = T kt'/kt + kt' t' . w: the sliding point is unchanged
 //

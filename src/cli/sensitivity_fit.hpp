@@ -1,4 +1,5 @@
-// sensitivity_fit.hpp: options shared by `sensitivity` and `fit`: a scene, keys of it, a directory, and its treatment.
+// sensitivity_fit.hpp: options that `sensitivity` and `fit` share: the scene, keys of it, and where and how results are
+// written.
 #pragma once
 
 #include <filesystem>

@@ -20,7 +20,8 @@ struct GuardStart {
   bool at_zero = false;   ///< starts at zero and rises
   int leading_order = 0;  ///< order of its first nonzero derivative; -1: none is known
   double noise = 0.0;     ///< rounding of its value at the start; at least the value that was taken as zero
-  std::array<double, 2> derivative_noise{};  ///< leading < 0: rounding of its second and third derivatives
+  /// leading_order < 0: rounding of its second and third derivatives
+  std::array<double, 2> derivative_noise{};
 
   /// Possible drift of the guard by rounding after a time h if no derivative determines it: a body at rest beside a
   /// wall drifts. 0 if the drift is beyond the range of numbers.

@@ -58,7 +58,7 @@ class FastModes {
 };
 
 struct StepFacts {
-  /// Times inside the step at which N, T, g or ut of a contact turns beyond all its earlier values, ascending.
+  /// Times inside the step of local extremes of N, T, g or ut of a contact that exceed all earlier values, ascending.
   std::span<const double> turning_points = {};
   /// Contact and quantity of each turning point, unordered. Null: evaluate_watched() of all contacts costs no more than
   /// of one contact.
@@ -94,7 +94,7 @@ class DenseOutput {
   }
   /// Adds the integrals of all powers over the part [from, to].
   virtual void integrate(double from, double to, motion::WorkIntegrals& works) = 0;
-  /// Greatest entry of the residual of the equation of motion at the end. Unit: force.
+  /// Largest magnitude of an entry of the residual of the equation of motion at the end of the step. Unit: force.
   [[nodiscard]] virtual double residual() = 0;
   [[nodiscard]] virtual StepFacts facts() const = 0;
 };

@@ -1,6 +1,7 @@
 // band_factors.hpp: L and U of a band matrix, without exchanges of rows.
 //
 //   A = L U,   a_ij = 0 for |i - j| > width
+//
 // A row depends on the `width` rows before it: factors of some rows can be continued from those, and if as many
 // consecutive rows are unchanged, so are all that follow.
 //

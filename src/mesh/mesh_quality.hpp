@@ -1,7 +1,7 @@
 // mesh_quality.hpp: distortion of elements compared with squares and equilateral triangles.
 //
-//   angle at corner i: between its two edges, with corners joined by straight lines;  aspect: longest edge / shortest
-// edge
+//   angle at corner i   between its two edges, with corners joined by straight lines
+//   aspect              longest edge / shortest edge
 //
 // Elements represent a constant stress exactly in any shape; errors of other stresses grow with 1/sin(angle) and the
 // aspect.

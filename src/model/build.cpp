@@ -195,9 +195,11 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Comp
 
 /// Sets velocities of rounding size in a saved state to zero. Displacements are known to rounding; the fastest mode
 /// turns this into velocities of
-///     |v| <= many_operations omega_max max |u|,   translations and rotations separately. Such velocities would decide the slip
-/// direction of a contact at its friction limit. If other bodies move, the same applies to a contact that was left
-/// without slip and whose tangential velocities are all that small.
+///
+///     |v| <= many_operations omega_max max |u|,   translations and rotations separately.
+///
+/// Such velocities would decide the slip direction of a contact at its friction limit. If other bodies move, the same
+/// applies to a contact that was left without slip and whose tangential velocities are all that small.
 void remove_rounding(const SavedState& saved, Model& model) {
   double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
   for (int i = 0; i < model.size(); ++i) {

@@ -18,7 +18,7 @@ constexpr int max_exponent = 120;
 // validation/published.
 constexpr int time_unit_exponent = -2;
 
-/// Largest of several magnitudes, and its exponent: x = 2^e (1 to 2).
+/// Largest of several magnitudes x, and its exponent e: 2^e <= x < 2^(e + 1).
 class Greatest {
  public:
   void add(double x) {

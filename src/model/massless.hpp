@@ -38,8 +38,8 @@ void separate_undamped(Model& model);
 //
 //   node of elements without rz (bodies, bars, hinged ends), beside springs of rotations or inertia:
 //   J phi'' + c phi' + k phi = M       of that node alone; no element is connected to it
-//   fix = ["rz"] there                 has no effect; reported where it could be meant to clamp a body of plane
-// elements
+//   fix = ["rz"] there                 has no effect; reported where it could be meant to clamp a body of
+//                                      plane elements
 
 /// One sentence per table of the scene. map: of this scene.
 [[nodiscard]] std::vector<std::string> unconnected_rotations(const Scene& scene, const assembly::DofMap& map);

@@ -25,12 +25,12 @@ namespace signorini::motion {
   return rounding::time_resolution * (std::abs(t) + std::abs(step));
 }
 
-/// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
 /// Energy of the structure without its contacts.
 struct StructureEnergy {
   double kinetic = 0.0, elastic = 0.0;
 };
 
+/// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
 struct Point {
   Vector u, v, forces;
   Vector a = {};  ///< empty if not needed

@@ -1,7 +1,7 @@
 // load_cases.hpp: loads from summary.json as figures: tables for one run, or several runs side by side.
 //
-//   contacts[].static_reaction, .load    N at rest; least and largest N and T with their times; residual slip; friction
-// loss
+//   contacts[].static_reaction, .load    N at rest; least and largest N and T with their times; residual slip;
+//                                        friction loss
 //   response[]                           least and largest value with time, and the place of an envelope; final value
 //
 // Signs are those of the summary: N < 0 is compression, so the least N is the largest compression. A number of rounding

@@ -3,8 +3,8 @@
 //   DIR/paraview/run.pvd          the frames with their real times
 //   DIR/paraview/frame-0001.vtu   one per time, ASCII:
 //
-//   points      undeformed; `displacement` moves them (Warp By Vector), `force` is the force on the structure at the
-// point
+//   points      undeformed; `displacement` moves them (Warp By Vector), `force` is the force on the structure at
+//               the point
 //   cells       members as polylines of ten parts, springs as lines; nodes, contacts and loads as vertices
 //   cell data   kind: 0 beam, 1 bar, 2 spring, 3 node, 4 contact, 5 load, 6 rigid body; state: 0 stick, 1 slip+, 2 slip-, 3 closed, 4 open,
 //               -1 if there is none; item: number of the contact or load, from 0
@@ -73,8 +73,8 @@ class VtkSeries {
 //   points      undeformed nodes of all bodies; `displacement` moves them (Warp By Vector); `stress`: xx, yy, xy; `mises`;
 //               `traction`: force per area of a seam on its slave, -p n - tau t at its nodes, zero elsewhere
 //   cells       triangles and quadrilaterals, linear or quadratic; one vertex per node of a seam
-//   cell data   body: from 0, -1 for vertices; seam: from 0, -1 for elements; state, as in paraview.hpp; pressure,
-// opening
+//   cell data   body: from 0, -1 for vertices; seam: from 0, -1 for elements; state, as in paraview.hpp;
+//               pressure, opening
 //
 // Data: frame_bodies.csv and frame_seams.csv (result/body_frames.hpp) on the mesh of the scene.
 

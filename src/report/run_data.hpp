@@ -2,8 +2,8 @@
 //
 //   nodes   name, x, y, columns of ux, uy, rz in `curve` (-1: fixed, or not recorded)
 //   pieces  a, b (indices of nodes), bar, shape (index); springs, supports, loads, contacts with their directions
-//   mesh    edges of bodies, pairs of nodes; nodes[k].mesh: node of a body's mesh, without a name of its own and
-// without columns
+//   mesh    edges of bodies, pairs of nodes; nodes[k].mesh: node of a body's mesh, without a name of its own
+//           and without columns
 //   shapes, magnification: deflection shapes of pieces, and the scale of motions (mesh_motion.hpp)
 //   curve   times: lists;   columns: t (index of its list), u;   contacts[k].motion: t, state, N, T, gap
 //   events  t, contact (index, -1 without), event, from, to

@@ -67,7 +67,7 @@ class BodyFrameWriter {
 // Body_motion.csv, motions of the meshes of bodies, for the page (docs/output.md).
 //
 //   t, NODE.ux, NODE.uy, ...     every k-th output time, the first and the last; drawn nodes only
-// (scene/outlines.hpp)
+//                                (scene/outlines.hpp)
 //
 // k is the smallest value for which the table has at most most_values numbers, but it has at least min_times rows if
 // there are as many output times. Numbers have six digits.

@@ -40,7 +40,7 @@ struct ContactRanges {
 
 /// An event in marks.csv, thinned to the resolution of a picture.
 struct Mark {
-  int row = -1;  ///< row of the contact; -1: a jump of a load
+  int row = -1;  ///< index of the contact (its row in the pictures); -1: a jump of a load
   double t = 0.0;
   std::string event;
   double N = 0.0, T = 0.0;

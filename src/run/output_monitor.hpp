@@ -52,7 +52,7 @@ struct OutputReading {
 [[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i,
                                           const base::PolynomialInterpolation::Values& values);
 
-/// Sum of the absolute terms of a linear output, to which rounding is relative.
+/// Sum of the magnitudes of the terms of a linear output: the scale of its rounding error.
 [[nodiscard]] double magnitude_of(const Output& output, double t, motion::Side side,
                                   const motion::Point& point, const ForceLayout& layout);
 

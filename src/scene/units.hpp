@@ -21,8 +21,8 @@ namespace signorini::scene {
 
 // Parses a unit as a scene writes it.
 //
-//   "1/m^2", "kN m/s", "s^2/t"     names of the scene's units, each with a power; one '/', all units after it in the
-// denominator
+//   "1/m^2", "kN m/s", "s^2/t"     names of the scene's units, each with a power; one '/', all units after it in
+//                                  the denominator
 //
 // The inverse is unit_text() (signorini/output.hpp).
 

@@ -210,7 +210,8 @@ class StateRates {
     }
   }
 
-  /// A form in modal coordinates: the effect of forces along it, and its value by modes.
+  /// A linear form in modal coordinates. from: amplitudes that a unit force along the form excites; row: its
+  /// coefficients in the modes.
   struct ModalForm {
     std::vector<S> from, row;
   };

@@ -8,9 +8,9 @@
 // when the parameter changes, a guard that grazes, or a guard that is zero afterwards and would be reached for other
 // values.
 //
-// For a guard that grazes, dt/dp is unbounded. If the motion is equally smooth before and after it,
-//   u'- = u'+,  u''- = u''+        and no new anchor depends on the time, w does not depend on dt/dp: derivatives of
-// states alone (orbits) can cross such a graze with dt/dp = 0.
+// For a guard that grazes, dt/dp is unbounded. If the motion is equally smooth before and after it, u'- = u'+ and
+// u''- = u''+, and no new anchor depends on the time, w does not depend on dt/dp: derivatives of states alone (orbits)
+// can cross such a graze with dt/dp = 0.
 #pragma once
 
 #include <optional>

@@ -112,7 +112,8 @@ class LandingRecord {
 
   void turn(const TangentSample& sample);
   void instant(const InstantMotion& motion, const std::vector<TangentState>& states);
-  /// One list per contact, in machine units; open phases end at t. The only values are those of the peak force.
+  /// One list per contact, in machine units. A contact phase that still lasts ends with the run. Of
+  /// MovingLanding::value only peak_force is set.
   [[nodiscard]] std::vector<std::vector<MovingLanding>> finish(const std::vector<TangentState>& states) const;
 
  private:

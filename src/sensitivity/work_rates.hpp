@@ -83,8 +83,8 @@ class WorkTangent {
 //   parts without mass, which respond immediately (run/audit.hpp):
 //   friction   L = T+ (slip+ - slip-)               at a jump of a load; L = released energy at a drop of friction;
 //                                                   several contacts: each its own and an equal part of the rest
-//   loads      W += sum of L - released energy      at a jump of a load, else W += P . (u+ - u-), which is released,
-// too
+//   loads      W += sum of L - released energy      at a jump of a load, else W += P . (u+ - u-),
+//                                                   which is released, too
 //
 // DL: along the moving instant, like everything at it.
 

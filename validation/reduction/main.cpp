@@ -3,8 +3,7 @@
 //   build/release/signorini_reduction [repeats]
 //
 // 1. against the exact flow of the full model: displacements of all degrees of freedom at the output times,
-// events
-//    in order and their times, for a sweep of cutoffs;
+//    events in order and their times, for a sweep of cutoffs;
 // 2. time of each engine on the reduced model beside the full one;
 // 3. ida beside newmark on one reduced model at a given error of event times.
 // 4. the same cutoff on finer meshes.

@@ -20,11 +20,12 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int max_retries = 4;         // restarts with a tenth of the first step before giving up
-constexpr double surface_step = 0.25;  // rad of a surface's oscillation a step: 1e-7 of it at order 5
-// Part of the step whose local error would just be accepted. After a rebound the error of the order-one start stays in
-// the gap for the whole flight, and each hit adds one: with rigid contacts a start with five more steps is ten times
-// more accurate (case 04a, measured).
+constexpr int max_retries = 4;  // restarts with a tenth of the first step before giving up
+// Longest step, in radians of a moving surface's oscillation; at order 5 its error is then 1e-7 of the amplitude.
+constexpr double surface_step = 0.25;
+// First step as a fraction of the step whose local error would just be accepted. After a rebound the error of the
+// order-one start stays in the gap for the whole flight, and every impact adds such an error. So with rigid contacts
+// the first step is smaller: that costs five more steps per start and is ten times more accurate (case 04a, measured).
 constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
 // Chosen between 0.1 and 0.4: the least error over eight tolerances of a growing and of a damped motion

@@ -19,8 +19,8 @@ class StepGuards {
  public:
   explicit StepGuards(const Model& model);
 
-  /// Takes the guards of a decision; its data must live as long as the guards are in force. The motion is not yet
-  /// known.
+  /// Takes the guards of segment.decision; the decision and the forcing must outlive their use. Evaluates no values:
+  /// the motion is not yet known.
   void start(const engine::Segment& segment);
   /// Evaluates values and rates at the end of the step. The point, here and in level(), contains accelerations.
   void evaluate(const motion::Point& point, double t);

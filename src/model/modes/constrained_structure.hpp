@@ -34,8 +34,8 @@ class ConstrainedStructure {
 [[nodiscard]] SparseMatrix with_constraint_springs(const SparseMatrix& k,
                                                    const std::vector<Combination>& forms);
 
-/// Q^T A Q for symmetric A; terms that cancel become zero, because rounding would be the only entry left to compare
-/// with.
+/// Q^T A Q for symmetric A, without entries below the rounding of their terms: such an entry would be nothing but
+/// rounding.
 [[nodiscard]] SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q);
 
 /// The forms as columns, n x m.

@@ -262,8 +262,10 @@ Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, con
 }
 
 /// Error bound of a form that was zero, after its motion was written as u = R q and q was recomputed from u:
-///   many_operations sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|  The second term belongs to the shapes that
-/// the reduced form N omits, because they move along n only by rounding.
+///
+///   many_operations sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|
+///
+/// The second term belongs to the shapes that the reduced form N omits, because they move along n only by rounding.
 double noise_of(const Basis& b, const Combination& physical, const Combination& reduced, const Vector& q) {
   const Vector n = assembly::dense_vector(physical, static_cast<int>(b.shapes.rows()));
   const Vector left_out =

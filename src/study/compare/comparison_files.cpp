@@ -11,7 +11,7 @@ namespace {
 
 using Audit = std::map<std::string, double>;
 
-/// Table of runs; audits have the columns of the reference.
+/// Table of runs, with one audit column for each entry of audit, the reference run's.
 result::CsvTable<RunFigures> run_table(const Audit& audit) {
   using R = RunFigures;
   result::CsvTable<R> table = {{"run", &R::name},

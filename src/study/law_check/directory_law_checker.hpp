@@ -18,8 +18,8 @@
 
 namespace signorini::directory_check {
 
-/// The first hundred violations, in the units of the scene; for violations of tables Violation::event is the table's
-/// name.
+/// Result of the check. Of the violations the first hundred are listed, in the units of the scene; for violations found
+/// in tables Violation::event is the name of the table.
 struct DirectoryLawCheck {
   Model model;
   long instants = 0, events = 0, rows = 0;  ///< numbers of checked items; rows: of contacts.csv and

@@ -20,8 +20,8 @@ namespace signorini::directory_check {
 
 // Rows that contacts.csv and motion.csv must have.
 //
-//   contacts.csv   t in the grid of run.toml, every contact at each t      up to t_end, the time of the stop, or the
-// last instant
+//   contacts.csv   t in the grid of run.toml, every contact at each t      up to t_end, the time of the stop,
+//                                                                          or the last instant
 //   motion.csv     contact by contact, t ascending, the first row at 0     in a completed run the last row at t_end
 //
 // Rows out of place are violations ("rows"). A table that ends too early is cut: FileError, with its line.

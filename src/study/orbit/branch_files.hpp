@@ -47,8 +47,8 @@ void remove_mark(const std::filesystem::path& directory);
 // Picture of a branch of orbits: a frequency response, or amplitudes over another key.
 //
 //   plots/branch.gp     one panel per output (its least and largest value in a period), the largest multiplier, the
-// number
-//                       of the sequence of events; stable parts solid, unstable ones dashed, located points marked
+//                       number of the sequence of events; stable parts solid, unstable ones dashed, located points
+//                       marked
 //   plots/branch.csv    the curves: x, stable 1 or 0, sequence, special, multiplier, amplitude, outputs
 
 /// outputs: names with units, in the order of BranchPoint::minima; at most six panels of them.

@@ -49,9 +49,9 @@ template <class List>
 struct ResponseQuery {
   enum class Kind { max, min, abs, tmax, tmin, end, residual, count, impulse } kind = Kind::max;
   std::string text;        ///< as given: the name of the column
-  std::string name;        ///< name of an output or a contact; count: empty for all
-  EventQuery event;        ///< count
-  std::size_t number = 0;  ///< impulse: number of the landing, from 1; 0: the largest
+  std::string name;        ///< name of an output or a contact; of Kind::count: empty for all
+  EventQuery event;        ///< of Kind::count
+  std::size_t number = 0;  ///< of Kind::impulse: number of the landing, from 1; 0: the largest
 
   [[nodiscard]] bool of_output() const { return kind <= Kind::end; }
 };

@@ -62,7 +62,6 @@ VerificationRuns::Sequence VerificationRuns::sequence() const {
   return result;
 }
 
-/// The times of IDA's events in another run: the event with the same number at the same contact.
 std::vector<std::optional<double>> VerificationRuns::times_in(const certify::EventSequence& track) const {
   std::vector<std::vector<double>> times(names_.size());
   for (const certify::TimedEvent& event : track.events)

@@ -58,7 +58,7 @@ class VerificationRuns {
   [[nodiscard]] Kind event_times(double until) const;
   /// Adds the series of all columns to their kinds.
   void add_column_series(double until, std::vector<Kind>& kinds) const;
-  /// Rows of IDA's events that are changes, and the same event in another run.
+  /// The times of IDA's events in another run: the event with the same number at the same contact.
   [[nodiscard]] std::vector<std::optional<double>> times_in(const certify::EventSequence& track) const;
   [[nodiscard]] std::vector<bool> rows_at_events(double until) const;
   [[nodiscard]] Observation observation(const Series& series, std::size_t i, bool is_event,

@@ -1,6 +1,5 @@
-// Scenes that must be read, and scenes with one mistake each: a comment under the wrong line holds a part
-// of the message. For mistakes in a matrix file or a table of
-// time and value the comment stands in that file.
+// Scenes that must be read, and scenes with one mistake each: a comment under the wrong line holds a part of the
+// message. For mistakes in a matrix file or a table of time and value the comment stands in that file.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 

@@ -92,9 +92,10 @@ struct Recorded {
   std::vector<Violation> by(const Model& model, const law_check::LawLimits& limits = {}) {
     record.t = 1.0;
     record.resolution = 1e-15;
-    record.before = {&u_before, &v_before, nullptr, &before, &forces_before, {}, {law_check::Driven{}}};
+    record.before = {
+        &u_before, &v_before, nullptr, &before, &forces_before, model.layout, {law_check::Driven{}}};
     record.before.driven[0].drift = drift;
-    record.after = {&u_after, &v_after, &a, &after, &forces_after, {}, {law_check::Driven{}}};
+    record.after = {&u_after, &v_after, &a, &after, &forces_after, model.layout, {law_check::Driven{}}};
     if (before[0].state != after[0].state && record.events.empty())
       record.events.push_back({0, "event", before[0].state, after[0].state});
     if (!untrue) write_rows(model, record);
@@ -174,8 +175,8 @@ TEST_CASE("hits of one instant come one after the other: each by its own velocit
     record.resolution = 1e-15;
     law_check::Driven surface;
     surface.ds = -10.0;
-    record.before = {&u, &before, nullptr, &open, &none, {}, {law_check::Driven{}, surface}};
-    record.after = {&u, &after, &a, &open, &none, {}, {law_check::Driven{}, surface}};
+    record.before = {&u, &before, nullptr, &open, &none, model.layout, {law_check::Driven{}, surface}};
+    record.after = {&u, &after, &a, &open, &none, model.layout, {law_check::Driven{}, surface}};
     record.impulses = {{1, 1, mass, -mass}, {0, turn_of_wall, at_wall * mass, 0.0}};
     record.events.push_back({0, "impact", State::open, State::open});
     record.events.push_back({1, "impact", State::open, State::open});
@@ -205,8 +206,9 @@ TEST_CASE("a contact that is hit twice at one instant: each hit by its own veloc
     law_check::InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
-    record.before = {&u, &before, nullptr, &open, &none, {}, {law_check::Driven{}, law_check::Driven{}}};
-    record.after = {&u, &after, &u, &open, &none, {}, {law_check::Driven{}, law_check::Driven{}}};
+    record.before = {
+        &u, &before, nullptr, &open, &none, model.layout, {law_check::Driven{}, law_check::Driven{}}};
+    record.after = {&u, &after, &u, &open, &none, model.layout, {law_check::Driven{}, law_check::Driven{}}};
     record.impulses = {{0, 1, 1.5 * mass, 0.0}, {1, 2, 1.29 * mass, 0.0}, {0, 3, last * mass, 0.0}};
     return law_check::LawChecker(model, {}).check_instant(record);
   };
@@ -364,8 +366,9 @@ TEST_CASE(
     law_check::InstantRecord record;
     record.t = 1.0;
     record.resolution = 1e-15;
-    record.before = {&u, &u, nullptr, &closed, &forces, {}, {law_check::Driven{}, law_check::Driven{}}};
-    record.after = {&u, &u, &u, &left, &after, {}, {law_check::Driven{}, law_check::Driven{}}};
+    record.before = {
+        &u, &u, nullptr, &closed, &forces, model.layout, {law_check::Driven{}, law_check::Driven{}}};
+    record.after = {&u, &u, &u, &left, &after, model.layout, {law_check::Driven{}, law_check::Driven{}}};
     record.captures.setZero(4);
     record.captures[0] =
         -2e-5 * c;  // together 1e-6 m/s across: 3e-6 N by the dampers, 3e-5 N in each contact
@@ -430,10 +433,15 @@ TEST_CASE("what a rigid stop holds, too, has no friction force of its own: no re
                        nullptr,
                        &r.before,
                        &before,
-                       {},
+                       model.layout,
                        {law_check::Driven{}, law_check::Driven{}}};
-    r.record.after = {
-        &r.u_after, &r.v_after, &r.a, &r.after, &after, {}, {law_check::Driven{}, law_check::Driven{}}};
+    r.record.after = {&r.u_after,
+                      &r.v_after,
+                      &r.a,
+                      &r.after,
+                      &after,
+                      model.layout,
+                      {law_check::Driven{}, law_check::Driven{}}};
     r.record.events.push_back({0, "slip", State::stick, State::slip_plus});
     CAPTURE(held);
     CHECK(names(law_check::LawChecker(model, {}).check_instant(r.record), "necessity") == !held);
@@ -543,8 +551,8 @@ TEST_CASE("between events: what is open has a gap, what presses does not pull") 
   const law_check::LawChecker witness(model, {});
   Recorded r(-1e-3, 0.0);
   const std::vector<ContactState> open = {{State::open, 0.0}}, closed = {{State::stick, 0.0}};
-  law_check::CheckedSide side{&r.u_before, &r.v_before,          nullptr, &open, &r.forces_before,
-                              {},          {law_check::Driven{}}};
+  law_check::CheckedSide side{&r.u_before,  &r.v_before,          nullptr, &open, &r.forces_before,
+                              model.layout, {law_check::Driven{}}};
   CHECK(names(witness.check_point(1.0, side), "penetration"));
   side.mode = &closed;
   r.forces_before = Eigen::Vector2d(0.5, 0.0);

@@ -157,8 +157,8 @@ TEST_CASE("a contact that parts without mass leave at once was at a limit") {
     Vector gone = chain.u;
     gone[1] = 0.1;
     gone[2] = 0.0;
-    record.before = {&chain.u, &chain.v, nullptr, &stick, &T, {}, {law_check::Driven{}}};
-    record.after = {&gone, &chain.v, &chain.a, &then, &free, {}, {law_check::Driven{}}};
+    record.before = {&chain.u, &chain.v, nullptr, &stick, &T, chain.model.layout, {law_check::Driven{}}};
+    record.after = {&gone, &chain.v, &chain.a, &then, &free, chain.model.layout, {law_check::Driven{}}};
     record.released = {0};
     record.events.push_back({0, "separation", State::stick, after});
     return tells_of(law_check::LawChecker(chain.model, {}).check_instant(record), "release");

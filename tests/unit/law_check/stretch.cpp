@@ -42,7 +42,7 @@ struct End {
     forces << -8.0, T;
   }
   [[nodiscard]] law_check::CheckedSide side() const {
-    return {&u, &v, &a, &mode, &forces, {}, {law_check::Driven{}}};
+    return {&u, &v, &a, &mode, &forces, ForceLayout(1), {law_check::Driven{}}};
   }
 };
 

@@ -96,9 +96,10 @@ TEST_CASE("after a change of state the motion put together from pieces is that o
         CHECK(one.u[term.first] == doctest::Approx(pieces.u[term.first]).epsilon(1e-14));
         CHECK(one.v[term.first] == doctest::Approx(pieces.v[term.first]).epsilon(1e-13));
       }
-      CHECK(one.N({}, contact) == doctest::Approx(pieces.N({}, contact)).epsilon(1e-13));
+      CHECK(one.N(row.model.layout, contact) ==
+            doctest::Approx(pieces.N(row.model.layout, contact)).epsilon(1e-13));
       CHECK(row.motion.contacts()[contact].value(motion::ContactSeries::N, x) ==
-            doctest::Approx(pieces.N({}, contact)).epsilon(1e-13));
+            doctest::Approx(pieces.N(row.model.layout, contact)).epsilon(1e-13));
     }
   }
 }

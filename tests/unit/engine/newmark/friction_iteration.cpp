@@ -29,8 +29,8 @@ TEST_CASE(
     const motion::Point p = s.at(step.end);
     u.push_back(p.u[0]);
     v.push_back(p.v[0]);
-    CHECK(std::abs(p.T({}, 0)) <= 2.0 * (1.0 + 1e-12));
-    CHECK(p.N({}, 0) == -4.0);
+    CHECK(std::abs(p.T(s.model.layout, 0)) <= 2.0 * (1.0 + 1e-12));
+    CHECK(p.N(s.model.layout, 0) == -4.0);
     s.engine->dense_output().integrate(step.begin, step.end, works);
     CHECK(s.engine->dense_output().residual() < 1e-14);
   });
@@ -54,7 +54,7 @@ TEST_CASE(
   const motion::Point inside = s.at(1.05);
   CHECK(inside.u[0] == doctest::Approx(0.5 * (0.495 + 0.51)).epsilon(1e-14));
   CHECK(inside.v[0] == doctest::Approx(0.05).epsilon(1e-13));
-  CHECK(inside.T({}, 0) == doctest::Approx(2.0).epsilon(1e-13));
+  CHECK(inside.T(s.model.layout, 0) == doctest::Approx(2.0).epsilon(1e-13));
   REQUIRE(s.pass(last));
   CHECK(s.decision.states[0].state == State::stick);
   const engine::Step rest = s.go();

@@ -40,7 +40,7 @@ TEST_CASE("a block that friction stops: the steps are exact, the slip rate falls
       const motion::Point p = s.at(t);
       CHECK(p.u[0] == doctest::Approx(t - 0.5 * t * t).epsilon(1e-13));
       CHECK(p.v[0] == doctest::Approx(1.0 - t).epsilon(1e-12));
-      CHECK(p.T({}, 0) == doctest::Approx(2.0).epsilon(1e-14));
+      CHECK(p.T(s.model.layout, 0) == doctest::Approx(2.0).epsilon(1e-14));
       motion::Point curve;
       s.engine->dense_output().interpolate(t, curve);
       CHECK(curve.u[0] == doctest::Approx(p.u[0]).epsilon(1e-13));

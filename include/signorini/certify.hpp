@@ -11,7 +11,7 @@
 //
 //   an event has no partner, or its partner differs in contact, from or to
 //   c |change of t - t'|, from one event of a contact to the next, exceeds half the time between them
-//     (errors that both share shift no event past another)
+//     (an error that both events share does not change their order)
 //   the companion has stopped
 //
 // Events of different contacts that lie closer than their errors are counted; their uncertain order does not end the
@@ -35,15 +35,16 @@ namespace signorini {
 /// Bounds of the errors of history.csv; empty if no rows were recorded.
 struct HistoryErrors {
   std::vector<double> t;  ///< times of the rows that both runs have
-  std::size_t width =
-      0;  ///< columns of the model, then N and T of each contact, then outputs; the latter two if `forces` is
-          ///< set
+  /// Number of columns: those of the model, and with CertifyOptions::forces then N and T of each contact,
+  /// then outputs.
+  std::size_t width = 0;
   /// bounds[row, column], row by row; infinite from `Certificate::until` on. Units: those of the columns.
   std::vector<double> bounds;
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return bounds[row * width + column]; }
 };
 
-/// Possible effect at the contacts of the modes that a reduction leaves out (src/certify/error_bounds.hpp).
+/// Largest possible effect, at the contacts, of the modes that a reduction leaves out
+/// (src/certify/error_bounds.hpp).
 struct Truncation {
   double displacement = 0.0, force = 0.0;
 };
@@ -61,9 +62,9 @@ struct Certificate {
   std::vector<double> t_errors;
   std::size_t unordered = 0;  ///< neighbouring events of different contacts that lie closer than their errors
   HistoryErrors history;
-  std::vector<std::optional<Peak>> peaks;                     ///< bounds, one per contact; empty unless
-                                                              ///< complete
-  std::vector<std::vector<std::optional<Landing>>> landings;  ///< bounds, as Report::landings
+  /// Error bounds of Report::peaks, one per contact; empty unless `complete`.
+  std::vector<std::optional<Peak>> peaks;
+  std::vector<std::vector<std::optional<Landing>>> landings;  ///< error bounds of Report::landings
   std::optional<Truncation> reduction;                        ///< only for a reduced model
   double wall_time = 0.0;                                     ///< s, all companion runs together
   double wait = 0.0;  ///< s, from the end of the run to the end of its companions

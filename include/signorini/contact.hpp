@@ -10,13 +10,13 @@
 //   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
 //
-// A rigid contact has the row g'' = 0 in place of N = kn g, and ut'' = surface acceleration in stick; if it closes with
-// g' < 0, an impact is computed (decide/impact.hpp). With Stribeck friction fk depends on the slip rate
-// (sliding_friction()).
+// A rigid contact has the row g'' = 0 in place of N = kn g, and the row ut'' = 0 in stick, ut being relative
+// to the surface. If it closes with g' < 0, an impact is computed (decide/impact.hpp). With Stribeck friction
+// fk depends on the slip rate (contact/friction.hpp).
 //
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
 // in stick.
-// A slider has N = -normal_force(t) instead, no gap, and without kt the row t.v' = surface acceleration.
+// A slider has no gap and the normal row N = -normal_force(t); without kt its row in stick is ut'' = 0.
 // A user law may replace all this: user_contact_law.hpp. The interface of all laws: contact_law.hpp.
 // Forces on the body: -N along n, -T along t.
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
@@ -83,11 +83,11 @@ struct Contact {
   std::optional<CurvedSurface> pendulum_surface;  ///< not for rigid contacts
   double normal_damping = 0.0;                    ///< dashpot beside the normal spring
   Friction friction;
-  double restitution = 0.0;                ///< rigid: Newton's coefficient
-  std::optional<double> capture_velocity;  ///< rigid: slower rebounds come to rest; absent: the engine's
-                                           ///< default
-  History normal_force;                    ///< slider: compression >= 0
-  History surface_motion;                  ///< integral of the surface velocity from t = 0
+  double restitution = 0.0;  ///< rigid: Newton's coefficient
+  /// rigid: slower rebounds come to rest; absent: the engine's default
+  std::optional<double> capture_velocity;
+  History normal_force;    ///< slider: compression >= 0
+  History surface_motion;  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
   int initial_slip = 0;               ///< sign of the slip at t = 0, undetermined by T below the static limit
   std::size_t initial_law_state = 0;  ///< user law: initial state
@@ -113,13 +113,13 @@ struct Contact {
   }
   /// True if velocities jump when the contact closes with g' < 0.
   [[nodiscard]] bool takes_impulses() const { return law->capabilities.takes_impulses; }
-  /// g, if the contact has a gap.
+  /// The argument g if the contact has a gap; nullopt if N is given.
   [[nodiscard]] std::optional<double> optional_gap(double g) const {
     return normal_force_given() ? std::nullopt : std::optional(g);
   }
 
-  /// True if (6) and (7) are the conditions of the contact: they are audited and checked by the law checker,
-  /// and its states are the built-in ones.
+  /// True if (6) and (7) are the conditions of the contact: they are audited, the law checker checks them,
+  /// and the states of the contact are the built-in ones.
   [[nodiscard]] bool obeys_coulomb() const { return law->capabilities.signorini_coulomb; }
   /// True if N = kn g + cn g' while closed.
   [[nodiscard]] bool is_elastic_along_normal() const {
@@ -153,7 +153,8 @@ struct Contact {
   [[nodiscard]] bool forces_follow_motion() const {
     return obeys_coulomb() && !shear && !friction.is_rate_dependent();
   }
-  /// True if its springs are compliance of the structure: results contain the motion of the touching surfaces.
+  /// True if the contact's springs are compliance of the structure: results contain the motion of the
+  /// touching surfaces.
   [[nodiscard]] bool compliance_split() const { return law->capabilities.compliance_split; }
 
   /// True without a spring along the tangent: T may jump, and stick is a row on accelerations.

@@ -47,12 +47,12 @@ struct LawCapabilities {
   bool normal_spring = false;
   /// g = 0 is a constraint while the contact is closed: velocities jump when it closes with g' < 0.
   bool takes_impulses = false;
-  /// The law obeys Signorini's conditions (6) and Coulomb's (7): they are audited and checked by the law checker,
-  /// N = kn g + cn g' is its spring, T = kt (ut - p) that of its anchor, and each state is one of the built-in ones.
+  /// The law obeys Signorini's conditions (6) and Coulomb's (7): they are audited, and the law checker checks
+  /// them. Springs are N = kn g + cn g' and T = kt (ut - p). Each state is a built-in one.
   bool signorini_coulomb = true;
   /// Guards are linear forms; otherwise they may contain products of forms.
   bool linear_guards = true;
-  /// Its springs are compliance of the structure: results contain the motion of the touching surfaces.
+  /// The law's springs are compliance of the structure: results contain the motion of the touching surfaces.
   bool compliance_split = false;
   /// Numbers of its forces along the surface and of its guards, for ForceLayout.
   std::uint32_t tangents = 1, guards = 3;
@@ -90,19 +90,21 @@ class ContactLaw {
   [[nodiscard]] virtual bool is_named() const { return true; }
 
   // Interface for advancing and deciding. Functions of the same names in src/contact call these.
+  /// The two residual rows in this state.
   [[nodiscard]] virtual Rows rows(const Contact& contact, const ContactState& state) const = 0;
+  /// Guards of this state; unused entries have the kind Guard::none.
   [[nodiscard]] virtual Guards guards(const Contact& contact, const ContactState& state) const = 0;
   /// p' as a form, in a state that slips in direction s.
   [[nodiscard]] virtual Form slip_rate(const Contact& contact, int s) const = 0;
   /// State after a guard of `now` has reached zero; the motion is the one in state `now`.
   [[nodiscard]] virtual ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                                 const MotionJet& jet) const = 0;
-  /// All states that may follow if guards do not decide.
+  /// All states that may follow if guards do not decide; `before` is the motion just before the instant.
   [[nodiscard]] virtual std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
                                                              const ContactMotion& before) const = 0;
 
   // Energy and conditions: src/contact/work.hpp, law.hpp.
-  /// The slip rate with which T does the work of ContactWork::friction.
+  /// Slip rate by which T is multiplied in the power of ContactWork::friction.
   [[nodiscard]] virtual double working_slip_rate(const Contact& contact, State state,
                                                  const ContactMotion& m) const = 0;
   [[nodiscard]] virtual ContactWork work(const Contact& contact, State state, double N, double T,
@@ -113,12 +115,12 @@ class ContactLaw {
                                               const ContactMotion& m) const = 0;
 
   // States and numbers of the law itself, in addition to those of Contact.
-  /// States of a user law, in order: files contain their numbers, a run begins with one of them. Empty: the built-in
-  /// states.
+  /// States of a user law in their order, which gives them their numbers in files; a run begins with one of
+  /// them. Empty: the law has the built-in states.
   [[nodiscard]] virtual std::vector<State> user_law_states() const { return {}; }
   /// True if events set p by a rule of the law.
   [[nodiscard]] virtual bool has_memory() const { return false; }
-  /// Copy of the law with its numbers visited; nullptr: it has none.
+  /// Copy of the law after `visit` was called for each of its constants; nullptr: the law has no constants.
   [[nodiscard]] virtual std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const;
   [[nodiscard]] virtual bool equals(const ContactLaw& other) const { return this == &other; }
 };
@@ -140,7 +142,7 @@ class ContactLawPtr {
   std::shared_ptr<const ContactLaw> law_;
 };
 
-/// A rigid contact on massless parts: a compliant one whose springs are compliance of the structure
+/// Law of a rigid contact on massless parts: a compliant law whose springs are compliance of the structure
 /// (model/compliance_split.hpp).
 [[nodiscard]] ContactLawPtr compliance_split_law();
 

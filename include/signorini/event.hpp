@@ -56,7 +56,7 @@ struct Event {
   double t = 0.0;
   int contact = -1;  ///< index into Model::contacts
   EventType type = EventType::time;
-  State from = State::open, to = State::open;  ///< states; for a user law its own (number_of)
+  State from = State::open, to = State::open;  ///< a user law has states of its own
   std::optional<double> gap;                   ///< absent for sliders
   double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
   double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;

@@ -28,18 +28,19 @@ enum class State : unsigned char {
   static_limit_minus
 };
 
-/// State i of a user law (user_contact_law.hpp), 0 to max_user_law_states - 1, of this kind. It equals no built-in
-/// state, and counts as its kind wherever a kind is needed.
 inline constexpr std::size_t max_user_law_states = 31;
+/// State i of a user law (user_contact_law.hpp), 0 <= i < max_user_law_states, of this kind. It equals no
+/// built-in state, and counts as its kind wherever a kind is needed.
 [[nodiscard]] constexpr State user_law_state(std::size_t i, State kind) {
   return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));
 }
 [[nodiscard]] constexpr bool is_user_law_state(State state) { return static_cast<unsigned>(state) >= 8U; }
-/// Number of a user-law state in its law.
+/// Inverse of user_law_state(): the number of the state in its law.
 [[nodiscard]] constexpr std::size_t user_law_state_number(State own) {
   return static_cast<unsigned>(own) / 8U - 1U;
 }
-/// Kind of any state: open, closed, stick or slip.
+/// Kind of any state: a user-law state has the kind that its law gives it, a static limit counts as slip in
+/// its direction, any other state is its own kind.
 [[nodiscard]] constexpr State kind_of(State state) {
   const unsigned kind = static_cast<unsigned>(state) % 8U;
   return static_cast<State>(kind < 6U ? kind : kind - 2U);
@@ -109,7 +110,7 @@ struct Form {
   }
 };
 
-/// a b, each with its constant.
+/// The product of two forms, each with its constant.
 struct FormProduct {
   Form a, b;
   [[nodiscard]] bool operator==(const FormProduct&) const = default;

@@ -19,9 +19,9 @@
 
 namespace signorini {
 
-/// The derivative of this order at t of a user-defined function; order 0: its value. Decisions need orders up to 8,
-/// motions of supports up to 10. Return 0 for unknown orders; decisions that depend on them then are left to rounding.
-/// The function must be pure: the same result for the same t on every call.
+/// Derivative of the given order, at t, of a user-defined function; order 0: its value. Decisions need orders
+/// up to 8, motions of supports up to 10. Return 0 for unknown orders; rounding then decides where a decision
+/// depends on them. The function must be pure: the same result for the same t on every call.
 using Function = std::function<double(double t, int order)>;
 
 /// One smooth piece. Units: those of f; times in the scene's unit of time.

@@ -98,9 +98,8 @@ struct StaticStart {
   bool frictional = false;
   std::vector<StageEvent> events;  ///< frictional
   std::vector<StageEnd> stages;    ///< frictional
-  std::vector<std::string>
-      undetermined;  ///< frictional: quantities that the data do not determine, one sentence
-                     ///< each
+  /// frictional: quantities that the data do not determine, one sentence each
+  std::vector<std::string> undetermined;
 };
 
 /// Force of a spring with a preload: cold (undeformed structure) and at t = 0.
@@ -162,12 +161,12 @@ struct Reduction {
   int massless_shapes = 0, massive_shapes = 0;  ///< shapes for the static compliance of the left-out modes
   double highest_kept = 0.0;                    ///< rad per time; 0: rigid-body motions only
   double first_truncated = 0.0;                 ///< rad per time; 0: none
-  double highest_massive = 0.0;                 ///< rad per time, highest frequency of the massive shapes; 0:
-                                                ///< none
-  std::vector<ComplianceShare> shares;          ///< contacts, then loads
+  double highest_massive = 0.0;         ///< rad per time, highest frequency of the massive shapes; 0: none
+  std::vector<ComplianceShare> shares;  ///< contacts, then loads
   /// Amplitude at named nodes of the left-out modes after jumps of the loads; length.
   double ringing = 0.0;
-  /// Largest relative part of the initial displacement (velocity) that is lost; rotations as lengths, by the scales.
+  /// Largest part of the initial displacement (velocity) that the reduced model cannot represent; the scales
+  /// convert rotations to lengths. Units: length, length/time.
   double initial_displacement_lost = 0.0, initial_velocity_lost = 0.0;
   std::optional<double> tolerance;  ///< tolerance for which the cutoff was found
   std::vector<CutoffTrial> trials;
@@ -235,14 +234,13 @@ struct Model {
   bool static_start = false;
   StaticStart statics;
   std::vector<HangerLoad> hangers;
-  /// Contact states at the end of the run that this one continues, one per contact; empty: it continues none of the
-  /// same structure, or that run recorded no contacts.
+  /// Contact states at the end of the run that this run continues, one per contact. Empty: this run continues
+  /// no run of the same structure, or that run recorded no contacts.
   std::vector<SavedState::FinalContact> saved_contacts;
   Scales scales;
   double alpha = 0.0, beta = 0.0;  ///< Rayleigh factors in use
-  double omega1 = 0.0;             ///< lowest circular frequency with initially closed contacts closed; 0:
-                                   ///< none
-  double omega_max = 0.0;          ///< highest circular frequency with all contact springs acting
+  double omega1 = 0.0;     ///< lowest circular frequency with initially closed contacts closed; 0: none
+  double omega_max = 0.0;  ///< highest circular frequency with all contact springs acting
   std::optional<Reduction> reduction;
   /// Valid but suspicious input, one sentence each; the first warnings of every run.
   std::vector<std::string> warnings;
@@ -264,7 +262,7 @@ struct Model {
     const Vector x = structural(u);
     return ties ? ties->with_tied(x) : x;
   }
-  /// Same without tied nodes.
+  /// Same as physical(u), but without the nodes tied to rigid bodies.
   [[nodiscard]] Vector structural(const Vector& u) const {
     Vector x = u;
     if (reduction)
@@ -273,7 +271,7 @@ struct Model {
       x.head(basis->rows()) = *basis * u.head(basis->cols());
     return x;
   }
-  /// Displacements (order 0) or velocities (order 1) at time t.
+  /// Displacements (order 0) or velocities (order 1) of physical_dofs() at time t, all terms included.
   [[nodiscard]] Vector physical(const Vector& u, double t, int order) const {
     Vector x = structural(u);
     for (const LoadCorrection& seen : load_corrections) {
@@ -286,7 +284,8 @@ struct Model {
       x[ties->rows.cols() + g.tied] += g.motion.piece(t).value(t, order);
     return x;
   }
-  /// Structure's energy and work of loads are lower than the computed ones by this amount.
+  /// Amount by which the structure's energy and the work of loads are lower than the computed ones
+  /// (LoadCorrection).
   [[nodiscard]] double correction_energy(double t) const {
     double sum = 0.0;
     for (const LoadCorrection& a : load_corrections)

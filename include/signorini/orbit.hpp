@@ -106,9 +106,9 @@ struct BranchOptions {
   OrbitOptions orbit = {};
   std::string path;  ///< path of the key; "energy": energy of conservative motions (OrbitOptions::energy)
   double from = 0.0, to = 0.0;  ///< first and last value of the parameter
-  double step =
-      0.02;  ///< largest step, relative to the range; changes of the state, relative to the amplitude, count
-             ///< as well
+  /// Largest step: change of the parameter relative to its range, together with the change of the state
+  /// relative to the amplitude.
+  double step = 0.02;
   int most_points = 1000;  ///< limit for each branch
   /// Number of successive branch switches: at a flip to the branch of twice the period, and at branch points. 0: the
   /// first branch alone.
@@ -125,15 +125,16 @@ struct BranchPoint {
   double max_multiplier = 0.0, multiplier_error = 0.0, residual = 0.0;
   std::optional<bool> stable;
   OrbitLoss loss = OrbitLoss::none;
-  int sequence =
-      0;  ///< number of the sequence of events, from 1, in the order of first occurrence on the branch
+  /// Number of the sequence of events, from 1, in the order of first occurrence on the branch.
+  int sequence = 0;
   long events = 0;  ///< number in one period
   int branch = 1;   ///< 1: the first branch; others as in Branch::sides
-  /// A located point: "fold" (the parameter turns), "flip", "neimark-sacker", "branch point", "sequence" (the last
-  /// point with its sequence), "end" (no step continues, as at a graze where two orbits meet and vanish). Otherwise a
-  /// change between the point before and this one: "fold" (the parameter turns at a corner of the branch, where the
-  /// sequence changes), "stability" (gained or lost), "sequence", "restart" (the branch before could not be continued);
-  /// "switched": the first point off the branch that it leaves. Several are joined with "+".
+  /// Reasons why the point is special, joined with "+"; empty: none.
+  /// At a located point: "fold" (the parameter reverses its direction), "flip", "neimark-sacker", "branch
+  /// point", "sequence" (the last point with its sequence), "end" (no step continues, as at a graze where two
+  /// orbits meet and vanish). Elsewhere a change since the point before: "fold" (the parameter reverses at a
+  /// corner of the branch, where the sequence changes), "stability" (gained or lost), "sequence", "restart"
+  /// (the branch before could not be continued), "switched" (the first point of a side branch).
   std::string special;
 };
 
@@ -159,8 +160,9 @@ struct Branch {
   std::vector<SideBranch> sides;         ///< in the order in which they were followed
 };
 
-/// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. seen: called for every point; may stop.
-/// Errors: those of find_orbit; UsageError for a key that is not a number.
+/// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. `seen` is called for every
+/// point. `recorder`: as for find_orbit. Errors: those of find_orbit; UsageError for a key that is not a
+/// number.
 [[nodiscard]] Branch continue_branch(const SceneReader& read, const BranchOptions& options,
                                      Recorder* recorder = nullptr,
                                      const std::function<void(const BranchPoint&)>& seen = {});

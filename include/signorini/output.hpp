@@ -3,7 +3,7 @@
 //   r(t) = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant + loss of a contact
 //          + sum_k c_k ( |N| - N_0 ) t.u                 of pendulums whose force varies
 //
-// Envelopes and largest stresses are the maximum of |r| over points on stretches of members at which r is known.
+// Envelopes and largest stresses are the maximum of |r| over segments of members (Output::Segment).
 //
 // u, v, a are forms on the model's degrees of freedom. Given terms (loads within a member, moving supports, base
 // motion) are in the histories h_i, weight is in the constant. All terms have the unit of the output. A term of a load
@@ -33,8 +33,8 @@ struct Output {
   struct Restoring {
     std::size_t contact = 0;
     Combination slip = {};
-    double factor = 0.0,
-           scene_force = 0.0;  ///< factor: unit of the output over force and length; scene_force: force
+    /// factor: unit of the output / (force length); scene_force: force
+    double factor = 0.0, scene_force = 0.0;
   };
   std::vector<Restoring> restoring = {};
   struct Given {
@@ -45,10 +45,10 @@ struct Output {
   };
   std::vector<Given> given = {};
   double constant = 0.0;
-  std::optional<std::size_t> loss = {};  ///< index of the contact whose friction loss this is; other terms
-                                         ///< are then ignored
-  /// Linear outputs at the points (base/curves.hpp) of a finite element, r being a polynomial through them; or at one
-  /// place.
+  /// Index of the contact whose friction loss this output is; other terms are then ignored.
+  std::optional<std::size_t> loss = {};
+  /// Linear outputs at the points (base/curves.hpp) of a finite element, on which r is the polynomial through
+  /// them; or one linear output at one place.
   struct Segment {
     std::vector<Output> at;
     std::string from, to;           ///< nodes of the piece

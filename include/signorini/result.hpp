@@ -19,7 +19,7 @@
 
 namespace signorini {
 
-/// One contact at an output time.
+/// One contact at an output time. Signs: docs/theory.md. slip: p; N and T: force.
 struct ContactSample {
   State state = State::open;
   double gap = 0.0, ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
@@ -91,24 +91,21 @@ struct InstantImpact {
 struct InstantRow {
   double t = 0.0;
   double resolution = 0.0;  ///< times closer than this are one instant
-  double tolerated_violation =
-      0.0;  ///< violation of the states that were accepted as undecided, in units of their
-            ///< rounding errors
-  double eigenvector_condition =
-      1.0;                  ///< engine `exact`: condition of the modes, the factor by which roundings of
-                            ///< modal sums grow
+  /// Violation of the states that were accepted as undecided, in units of their rounding errors.
+  double tolerated_violation = 0.0;
+  /// Engine `exact`: condition of the mode shapes, the factor by which rounding errors of modal sums grow.
+  double eigenvector_condition = 1.0;
   bool start = false;       ///< start of the run
   bool breakpoint = false;  ///< the forcing is not smooth here
   bool load_jumps = false;
-  bool located =
-      true;  ///< a guard is zero here; false: the instant is the end of a step at which a change of states
-             ///< was found
+  /// A guard is zero here; false: the instant is the end of a step at which a change of states was found.
+  bool located = true;
   InstantSide before, after;
   std::vector<InstantImpact> impacts;
   /// Impulses along n and t beyond the impact law, in the order of forces: they bring persistent contacts to rest and
   /// remove the remainder that rounding and tolerances leave in velocities that are zero. Empty: none.
   Vector capture_impulses;
-  std::vector<int> released;  ///< contacts that parts without mass leave immediately
+  std::vector<int> released;  ///< contacts from which parts without mass separate at once
 };
 
 /// Changes that an observer may make during a run.
@@ -157,9 +154,9 @@ struct Outcome {
   Refusal refusal;     ///< details if states could not be decided
 };
 
-/// Largest violation of a condition, where it occurred, and the scale that it is relative to.
+/// Largest violation of a condition, its time and its contact.
 struct Extreme {
-  double value = 0.0;  ///< in the unit of the scale
+  double value = 0.0;  ///< in the unit that Audit gives
   double t = 0.0;
   int contact = -1;
 };
@@ -187,7 +184,9 @@ struct Counters {
   long error_test_failures = 0, convergence_failures = 0, guard_evaluations = 0, restarts = 0;
   long rolled_back = 0;  ///< events that lay inside a step and were found by the polynomial check
   long time_events = 0;
-  // exact in modes: combinations of contact states, verified stretches, segments computed with the Taylor series
+  // `exact` in modes: number of contact states (of all contacts together), of intervals in which the modes
+  // gave the first event or proved that there is none, and of segments computed with the Taylor series
+  // instead.
   long contact_states = 0, proof_steps = 0, fallbacks = 0;
   std::map<int, long> steps_by_order;
 };
@@ -203,8 +202,8 @@ struct TimedExtreme {
   double value = 0.0, t = 0.0;
 };
 
-/// Forces and slip of a support, with signs, over all steps and instants (those of Peak included). least N: the largest
-/// compression. Slip is the slip of the contact, in the state before the run's first event and at the end.
+/// Extreme forces and slip of a contact, with signs, over all steps and instants (those of Peak included).
+/// min_N is the largest compression. Slip is taken in the state before the run's first event, and at the end.
 struct SupportLoad {
   TimedExtreme min_N, max_N, min_T, max_T;
   double slip_at_start = 0.0, slip_at_end = 0.0;
@@ -224,8 +223,8 @@ struct OutputPlace {
   double station = 0.0;
 };
 
-/// Extremes of one output over the whole motion, not only at its rows, and its last value. For an output with stretches
-/// the extremes are signed and cover all places; its values are magnitudes.
+/// Extremes of one output over the whole motion, not only at its rows, and its last value. For an output with
+/// segments the extremes are signed and cover all places; the values in rows are magnitudes.
 struct OutputExtremes {
   double maximum = 0.0, minimum = 0.0, last = 0.0;  ///< in the unit of the output
   double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, if several are equal to rounding
@@ -259,7 +258,8 @@ struct Violation {
 
 /// Results of the law checker of a run.
 struct LawCheckSummary {
-  long checked = 0, violated = 0;     ///< number of checked instants and stretches; number of all violations
+  /// Number of checked instants and of checked motions between instants; number of all violations.
+  long checked = 0, violated = 0;
   std::vector<Violation> violations;  ///< the first hundred
 };
 
@@ -275,7 +275,7 @@ struct Report {
   std::vector<OutputExtremes> response;        ///< one per output
   std::map<std::string, long> events_by_type;
   long undecided = 0;  ///< decisions left open by rounding: the states with the smallest violation were taken
-  /// First time at which rounding left states open that affect the later motion; empty: never.
+  /// First time at which rounding left states undecided that affect the later motion; empty: never.
   std::optional<double> first_undecided;
   LawCheckSummary law_checks;
   std::vector<std::string> warnings;  ///< one sentence each

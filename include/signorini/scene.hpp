@@ -109,8 +109,8 @@ struct RunSpec {
   std::vector<double> frames = {};    ///< times of deformed shapes, strictly ascending, in [0, t_end]
   std::optional<int> max_order = {};  ///< ida: 1 to 5; absent: "auto"
   int max_events_at_once = 100;       ///< rounds of state changes at one instant before the run stops
-  std::optional<double> dt = {};      ///< newmark, friction-iteration: the step; with doubling: the largest
-                                      ///< one
+  /// newmark, friction-iteration: the step; with doubling: the largest step
+  std::optional<double> dt = {};
   Refine refine = Refine::root;
   StepControl step = StepControl::fixed;
   Flow flow = Flow::automatic;
@@ -131,9 +131,9 @@ struct RunSpec {
 /// A stage of a frictional start: these loads grow slowly from their previous values to their values at t = 0.
 struct StageSpec {
   std::string name;
-  std::vector<std::string> loads;  ///< names as in Model::loads, or "temperature", "supports" for all loads
-                                   ///< of that kind
-  int steps = 1;                   ///< number of parts of the stage; the state is reported after each
+  /// Names as in Model::loads, or "temperature", "supports" for all loads of that kind.
+  std::vector<std::string> loads;
+  int steps = 1;  ///< number of parts of the stage; the state is reported after each
   SourcePlace place;
   std::vector<SourcePlace> load_places = {};  ///< one per load
 };
@@ -157,8 +157,8 @@ struct Prestress {
 /// State at the end of a run: all data needed to continue its motion.
 struct SavedState {
   std::string run;  ///< directory
-  std::vector<std::pair<std::string, double>>
-      motions;  ///< by name: displacements, velocities (scene/saved_state.hpp)
+  /// By name: displacements, velocities and other columns (scene/saved_state.hpp).
+  std::vector<std::pair<std::string, double>> motions;
   std::vector<std::pair<std::string, double>> shears;  ///< T of contacts by name
   std::vector<std::pair<std::string, int>> slips;      ///< slip direction of contacts by name: -1, 0, 1
   struct UserLawMemory {
@@ -168,7 +168,7 @@ struct SavedState {
   };
   std::vector<UserLawMemory> user_law_states;  ///< contacts with user laws
   double t = 0.0;                              ///< time of the state, in the run's time
-  /// A row of the run's contacts.csv at t: initial data of the contacts, whatever columns states.csv has.
+  /// A row of the run's contacts.csv at t; it does not depend on the columns of states.csv.
   struct FinalContact {
     std::string contact, state;
     std::optional<double> gap;
@@ -179,11 +179,10 @@ struct SavedState {
   /// angular velocity, force.
   std::optional<std::array<double, 5>> scales;
   std::optional<Prestress> prestress;  ///< forces of the run, if it had run.geometric
-  std::vector<std::pair<std::string, double>>
-      pendulum_forces;  ///< carried loads of pendulums in the run's K, by
-                        ///< name
-  std::vector<std::string>
-      structure_differences;  ///< tables in which the structure of the run's scene differs
+  /// Carried loads of pendulums in the run's K, by name.
+  std::vector<std::pair<std::string, double>> pendulum_forces;
+  /// Tables in which the structure of the run's scene differs from this scene's.
+  std::vector<std::string> structure_differences;
 };
 
 /// Initial state: "static" or "frictional", the state of another run, or explicit values, by degree of freedom in the
@@ -216,11 +215,12 @@ struct DampingSpec {
 struct CutoffTrial {
   double cutoff_omega = 0.0;  ///< rad per time
   int modes = 0;              ///< kept
-  double missed = 0.0;        ///< relative contribution of the left-out modes to the response
-                              ///< (study/reduction)
-  double moved = 0.0;         ///< relative, largest difference of displacements from the next trial; 0: none
-  double error = 0.0;         ///< moved plus the error bound of the next trial; missed if there is no next
-                              ///< trial
+  /// Relative contribution of the left-out modes to the response (study/reduction).
+  double missed = 0.0;
+  /// Relative, largest difference of displacements from the next trial; 0: there is no next trial.
+  double moved = 0.0;
+  /// Error bound: `moved` plus the error bound of the next trial; `missed` if there is no next trial.
+  double error = 0.0;
 };
 
 /// Modes up to the cutoff are kept; for the others only their static compliance (model/reduce/reduction.hpp).
@@ -248,7 +248,7 @@ struct Node {
 enum class MassKind { consistent, lumped };
 enum class MemberType { beam, bar };
 
-/// Present if the pieces of a member are arcs.
+/// A bend: the pieces of the member are arcs.
 struct Bend {
   double radius = 0.0;           ///< > 0: the arc turns left on its way from node to node
   double flexibility = 1.0;      ///< EI is divided by it
@@ -266,7 +266,7 @@ struct Member {
   std::vector<std::string> release = {};             ///< first or last node, or both, with a hinge
   double thermal_expansion = 0.0;                    ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
-  HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: too long
+  HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: elongation
   std::optional<Bend> bend = {};                     ///< absent: straight pieces
 };
 
@@ -280,8 +280,7 @@ struct BodySpec {
   MassKind mass = MassKind::consistent;
   double thermal_expansion = 0.0;                 ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();  ///< above that of the undeformed state
-  std::vector<int> massless = {};                 ///< nodes whose mass is moved to others (contact_mass =
-                                                  ///< "none")
+  std::vector<int> massless = {};  ///< nodes whose mass is moved to others (contact_mass = "none")
   SourcePlace place = {};
 };
 
@@ -361,8 +360,8 @@ struct Support {
 /// Coefficients of friction, of a scene and of its contacts.
 struct Friction {
   double static_ = 0.0;  ///< |T| <= static |N| in stick
-  double kinetic =
-      0.0;  ///< |T| = kinetic |N| in slip; for rising friction: the limit for fast slip, at least static_
+  /// |T| = kinetic |N| in slip; for rising friction: the limit for fast slip, at least static_
+  double kinetic = 0.0;
   /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) while slipping
   std::optional<double> stribeck_velocity = {};
   /// f = fast - (fast - slow) exp(-|p'| / velocity) while slipping; static_ is slow, kinetic is fast
@@ -385,7 +384,7 @@ struct Friction {
   [[nodiscard]] double decay_velocity() const { return velocity ? *velocity : stribeck_velocity.value(); }
 };
 
-/// Key, below `friction`, and unit of a constant beside the two coefficients.
+/// A constant of friction besides the two coefficients: its key below `friction`, its member and its unit.
 struct FrictionConstant {
   std::string_view key;
   std::optional<double> Friction::*value;
@@ -416,13 +415,13 @@ struct ContactSpec {
   HistorySpec normal_force = HistorySpec::zero();      ///< slider: compression, positive
   HistorySpec surface_velocity = HistorySpec::zero();  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
-  double restitution = 0.0;                     ///< rigid: Newton's coefficient, 0 to 1
-  std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds come to rest; absent: from the
-                                                ///< tolerances
+  double restitution = 0.0;  ///< rigid: Newton's coefficient, 0 to 1
+  /// rigid: slower rebounds come to rest; absent: the tolerances give the limit
+  std::optional<double> capture_velocity = {};
   SourcePlace place = {};
-  std::optional<CurvedSurface> pendulum_surface =
-      {};                  ///< surface of a pendulum; `nominal_force` is part of the springs
-  std::string table = {};  ///< its table, "contacts.first", "stops.guide"; empty: contacts.NAME
+  /// Surface of a pendulum; the stiffness nominal_force / radius is one of the scene's springs.
+  std::optional<CurvedSurface> pendulum_surface = {};
+  std::string table = {};  ///< table of the contact: "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// User law in place of the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
   std::shared_ptr<const UserContactLaw> user_law = {};
@@ -463,10 +462,9 @@ struct LoadSpec {
   std::string name = {};  ///< name in results and stages; empty: "load 1", by its number
   LoadType type = LoadType::force;
   std::vector<std::string> pieces = {};  ///< distributed: nodes; consecutive ones span a piece of a member
-  bool member_axes = false;              ///< distributed: direction has the axes of the piece (along, to the
-                                         ///< left)
-  std::string group = {};                ///< traction: "BODY.GROUP"
-  bool pressure = false;  ///< traction: against the outward normal instead of along a direction
+  bool member_axes = false;  ///< distributed: direction in the axes of the piece (along, to the left)
+  std::string group = {};    ///< traction: "BODY.GROUP"
+  bool pressure = false;     ///< traction: against the outward normal instead of along a direction
 };
 
 /// Kind of an [[output]]; each has a row in all_output_kinds.
@@ -483,7 +481,8 @@ enum class OutputKind : unsigned char {
   contact,
   combination
 };
-/// Members: N, V, M, stress; bodies: xx, yy, xy; contacts: the others, and N.
+/// Quantity of an output. Members have N, V, M and stress; bodies xx, yy and xy; contacts N, T, gap, slip and
+/// loss.
 enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress, xx, yy, xy };
 /// True for a component of the stress at a node of a body.
 [[nodiscard]] constexpr bool is_of_body(OutputQuantity q) {
@@ -590,8 +589,8 @@ struct Scene {
 /// One `--set path=value`.
 struct Override {
   std::string path, value;
-  std::string shown_as =
-      {};  ///< text of the override in messages, as the user typed it; empty: --set path=value
+  /// Text of the override in messages, as the user typed it; empty: --set path=value.
+  std::string shown_as = {};
 };
 
 /// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError,

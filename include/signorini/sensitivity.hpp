@@ -73,8 +73,8 @@ inline constexpr std::array event_rate_columns = {
     EventRateColumn{"dimpulse_t_dp", "impulse_t", &EventRates::impulse_t},
 };
 
-/// A scalar result of a contact: its peak and time, or its residual value at the end; with losses also results of the
-/// run.
+/// A scalar result of a contact: a peak with its time, or a residual value at the end. With losses also
+/// scalar results of the run.
 struct Response {
   /// "peak N", "peak T", "peak normal", "peak tangential", "rest tangential", "rest slip", "lost by friction"; for the
   /// run: "lost by damping", "lost by impacts", "work of loads", "work of surfaces", "lost by friction"
@@ -88,6 +88,7 @@ struct Response {
 struct LandingRates {
   double start = 0.0, end = 0.0, impulse = 0.0, peak_force = 0.0;
 };
+/// A contact phase with its derivatives.
 struct MovingLanding {
   int contact = -1;
   Landing value;
@@ -96,19 +97,20 @@ struct MovingLanding {
 
 /// Options beyond the derivatives of the motion.
 struct SensitivityOptions {
-  /// Works, losses, energies at output times and landings. Every stretch then is followed along series; the cost is
-  /// about one run in series for each parameter.
+  /// Also derivatives of works, losses, energies at output times and landings. The tangent motion is then
+  /// computed along series everywhere; the cost is about one run in series for each parameter.
   bool losses = false;
-  /// For engine `newmark`: derivatives of the discrete solution, steps included, not of the exact motion. Events, peaks
-  /// at events, and columns; no peaks between events. Not with losses.
+  /// For engine `newmark`: derivatives of the discrete solution, steps included, not of the exact motion.
+  /// They exist for events, peaks at events, and columns, not for peaks between events. Excludes `losses`.
   bool discrete = false;
 };
 
-/// Number of stretches between two events, followed in modes and along series. For engines without series (`ida`,
-/// `newmark`) the stretches are recomputed by a separate motion that takes the sequence of guards from the engine.
+/// Number of motions between two instants whose derivatives were computed in modes and along series;
+/// `followed` of them along a recomputed motion. Engines without series (`ida`, `newmark`) need it: a
+/// separate motion that takes the sequence of guards from the engine.
 struct Stretches {
   long modes = 0, series = 0, followed = 0;
-  long taken = 0;           ///< instants at which it restarted from the engine's state
+  long taken = 0;           ///< instants at which the recomputed motion restarted from the engine's state
   double correction = 0.0;  ///< largest difference of an event's time from the engine's
 };
 
@@ -117,11 +119,10 @@ struct Sensitivities {
   std::vector<std::string> contacts;  ///< names
   std::vector<Event> events;
   std::vector<std::vector<EventRates>> event_rates;  ///< [event][parameter]
-  std::vector<std::string>
-      columns;                ///< columns of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap"; with
-                              ///< losses
-                              ///< "energy.kinetic" and so on, as in energy.csv
-  std::vector<double> times;  ///< the grid
+  /// Columns of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap" of each contact; with losses then
+  /// "energy.kinetic" and so on, as in energy.csv.
+  std::vector<std::string> columns;
+  std::vector<double> times;                                  ///< the grid
   std::vector<std::vector<double>> values;                    ///< [time][column]
   std::vector<std::vector<std::vector<double>>> value_rates;  ///< [parameter][time][column]
   std::vector<Response> responses;

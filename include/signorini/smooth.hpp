@@ -106,7 +106,8 @@ class TaylorNumber {
   std::array<double, count> c_{};
 };
 
-/// Orders above the highest known one are 0.
+/// Function for History from f, which is called with a TaylorNumber. Orders from TaylorNumber::count on are
+/// 0.
 template <class F>
 [[nodiscard]] Function smooth(F f) {
   return [f](double t, int order) -> double {

@@ -19,7 +19,8 @@ struct RunSpec;
 struct Report;
 class Recorder;
 
-/// A guard by its contact; name as in messages: "gap", "compression", "slip rate".
+/// A guard of a contact that failed or was triggered; its name is that in messages: "gap", "compression",
+/// "slip rate".
 struct NamedGuard {
   std::size_t contact = 0;
   std::string guard;
@@ -35,7 +36,7 @@ struct DecisionRound {
   std::vector<std::size_t> touching;  ///< rigid contacts with g = 0 that were decided together
   bool impact = false;                ///< velocities jumped before the contact state was tried
   std::vector<ContactState> states;   ///< one per contact
-  std::vector<NamedGuard> failed;     ///< empty: the mode holds
+  std::vector<NamedGuard> failed;     ///< empty: the contact state holds
 };
 
 using RoundListener = std::function<void(const DecisionRound&)>;
@@ -44,7 +45,7 @@ using RoundListener = std::function<void(const DecisionRound&)>;
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               const RoundListener& listener);
 
-/// Reason why no mode, or no unique mode, was found, or why the search does not progress.
+/// Reason why no contact state, or no unique one, was found, or why the search does not progress.
 struct Refusal {
   enum class Kind : unsigned char {
     none,       ///< there is no refusal

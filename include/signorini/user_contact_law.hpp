@@ -30,15 +30,15 @@
 
 namespace signorini {
 
-/// form + memory p.
+/// The value form + memory p.
 struct UserLawForm {
   Form form;
-  double memory = 0.0;  ///< times p
+  double memory = 0.0;  ///< factor of p
 };
 
 struct UserLawGuard {
   UserLawForm positive;                    ///< while the state holds
-  std::size_t next = 0;                    ///< the state after it has reached zero
+  std::size_t next = 0;                    ///< the state after the guard has reached zero
   std::optional<Form> memory = {};         ///< p from then on; absent: unchanged
   std::vector<FormProduct> products = {};  ///< to be added to `positive`: F^2 - T^2 = (F - T)(F + T)
 };
@@ -51,8 +51,7 @@ struct UserLawState {
 };
 
 struct UserContactLaw {
-  std::string name = {};  ///< name in check, messages and summary.json; empty: "compliant", like its
-                          ///< springs
+  std::string name = {};             ///< name in check, messages and summary.json; empty: "compliant"
   std::vector<UserLawState> states;  ///< at most max_user_law_states; a run begins in the first one
 };
 

@@ -1,9 +1,4 @@
-// containers.hpp: least-recently-used cache with bounded count and size.
-//
-//   if (Value* known = cache.find(key)) use(*known); else use(cache.insert(key, make(key), bytes));
-//
-// Bounded by number of entries and by bytes: the least recently used entry is removed first. The last inserted entry
-// always stays, whatever its size. References are valid until the next insert.
+// containers.hpp: a bounded cache, disjoint sets, and a copy-on-write vector.
 #pragma once
 
 #include <algorithm>
@@ -21,15 +16,22 @@ struct CacheLimits {
   std::size_t count = 0, bytes = 0;
 };
 
+// Least-recently-used cache with bounded count and size.
+//
+//   if (Value* known = cache.find(key)) use(*known); else use(cache.insert(key, make(key), bytes));
+//
+// Beyond either bound the least recently used entries are removed first. The last inserted entry always
+// stays, whatever its size. References are valid until the next insert.
+
 template <class Key, class Value>
 class LruCache {
  public:
   explicit LruCache(CacheLimits most) : most_(most) {}
-  // The index refers to the list.
+  // Not copied: the iterators of the index refer to this list.
   LruCache(const LruCache&) = delete;
   LruCache& operator=(const LruCache&) = delete;
 
-  /// nullptr if the key is absent.
+  /// Value of the key, which becomes the most recently used one; nullptr if the key is absent.
   [[nodiscard]] Value* find(const Key& key) {
     const auto known = index_.find(key);
     if (known == index_.end()) return nullptr;

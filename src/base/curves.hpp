@@ -7,9 +7,9 @@
 //            Markl 2014; lines between bins are those of all rows);   w = duration / 10000, doubled as often as
 //            needed up to duration / 1250
 //
-// Rows are processed once for each c, and once more at the end: a dropped row is at most 3 c, 0.3 % of the range, off
-// the lines, or within a bin whose extremes are drawn. 0.3 % is half a pixel of a panel of 170 pixels; the widest
-// picture has a panel of 1234 pixels.
+// Rows are processed once for each c, and once more at the end. So a dropped row lies at most 3 c, 0.3 % of
+// the range, off the lines, or within a bin whose extremes are drawn. 0.3 % is half a pixel of a panel of 170
+// pixels; the widest picture has a panel of 1234 pixels.
 #pragma once
 
 #include <algorithm>
@@ -46,8 +46,8 @@ struct PolynomialInterpolation {
   [[nodiscard]] static Extremes extremes(const Values& f, std::size_t n);
 };
 
-/// Values{}(row): an array of `count` quantities; bins keep the extremes of the first `drawn`. Rows have an ascending
-/// time t; it may repeat.
+/// Rows reduced by lines and bins as above. Values{}(row) is an array of `count` quantities; bins keep the
+/// extremes of the first `drawn`. Rows have an ascending time t; it may repeat.
 template <class Row, std::size_t count, class Values, std::size_t drawn = count>
 class Downsampled {
  public:
@@ -58,9 +58,9 @@ class Downsampled {
     std::size_t max_rows = 8000;
     /// Never more than max_rows: bins become as wide as necessary.
     bool crowded = false;
-    /// Lines keep both of two rows with the same time.
+    /// True: lines keep both of two rows with the same time.
     bool both_sides = false;
-    /// Lines leave no gap of more than this.
+    /// Largest time between two rows that lines keep.
     double widest = std::numeric_limits<double>::infinity();
   };
   Downsampled(double duration, const Options& wanted)
@@ -96,7 +96,7 @@ class Downsampled {
     return rows_.empty() ? 0.0 : std::max(std::abs(least_[i]), std::abs(greatest_[i]));
   }
 
-  /// To be called at the end. Differences up to `floors` count as none.
+  /// Must be called after the last row. Differences up to `floors` count as zero.
   void close(const Quantities& floors) {
     floors_ = floors;
     share_ = std::max(share_, finest);
@@ -111,8 +111,8 @@ class Downsampled {
   static constexpr double first_bins = 10000.0, pixels = 1250.0;
   static constexpr std::size_t most_of_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
 
-  /// Number of rows held before they are thinned: each row is processed about nine times, and the memory is an eighth
-  /// more than that of the kept rows.
+  /// Number of rows held before they are downsampled. The margin of an eighth limits the memory; each row is
+  /// then processed about nine times.
   static std::size_t room(std::size_t kept) { return kept + kept / 8; }
 
   void downsample() {
@@ -131,12 +131,14 @@ class Downsampled {
     limit_ = room(std::max(enough, rows_.size()));
   }
 
-  /// Lines from the last kept row that pass all rows since then have slopes between low and high.
+  /// Drops rows on straight lines. Lines from the last kept row that pass within d of all rows since then
+  /// have slopes between low and high.
   void remove_collinear() {
     if (rows_.size() < processed_ + 3) return;
     Quantities d, low, high, from;
     for (std::size_t i = 0; i < count; ++i) d[i] = std::max(share_ * (greatest_[i] - least_[i]), floors_[i]);
-    std::size_t kept = processed_;  // its index; the row itself is at `anchor` until then
+    // The last kept row gets the index `kept`; a copy of it is at `anchor`, the beginning of the line.
+    std::size_t kept = processed_;
     double t = 0.0;
     const auto begin_at = [&](const Row& row) {
       from = Values{}(row);
@@ -181,6 +183,7 @@ class Downsampled {
     processed_ = kept;
   }
 
+  /// Keeps of each bin the first and the last row, and those with the extremes of the drawn quantities.
   void keep_extremes() {
     std::size_t kept = 0;
     std::array<std::size_t, 2 * drawn + 2> chosen;

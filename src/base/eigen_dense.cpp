@@ -149,8 +149,8 @@ static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double lea
 
 Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
                                   double size) {
-  constexpr Eigen::Index fewest_divided = 48;  // number of columns from which divide and conquer costs less
-                                               // than rotations
+  // Number of columns from which divide and conquer costs less than rotations.
+  constexpr Eigen::Index fewest_divided = 48;
   constexpr unsigned both = Eigen::ComputeThinU | Eigen::ComputeThinV;
   return a.cols() < fewest_divided ? shortest_by(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)
                                    : shortest_by(Eigen::BDCSVD<Eigen::MatrixXd>(a, both), b, least, size);

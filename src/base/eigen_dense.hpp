@@ -2,7 +2,7 @@
 //
 //   A x = mu x,    A x = mu B x,    A = Q R,    A = P^T L U Q^T,    A = U S V^T
 //
-// Matrices are square and symmetric unless stated otherwise; their eigenvalues ascend.
+// Eigenvalues of symmetric matrices ascend.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,11 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;  ///< columns, orthonormal (with respect to B if there is one)
 };
 
-/// Values are NaN if the decomposition did not converge.
+/// Eigenpairs of a symmetric matrix; the values are NaN if the decomposition did not converge.
 [[nodiscard]] EigenPairs symmetric_eigen(const Eigen::MatrixXd& a);
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 
-/// Eigenvalues of A x = mu B x, B positive definite; empty if B is not.
+/// Eigenvalues of A x = mu B x, A and B symmetric; empty if B is not positive definite.
 [[nodiscard]] Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// Same with eigenvectors, x^T B x = 1; both empty if B is not positive definite.
@@ -45,9 +45,9 @@ struct EigenPairs {
 
 /// A^-1 b with full pivoting; A general, square and regular.
 [[nodiscard]] Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-/// Same; for singular A some x, with A x = b if there is one.
+/// Same as solve_dense(), but A may be singular: some x with A x = b if there is one.
 [[nodiscard]] Eigen::VectorXd particular_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
-/// Same; nullopt if A is singular to rounding.
+/// Same as solve_dense(); nullopt if A is singular to rounding.
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a,
                                                            const Eigen::VectorXd& b);
 
@@ -62,8 +62,8 @@ struct EigenPairs {
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 [[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// The least-norm minimiser x of |A x - b|. Singular values of A count as zero below `least` times the largest, and
-/// below `least` times `size`, the size of the terms whose difference A is.
+/// The least-norm minimiser x of |A x - b|. Singular values of A count as zero below `least` times the
+/// largest of them, and below `least` times `size`: the magnitude of the terms whose difference A is.
 [[nodiscard]] Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                                 double least, double size = 0.0);
 

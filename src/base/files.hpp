@@ -1,10 +1,11 @@
-// files.hpp: a directory, or a single file, that results are written to.
+// files.hpp: input files, directories and files of results, names of files, and embedded texts.
 //
-//   check:   it is absent or empty, or contains earlier results (its marker file) that may be replaced
-//   make:    creates it and its parents
-//   unmake:  removes the created ones, as far as they are empty
+//   check_output_directory       accepts a directory that is absent or empty, or contains earlier results
+//                                (its marker file) that may be replaced
+//   make_directory               creates it and its parents
+//   remove_created_directories   removes the created ones, as far as they are empty
 //
-// Errors of all: FileError, with the directory's name.
+// Errors: FileError with the path.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +16,9 @@
 
 namespace signorini::base {
 
-// Checks a file before it is read.
-
-/// Reason why this is not a readable file, "is a directory"; empty for a regular file, and for a missing one, for which
-/// opening reports the reason. A pipe would wait for a writer, and a device may never end.
+/// Reason why this is not a readable file, such as "is a directory". Empty for a regular file, and for a
+/// missing one, for which opening reports the reason. Pipes and devices are refused: a pipe would wait for a
+/// writer, and a device may never end.
 [[nodiscard]] std::string input_file_error(const std::filesystem::path& path);
 
 /// ": No such file or directory" for a value of errno, or "".
@@ -32,21 +32,20 @@ struct ResultsKind {
 /// replace: earlier results may be replaced (--force).
 void check_output_directory(const std::filesystem::path& path, const ResultsKind& kind, bool replace);
 
-/// Refuses a single output file if it exists and does not contain `mark` among its first bytes, the mark of the `what`
-/// that Signorini writes. Empty files, pipes and devices are accepted, since no data are lost.
+/// Refuses a single output file that exists, unless its first bytes contain `mark`, by which Signorini marks
+/// the files that it writes. `what` names such a file in the message. Empty files, pipes and devices are
+/// accepted, since no data are lost.
 void check_output_file(const std::filesystem::path& path, const std::string& what, std::string_view mark);
 
 /// Returns the outermost directory that was created; empty if all existed.
 std::filesystem::path make_directory(const std::filesystem::path& path);
 
-/// `first`: return value of make_directory().
+/// Removes the directories from `path` up to `first`, the return value of make_directory(), as far as they
+/// are empty.
 void remove_created_directories(const std::filesystem::path& path, const std::filesystem::path& first);
 
-// Converts text to a part of a file name.
-//
-//   file_name("first support", 80, "-_", '_') == "first_support"
-
-/// The first `most` characters; characters other than ASCII letters, digits and those in `kept` become `other`.
+/// Text as a part of a file name: the first `most` characters; those other than ASCII letters, digits and
+/// characters of `kept` become `other`. file_name("first support", 80, "-_", '_') is "first_support".
 [[nodiscard]] std::string file_name(std::string_view text, std::size_t most, std::string_view kept,
                                     char other);
 

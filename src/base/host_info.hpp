@@ -7,8 +7,8 @@
 namespace signorini::base {
 
 struct HostInfo {
-  std::string processor;  ///< as the system names it; otherwise "unknown processor"
-  std::size_t cores = 1;  ///< processors()
+  std::string processor;  ///< as the system names it; "unknown processor" if it does not
+  std::size_t cores = 1;  ///< processor_count()
   std::string compiler;   ///< "g++ 12.2.0, optimised"
 };
 

@@ -16,8 +16,9 @@ using Eigen::VectorXd;
 
 constexpr int most_steps = 100;    // of Newton's method; a few are usual
 constexpr int most_halvings = 40;  // of one step
-// Added to the curvature of the dual, which is at most 1 and 0 where x lies in a corner of a set: in proportion to what is left, so
-// that the method stays faster than linear; at least the rounding of the curvature.
+// Damping is added to the curvature of the dual, which is at most 1, and 0 where x lies in a corner of a set.
+// It is proportional to the residual, so that convergence stays faster than linear, and at least the rounding
+// of the curvature.
 constexpr double most_damping = 1e-3, least_damping = 1e-13;
 
 /// P(z) of one set, and a generalised derivative of P.
@@ -81,7 +82,7 @@ double dual(const VectorXd& r, const VectorXd& y, const VectorXd& z, const Vecto
 
 std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const std::vector<ConvexSet>& sets) {
   const double size = r.norm();
-  VectorXd y = r;  // the answer without sets
+  VectorXd y = r;  // the solution if no set restricts x
   VectorXd z = a.transpose() * y;
   Projection now = projected(sets, z);
   std::optional<VectorXd> best;
@@ -105,7 +106,7 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
       const VectorXd tried = y + part * way;
       const VectorXd there = a.transpose() * tried;
       Projection next = projected(sets, there);
-      // Near the answer g changes by less than its rounding; there the derivative along the way decides.
+      // Near the solution g changes by less than its rounding; there the residual decides.
       const bool better = dual(r, tried, there, next.x) >= value + 1e-4 * part * slope;
       if (!better && !((r - a * next.x).norm() < 0.5 * left.norm())) continue;
       y = tried;

@@ -6,8 +6,8 @@
 //
 //   max g(y),   g(y) = r . y - (A' y) . x + |x|^2 / 2,   x = P(A' y),   g'(y) = r - A x
 //
-// A damped Newton method with a generalised derivative D of P, A D A' dy = r - A x, solves it: in finitely many steps where
-// the sets are polyhedral (one tangent), else quadratically.
+// A damped Newton method with a generalised derivative D of P solves it: A D A' dy = r - A x. It ends after
+// finitely many steps if the sets are polyhedral (one tangent), and converges quadratically otherwise.
 //
 //   set    { (n, t) : |t| <= f n }    a second-order cone, d tangents; d = 0: the half-line n >= 0
 //          { t : |t| <= F }           a disc
@@ -30,8 +30,8 @@ struct ConvexSet {
   Eigen::VectorXd direction;  ///< ray: e
 };
 
-/// a: orthonormal rows, m x n with m <= n; sets: their sizes add up to n; r: m. nullopt: no point was found, since there is none
-/// or rounding hides it. A x = r holds to rounding::elimination of |r|.
+/// a: orthonormal rows, m x n with m <= n; sets: their sizes add up to n; r: m. A x = r holds within
+/// rounding::elimination |r|. nullopt: no point was found, since there is none or rounding hides it.
 [[nodiscard]] std::optional<Eigen::VectorXd> least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
                                                         const std::vector<ConvexSet>& sets);
 

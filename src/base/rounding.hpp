@@ -12,7 +12,7 @@
 //   100  times                                       IDA's own limit for equal times
 //   1000 solutions of small dense problems           some n^2 operations of eps/2 per row, n = 24: six contacts
 //
-// Results of a solve have the solve's backward error instead.
+// Results of a solve have the backward error of the solve instead.
 #pragma once
 
 #include <limits>

@@ -62,8 +62,8 @@ void remove_manifest(const std::filesystem::path& directory);
 /// of the file.
 void check_run_files(const std::filesystem::path& directory);
 void check_run_files(const std::filesystem::path& directory, const std::vector<std::string_view>& names);
-/// A sentence that there is no manifest to check files against, and whether states.csv is cut; empty if there is a
-/// manifest.
+/// Without a manifest: a sentence that says so, and whether the last line of states.csv is incomplete. Empty
+/// if there is a manifest.
 [[nodiscard]] std::string unchecked_reason(const std::filesystem::path& directory);
 
 }  // namespace signorini::base

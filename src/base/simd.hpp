@@ -18,7 +18,8 @@ namespace signorini::base {
 
 using Double4 = double __attribute__((vector_size(32)));
 
-/// Vector type of doubles at any address. A template argument would lose the alignment attribute of a vector type.
+/// A vector of doubles at any address. A class, because a template argument would lose the alignment
+/// attribute of a vector type.
 template <class T>
 struct [[gnu::packed, gnu::may_alias]] UnalignedLanes {
   T v;

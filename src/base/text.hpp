@@ -1,6 +1,6 @@
-// text.hpp: converts numbers to text and back, independent of the locale.
+// text.hpp: numbers, lists, names and tables as text, independent of the locale.
 //
-//   shortest(0.1) == "0.1";  parse_number(shortest(x)) == x for every finite x
+//   format_number(0.1) == "0.1";  parse_number(format_number(x)) == x for every finite x
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ namespace signorini::base {
 
 // Lists names in a sentence.
 //
-//   listed({"A", "B", "C"}, 3)        "'A', 'B' and 'C'"
-//   listed({"A", "B", "C", "D"}, 2)   "'A', 'B' and 2 more"
+//   join_quoted({"A", "B", "C"}, 3)        "'A', 'B' and 'C'"
+//   join_quoted({"A", "B", "C", "D"}, 2)   "'A', 'B' and 2 more"
 
 /// The first `most` names, then the number of the others.
 [[nodiscard]] std::string join_quoted(const std::vector<std::string>& names, std::size_t most = 10);
@@ -43,9 +43,8 @@ namespace signorini::base {
 /// seconds >= 0; two digits from a minute on, whole seconds below.
 [[nodiscard]] std::string duration_text(double seconds);
 
-// Shortens foreign text for messages.
-
-/// At most 80 characters, with "..." if it was longer; characters other than printable ASCII become '?'.
+/// Text from a file, for a message: at most 80 characters, with "..." if it was longer; characters other than
+/// printable ASCII become '?'.
 [[nodiscard]] std::string excerpt(std::string_view text);
 
 /// True for valid UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
@@ -54,14 +53,15 @@ namespace signorini::base {
 /// True for UTF-8 without control characters other than tabs and line breaks.
 [[nodiscard]] bool is_plain_text(std::string_view text);
 
-// Short text that differs if texts differ, the same on every machine.
+// A short text that depends on the whole of a longer one, the same on every machine.
 //
 //   FNV-1a of 64 bits:   h = 14695981039346656037,  for each byte  h = (h xor byte) 1099511628211 mod 2^64
 //   sixteen hexadecimal digits of h
 //
-// A single changed byte always changes the fingerprint; any other change does so except with the probability 2^-64.
+// A single changed byte always changes the fingerprint; any other change leaves it as it is with probability
+// 2^-64.
 
-/// The text may be passed in parts.
+/// Fingerprint of a text, which may be added in parts.
 class Fingerprint {
  public:
   void add(std::string_view part);
@@ -93,8 +93,8 @@ class Fingerprint {
 //
 //   t,"a, quoted",1.5      cells separated by commas; quoted ones may contain commas, line breaks and "" for "
 //
-// A last line without its line break (a run in progress, or killed) is not a row: its cells are returned, so that the
-// caller can report or use it.
+// A last line without its line break (of a run in progress, or killed) is not a row: its cells are returned,
+// so that the caller can report or use them.
 
 /// Returns false at the end, with the cells of a last line without line break in `cells`, and for a row of more than
 /// 100 MB (a million degrees of freedom need 40), which is invalid.

@@ -8,7 +8,8 @@
 
 namespace signorini::contact {
 
-/// Visits the forms on the displacements: along the normal, along the tangent, and of the body beside a sliding point.
+/// Visits the forms on the displacements: along the normal, along the tangent, and, with a shear element, of
+/// the body along the tangent.
 template <class AnyContact, class Visit>
 void visit_forms(AnyContact& contact, const Visit& visit) {
   visit(contact.normal);

@@ -1,9 +1,10 @@
 // curved_surface.hpp: the restoring force of a curved surface.
 //
-//   F = ( |N| - N_K ) ut / R      against ut, in addition to N_K ut / R, which is part of K       (R: CurvedSurface::radius)
+//   F = ( |N| - N_K ) ut / R      against ut, in addition to N_K ut / R, which is part of K
+//   R: CurvedSurface::radius,  N_K: CurvedSurface::nominal_force
 //
-// Small slopes: the normal, and with it the force on the body, turns by ut / R. N_K is the normal force of the bearing
-// at rest; F is zero while |N| = N_K.
+// Slopes are small: the normal, and with it the force on the body, rotates by ut / R. N_K is the normal force
+// of the bearing at rest; F is zero while |N| = N_K.
 #pragma once
 
 #include "signorini/contact.hpp"
@@ -16,13 +17,14 @@ namespace signorini::contact {
              ? (-N - contact.pendulum_surface->nominal_force) / contact.pendulum_surface->radius * ut
              : 0.0;
 }
-/// Later term of the series of F, -N_i ut_j / R: the constant N_K occurs in the first term only, which is restoring_force.
+/// Product -N_i ut_j / R in a later coefficient of the series of F. The constant N_K occurs in the first
+/// coefficient only, which is restoring_force().
 [[nodiscard]] inline double restoring_product(const Contact& contact, double N, double ut) {
   return -N / contact.pendulum_surface->radius * ut;
 }
 
-/// ( N_K - N_0 ) / R: stiffness in K beyond the spring N_0 / R of the scene's contact, which gives N_0; 0 if the
-/// surface is not curved.
+/// ( N_K - N_0 ) / R: stiffness in K in addition to the scene's spring N_0 / R, N_0 being the nominal force
+/// of `in_scene`; 0 if the surface is not curved.
 [[nodiscard]] inline double extra_stiffness(const ContactSpec& in_scene, const Contact& contact) {
   return contact.pendulum_surface
              ? (contact.pendulum_surface->nominal_force - in_scene.pendulum_surface->nominal_force) /

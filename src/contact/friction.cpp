@@ -159,7 +159,7 @@ double saturation_rate(const Friction& friction) {
 std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
                                          double pressed) {
   const double slow = friction.static_, fast = friction.kinetic, v = friction.decay_velocity();
-  // Below slow |N|, friction continues as a straight line (contact/friction.cpp).
+  // Below slow |N|, friction continues as a straight line, as in sliding_friction().
   if (pull <= slow * pressed) return (pull - slow * pressed) / (damping + (fast - slow) / v * pressed);
   if (!(damping > 0.0)) {
     const double rest = (fast * pressed - pull) / ((fast - slow) * pressed);

@@ -13,9 +13,8 @@
 // The derivatives of these equations with respect to a parameter p are
 //   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'
 //
-// Friction whose coefficient depends on N: contact/friction.hpp.
-// A friction law consists of these functions and its constants (friction_constants); all other code calls them. Units:
-// f is dimensionless.
+// A friction law consists of the functions of this file and its constants (friction_constants); all other
+// code calls them. Units: f is dimensionless.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +41,8 @@ namespace signorini::contact {
 [[nodiscard]] double friction_limit(const Friction& friction, double x);
 [[nodiscard]] double friction_limit_slope(const Friction& friction, double x);
 
-/// Sets F and its rate in the motion of a closed contact, from N, g' and q; no effect if friction does not depend on N.
+/// Sets F and its rate in the motion of a closed contact, from N, g' and q'; no effect if friction does not
+/// depend on N.
 void set_limit(const Contact& contact, ContactMotion& m);
 
 /// F along a series of x, one coefficient after the other.
@@ -65,7 +65,8 @@ class LimitSeries {
   std::vector<double> x_, e_;
 };
 
-/// Static: greatest |T| / |N| in stick over all N. Kinetic: least |T| / |N| in slip over all slip rates.
+/// static_friction: the greatest |T| / |N| in stick over all N. kinetic_friction: the least |T| / |N| in slip
+/// over all slip rates.
 [[nodiscard]] inline double static_friction(const Contact& contact) {
   const Friction& f = contact.friction;
   return f.is_load_dependent() ? std::max(f.static_, f.kinetic) : f.static_;
@@ -73,12 +74,13 @@ class LimitSeries {
 [[nodiscard]] inline double kinetic_friction(const Contact& contact) {
   return contact.friction.is_rate_strengthening() ? contact.friction.static_ : contact.friction.kinetic;
 }
-/// Ratio |T| / |N| of a slipping state; the static coefficient if other contacts hold it; for friction that varies with
-/// the slip rate the least value.
+/// Ratio |T| / |N| of a slipping state, for friction that varies with the slip rate its least value. At the
+/// static limit: the static coefficient.
 [[nodiscard]] inline double slipping_friction(const Contact& contact, State state) {
   return is_at_static_limit(state) ? static_friction(contact) : kinetic_friction(contact);
 }
-/// Greatest |T| in stick, and |T| at the beginning of slip, for a normal force N <= 0.
+/// For a normal force N <= 0: the greatest |T| in stick (sticking_limit), and |T| at the beginning of slip
+/// (sliding_limit).
 [[nodiscard]] inline double sticking_limit(const Contact& contact, double N) {
   const Friction& f = contact.friction;
   return f.is_load_dependent() ? friction_limit(f, -N) : f.static_ * (0.0 - N);
@@ -87,8 +89,8 @@ class LimitSeries {
   return contact.friction.is_load_dependent() ? friction_limit(contact.friction, -N)
                                               : kinetic_friction(contact) * (0.0 - N);
 }
-/// Coefficient of friction at a slip rate along the slip, s p', smooth past zero; and its derivative with respect to
-/// the slip rate.
+/// Coefficient of friction at the slip rate along = s p', smooth past zero, and its derivative with respect
+/// to that rate.
 [[nodiscard]] double sliding_friction(const Contact& contact, double along);
 [[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 
@@ -96,7 +98,7 @@ class LimitSeries {
 [[nodiscard]] inline bool friction_varies(const Contact& contact) {
   return contact.friction.is_rate_dependent() || contact.friction.is_load_dependent();
 }
-/// Name of varying friction in messages.
+/// Name of varying friction in messages; only if friction_varies().
 [[nodiscard]] inline const char* friction_description(const Contact& contact) {
   return contact.friction.is_load_dependent() ? "friction that depends on the normal force"
                                               : "friction that depends on the slip rate";
@@ -118,14 +120,14 @@ class FrictionRecursion {
   void begin(const Contact& contact, int s, double rate);
   /// Coefficient f_0 of the row s f_0 N.
   [[nodiscard]] double first() const { return first_; }
-  /// Takes coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). pressing(i): N_i.
+  /// Takes coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). applied(i): N_i.
   template <class Pressing>
   [[nodiscard]] double next(double rate, const Pressing& applied) {
     extend(rate);
     return known(applied);
   }
-  /// The same sum if ut' is an unknown of level k: without its contribution. take_rate() then gives coefficient k of
-  /// ut'.
+  /// The same sum without the contribution of coefficient k of ut', if that is an unknown of level k.
+  /// take_rate() must then be called with it.
   template <class Pressing>
   [[nodiscard]] double without_rate(const Pressing& applied) {
     extend(0.0);
@@ -153,11 +155,11 @@ class FrictionRecursion {
 /// level k all products of series except f_0 N_p,k are known, since x_k and x_p,k have level k - 1.
 class FrictionTangent {
  public:
-  /// Contact that slips in direction s; by: derivatives of its constants with respect to the parameter.
+  /// For a contact that slips in direction s; by: derivatives of its constants with respect to the parameter.
   FrictionTangent(const Friction& friction, const Friction& by, int s);
 
   /// Takes coefficient k of ut' and of its derivative with respect to p, for k = 0, 1, ...; returns s sum_(j = 1..k)
-  /// f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j). pressing(i): N_i; moved(i): N_p,i.
+  /// f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j). applied(i): N_i; moved(i): N_p,i.
   template <class Pressing, class Moved>
   [[nodiscard]] double next(double rate, double moved_rate, const Pressing& applied, const Moved& moved) {
     extend(rate, moved_rate);
@@ -187,11 +189,11 @@ class FrictionTangent {
 // friction at infinite rate; the point then follows instantaneously. x < 0: the pull is below slow |N|, the point
 // sticks. Units: x, v length/time.
 
-/// Friction counts as `fast` if it differs from it by less than this fraction of fast - slow: the pull then no longer
-/// determines the rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
+/// The coefficient counts as `fast` if it differs from `fast` by less than this fraction of fast - slow: the
+/// pull then no longer determines the rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
 inline constexpr double saturation_tolerance = 1e-8;
 
-/// Rate beyond which friction counts as `fast`: -v ln(saturated).
+/// Rate beyond which the coefficient counts as `fast`: -v ln(saturation_tolerance).
 [[nodiscard]] double saturation_rate(const Friction& friction);
 
 /// Slip rate x. pull: along the slip, at x = 0; pressed: |N| > 0; damping >= 0. nullopt: friction is at its greatest

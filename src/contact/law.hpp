@@ -5,7 +5,7 @@
 //   rigid      N = 0, T = 0    g'' = 0                       ut'' = 0                     T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
 //   with a shear element, whose sliding point is massless:   p' = 0                       T + s fk N = 0
-//   held s, at rest at the static limit because other contacts prevent its motion:   T + s fs N = 0
+//   static limit s, without slip because other contacts prevent it:                  T + s fs N = 0
 //   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction.hpp.
 //   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
 //   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").
@@ -15,17 +15,18 @@
 //              closed  -N
 //              stick   -N, -fs N - T, -fs N + T      F in place of -fs N where friction depends on N
 //              slip s  -N, s p'
-//                      -N, s T + fs N   if the friction of a massless sliding point rises: same sign as s p'
+//                      -N, s T + fs N   for a massless sliding point whose friction rises with the slip rate:
+//                                       this guard has the sign of s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
 //              p' = ut' - s F'/kt               friction that depends on N
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
-// These are the built-in laws: contact/law/coulomb_law.hpp and the laws along the normal in the same folder. A
-// user-defined law has the rows and guards that its data give (signorini/user_contact_law.hpp, contact/law/user_law.hpp). All
-// laws share the interface signorini/contact_law.hpp. A guard is positive while its state is valid; the event is the
-// first zero of a guard. Guards are smooth past their zero, so that a root finder may evaluate them slightly beyond the
-// event.
+// These are the built-in laws: contact/law/coulomb_law.hpp and the laws along the normal in the same folder.
+// The data of a user-defined law give its rows and guards (signorini/user_contact_law.hpp,
+// contact/law/user_law.hpp). All laws share the interface signorini/contact_law.hpp. A guard is positive
+// while its state is valid; the event is the first zero of a guard. Guards are smooth past their zero, so
+// that a root finder may evaluate them slightly beyond the event.
 // Source: Lukashevich et al. 2021, (6), (7) and (11), generalised to slip in both directions.
 #pragma once
 
@@ -39,7 +40,9 @@
 
 namespace signorini {
 
-/// Meaning of a guard.
+/// Name of a guard: the change of state at its zero. closing: g of an open contact; opening: -g in state
+/// inside; separation: -N; slip_plus, slip_minus: the friction limit on either side; sliding: the slip rate;
+/// user_1 to user_3: the guards of a user law; none: an unused entry.
 enum class Guard : unsigned char {
   none,
   closing,
@@ -57,22 +60,23 @@ enum class Guard : unsigned char {
 
 namespace signorini::contact {
 [[nodiscard]] const char* to_string(Guard guard);
-/// True for a guard of the friction limit, on either side.
+/// True for the guards of the friction limit.
 [[nodiscard]] constexpr bool is_friction_limit(Guard guard) {
   return guard == Guard::slip_plus || guard == Guard::slip_minus;
 }
 /// Name of a law as in a scene file: "compliant", "slider".
 [[nodiscard]] const char* to_string(Law law);
 
-/// Unit of a form's value, derived from its first term.
+/// Unit of a form's value, from the terms that it has.
 [[nodiscard]] Unit unit_of(const Form& form);
 
 }  // namespace signorini::contact
 
 namespace signorini {
 
-/// G = form + sum a b over its products; engines and decisions evaluate guards only through these functions. Motions
-/// are given as time derivatives 0, 1, ..., and so are the sizes that count as zero in them.
+/// A guard, G = form + sum a b over its products; engines and decisions evaluate guards only through these
+/// functions. motion[k] is the k-th time derivative of the motion, noise[k] the magnitude below which its
+/// entries count as zero.
 struct GuardForm {
   Guard kind = Guard::none;
   Form form;
@@ -138,15 +142,15 @@ namespace signorini {
 //
 //   guard failed    from     to
 //   separation      closed   open (inside while g < 0, which a dashpot makes possible)
-//   open gap        inside   open
+//   opening         inside   open
 //   closing         open     stick  iff  kt |ut^(m)| <= fs kn |g^(m)|, else slip s = sign ut^(m)
 //                            (m: the first derivative of g that is not zero; p := ut, so T = 0)
 //   friction limit  stick    slip s,  p := ut - s fk |N| / kt
 //   slip rate       slip s   stick,   p := ut - T / kt
 //
-// Forces and velocities are continuous for contacts with elements, so each one is decided separately from its own
-// one-sided derivatives. Contacts without tangential stiffness are tried in the same way, and the caller repeats until
-// every guard of the new states holds (decide/contact_state_solver.hpp).
+// Forces and velocities of contacts with springs are continuous, so each such contact is decided separately
+// from its own one-sided derivatives. Contacts without tangential stiffness are tried in the same way, and
+// the caller repeats until every guard of the new states holds (decide/contact_state_solver.hpp).
 // Source: Lukashevich et al. 2021, section on contact states; the closing rule is the apex of the cone.
 
 /// Motion of one contact just after an instant: element k is the k-th time derivative. `noise` has the same shape: the
@@ -160,10 +164,12 @@ struct MotionJet {
 
 namespace signorini::contact {
 
-/// State that slips in a direction; state of a contact that bears a load and does not slip.
+/// State that slips in the direction of this sign.
 [[nodiscard]] State slip_state(double direction);
+/// State of a contact that bears a load and does not slip: stick with friction, else closed.
 [[nodiscard]] State state_at_rest(const Contact& contact);
-/// State of a contact without force: with a dashpot the force may vanish before the gap has opened.
+/// State of a contact without force: open, or inside while the gap is still negative, which a dashpot makes
+/// possible.
 [[nodiscard]] State separated_state(const Contact& contact, double gap);
 
 /// The next state of one contact; `failed` is a guard of `now`, `jet` is the motion in state `now`.
@@ -176,15 +182,15 @@ namespace signorini {
 
 // The amount by which a contact violates its own conditions.
 //
-//   (6)  g >= 0, N <= 0, g N = 0          g minus the element's length if there is a spring
-//   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, of the slip rate in slip
+//   (6)  g >= 0, N <= 0, g N = 0          with a normal spring g is reduced by its deformation (N - cn g')/kn
+//   (7)  |T| <= T_U, T p' >= 0            T_U: static limit in stick, friction at the slip rate in slip
 
 /// Each value is positive if its condition is violated.
 struct Violations {
   double tension = 0.0;      ///< N; force
-  double gap = 0.0;          ///< -(g - element); length, contacts with a spring
+  double gap = 0.0;          ///< -(g - deformation); length, contacts with a spring
   double penetration = 0.0;  ///< |g| closed, -g open; length, constraints
-  double product = 0.0;      ///< |g N|, g as above; energy
+  double product = 0.0;      ///< |g N|, g as in `gap` or `penetration`; energy
   double friction = 0.0;     ///< |T| - T_U, closed contacts; force
   double direction = 0.0;    ///< -T p', in slip; power
 };

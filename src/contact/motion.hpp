@@ -42,7 +42,8 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   m.at = contact.tangent.dot(a) - surface_acceleration;
 }
 
-/// Slip p: the anchor of a contact that sticks from now on. Increments give the increment of p.
+/// Slip p, which is the anchor of a contact that sticks from now on. Increments of ut and T give the
+/// increment of p.
 [[nodiscard]] inline double slip_of(const Contact& contact, double ut, double T) {
   const std::optional<double> kt = contact.anchor_spring();
   return kt ? ut - T / *kt : ut;
@@ -51,7 +52,8 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   return slip_of(contact, m.ut, m.T);
 }
 
-/// Compliance split: reduces m to the motion of the surfaces in contact, without the deformation of the springs.
+/// Contact with compliance split: removes the deformation of the springs from m, so that m is the motion of
+/// the touching surfaces.
 inline void remove_split_compliance(const Contact& contact, State state, ContactMotion& m) {
   if (!contact.compliance_split() || is_open(state)) return;
   if (contact.tangential_stiffness) {

@@ -1,6 +1,6 @@
 // work.hpp: work of the forces of a contact along a path, and its stored energy.
 //
-//   friction  T dp     surface  -T ds     damping  cn g' dg     pressing  -N dt
+//   friction  T dp     surface  -T ds     damping  cn g' dg     applied_normal_force  -N dt
 //   stored    (N - cn g')^2 / 2 kn  closed,   kn g^2 / 2  inside,   T^2 / 2 kt
 //
 // A contact that a dashpot has opened while g < 0 (inside) has no force: its dashpot dissipates the energy that its
@@ -11,15 +11,15 @@
 
 namespace signorini {
 
-/// Small increments of a contact's path, or rates (dt = 1): increments, and g' on the path.
+/// Small increments of a contact's path, or rates (dt = 1), together with g' on the path.
 struct ContactIncrement {
   double slip = 0.0, surface = 0.0, gap = 0.0;  ///< dp, ds, dg
   double gap_rate = 0.0;                        ///< g'
   double time = 0.0;                            ///< dt
 };
 
-/// For a user-defined law `friction` is the whole work, stored or dissipated, and the path's slip is d ut. Unit:
-/// energy; pressing: force * time. If the path holds rates, the works are powers.
+/// Works on an increment; powers if it holds rates. For a user-defined law `friction` is the whole work,
+/// stored or dissipated, and the slip of the path is d ut. Unit: energy; applied_normal_force: force * time.
 struct ContactWork {
   double friction = 0.0, surface = 0.0, damping = 0.0, applied_normal_force = 0.0;
 };
@@ -42,8 +42,9 @@ namespace signorini::contact {
 /// instantaneously.
 [[nodiscard]] bool slides_instantaneously(const Contact& contact);
 
-/// Energy stored in the shear springs.
+/// Energy stored in the tangential spring; 0 with a shear element, whose spring belongs to the structure.
 [[nodiscard]] double shear_energy(const Contact& contact, double T);
+/// Energy stored in the springs of the contact, along the normal and along the tangent as in shear_energy().
 [[nodiscard]] double stored_energy(const Contact& contact, State state, const ContactMotion& m);
 
 }  // namespace signorini::contact

@@ -116,7 +116,7 @@ using Tag = std::pair<int, long>;  // dimension and number
 struct RawElement {
   const GmshType* type = nullptr;
   std::vector<int> nodes;
-  std::vector<long> physical;  // groups that contain it
+  std::vector<long> physical;  // physical groups that contain the element
   long number = 0;
   SourcePlace place;
 };

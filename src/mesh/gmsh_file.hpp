@@ -24,6 +24,7 @@ namespace signorini::mesh {
 //
 //   GmshTokenizer words(in, file, key);   while (words.next_section(name)) ... words.integer() ... words.number()
 
+/// `what` names the expected word in messages; `key` is the scene's key that names the file.
 class GmshTokenizer {
  public:
   GmshTokenizer(std::istream& in, std::string file, std::string key)
@@ -60,8 +61,8 @@ class GmshTokenizer {
 [[nodiscard]] PlaneMesh read_gmsh(std::istream& in, const std::string& file, const std::string& key,
                                   const std::vector<std::string>& surfaces);
 
-/// Checks the determinants of the Jacobian at nodes and integration points: all > 0, or a SceneError at the element's
-/// place. Reverses the elements first if all run clockwise.
+/// Throws a SceneError at the element's place unless all determinants of the Jacobian at nodes and
+/// integration points are > 0. Reverses the elements first if all run clockwise.
 void check_elements(PlaneMesh& mesh, const std::string& key);
 
 }  // namespace signorini::mesh

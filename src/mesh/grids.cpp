@@ -74,8 +74,8 @@ struct Lattice {
       case PlaneShape::t6:
         break;
     }
-    const bool forth = (i / s + j / s) % 2 == 0;  // diagonals alternate, so that the mesh has no preferred
-                                                  // direction
+    // Diagonals alternate, so that the mesh has no preferred direction.
+    const bool forth = (i / s + j / s) % 2 == 0;
     const bool middles = grid.shape == PlaneShape::t6;
     const int m = middles ? at(i + h, j + h) : -1;
     const auto triangle = [&](std::vector<int> corners, const std::vector<int>& between) {

@@ -21,7 +21,7 @@ namespace signorini::mesh {
 struct MeshQuality {
   struct Worst {
     double value = 0.0;
-    long element = 0;  ///< its number
+    long element = 0;  ///< PlaneMesh::Element::number
   };
   Worst min_angle{180.0}, max_angle, aspect;  ///< degrees, degrees, 1
 };
@@ -35,8 +35,8 @@ struct MeshQuality {
 //   1: on the boundary,   2: inside
 
 struct SharedEdge {
-  std::vector<int>
-      nodes;  ///< two ends, then the middle if there is one; the first of its elements is on the left
+  /// Two ends, then the middle node if there is one; the first of the adjacent elements is on the left.
+  std::vector<int> nodes;
   int elements = 0;
 };
 /// Edges by the numbers of their ends, the smaller one first.

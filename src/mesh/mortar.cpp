@@ -16,9 +16,10 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-/// Relative to an edge's length: an edge with less coverage counts as uncovered. If the part d of an edge is covered,
-/// the matrix int N_i N_j has a condition of 1/d^2: at 1e-5 the weights of the master keep six of sixteen digits.
-/// Coordinates in files with six digits produce overlaps below this limit.
+/// Smallest covered fraction of an edge; an edge with less coverage counts as uncovered. If the fraction d of
+/// an edge is covered, the matrix int N_i N_j has the condition number 1/d^2: at 1e-5 the weights of the
+/// master keep six of sixteen digits. Overlaps from coordinates that a file rounds to six digits are below
+/// this limit.
 constexpr double no_overlap = 1e-5;
 constexpr double cosine_of_corner = 0.70710678118654752;
 
@@ -46,7 +47,7 @@ struct EdgeCurve {
     return x;
   }
   [[nodiscard]] Point2 x(double s) const { return sum(edge_shape_functions(at.size(), s).values); }
-  /// s at which x(s) . along has this value; Newton's method, one step for edges of two nodes.
+  /// The s at which x(s) . along has this value, by Newton's method; one step for edges of two nodes.
   [[nodiscard]] double s_at(const Point2& along, double value) const {
     const double from = at[0].dot(along), to = at[1].dot(along);
     double s = -1.0 + 2.0 * (value - from) / (to - from);

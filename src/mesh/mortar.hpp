@@ -5,12 +5,12 @@
 //   g_k   = n_k . (u_k - sum_l w_kl u_l) + g0_k,   w_kl = M_kl / D_k,   g0_k: the same with the positions
 //   n_k   = - int N_k nu ds / |...|                                     nu: outward normal of the slave
 //
-// Points of the slave are projected to the master along the normal of the slave edge's chord; the nearest of several
-// master edges is used. A master behind the slave's edge is an interference within the depth of the slave's body; edges
-// on the body's other side do not face the edge. On a straight seam a constant pressure, force N_k = p D_k, is
-// transmitted exactly, for any pair of meshes.
-// Source: Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989; Popp, Gee, Wall, Int. J. Numer. Meth. Eng. 79 (2009) 1354; covered
-// parts: Cichosz, Bischoff, Comput. Methods Appl. Mech. Eng. 200 (2011) 1317.
+// Points of the slave are projected to the master along the normal of the slave edge's chord; the nearest of
+// several master edges is used. A master edge behind the slave edge is an interference if it lies within the
+// depth of the slave's body; edges beyond that depth are ignored. On a straight seam a constant pressure,
+// force N_k = p D_k, is transmitted exactly, for any pair of meshes.
+// Source: Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989; Popp, Gee, Wall, Int. J. Numer. Meth. Eng. 79 (2009)
+// 1354; covered parts: Cichosz, Bischoff, Comput. Methods Appl. Mech. Eng. 200 (2011) 1317.
 #pragma once
 
 #include <array>
@@ -30,8 +30,7 @@ struct MortarNode {
   double length = 0.0;                              ///< D_k
   PlanePoint normal{0.0, 0.0};                      ///< n_k
   std::vector<std::pair<int, double>> master = {};  ///< w_kl
-  double gap = 0.0;                                 ///< g0_k; exactly zero if it is no more than rounding of
-                                                    ///< coordinates
+  double gap = 0.0;  ///< g0_k; exactly zero if it is no more than rounding of coordinates
 };
 
 /// Nodes of the slave that the master covers, in order along the slave.
@@ -41,7 +40,7 @@ struct MortarSeam {
   std::vector<int> corners;   ///< nodes at which the edges' normals differ by more than 45 degrees
 };
 
-/// outline: all known edges of the slave's body.
+/// Contact of the slave with the master. outline: all known edges of the slave's body, which give its depth.
 [[nodiscard]] MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
                                         const std::vector<PlaneMesh::Edge>& master, const NodePosition& place,
                                         const std::vector<PlaneMesh::Edge>& outline = {});

@@ -46,13 +46,13 @@ struct StressPoint {
 /// Weight of a stress point in the extrapolation to a node, by the (bi)linear function through all stress points.
 [[nodiscard]] double extrapolation_weight(PlaneShape shape, std::size_t point, std::size_t node);
 
-/// Points (a, b) of the nodes.
+/// Coordinates (a, b) of a node.
 [[nodiscard]] std::array<double, 2> node_coordinates(PlaneShape shape, std::size_t node);
 
 /// The nodes of edge i of an element: two ends, then the middle if there is one.
 [[nodiscard]] std::vector<int> edge_nodes(const PlaneMesh::Element& element, std::size_t i);
 
-/// Shape functions of an edge of two or three nodes and their derivatives; ends first.
+/// Shape functions of an edge of two or three nodes, and their derivatives by s; the end nodes come first.
 struct EdgeValues {
   std::array<double, 3> values{}, derivatives{};
 };

@@ -304,7 +304,7 @@ bool History::has_closed_form() const {
   return std::none_of(pieces_.begin(), pieces_.end(), [](const Piece& p) { return bool(p.function); });
 }
 
-// Magnitude of a history, and whether it ever becomes negative.
+// Bounds for magnitude() and find_negative_time(), from a Taylor expansion about m:
 //
 //   f(t) >= f(m) - sum_{0<k<K} |f^(k)(m)| r^k / k! - |a| (w r)^K / K!     for |t - m| <= r,  K > degree
 //
@@ -313,8 +313,8 @@ bool History::has_closed_form() const {
 
 namespace {
 
-constexpr int samples_of_functions = 4096;  // per piece; chosen value: finer than the details of practical
-                                            // loads
+// Number per piece; chosen value: finer than the details of practical loads.
+constexpr int samples_of_functions = 4096;
 
 /// Calls visit(piece, from, to) for the part of every piece within [0, t_end].
 template <class Visit>
@@ -417,8 +417,8 @@ double magnitude(const History& f, double t_end) {
 }
 
 double max_impulse(const History& f, double t_end, double width) {
-  std::vector<double> ends{0.0}, until{0.0}, size;  // ends of parts, integral up to each end, |f| in each
-                                                    // part
+  // Ends of parts, integral up to each end, and the bound of |f| in each part.
+  std::vector<double> ends{0.0}, until{0.0}, size;
   each_part(f, t_end + width, [&](const Piece& p, double from, double to) {
     // User-defined functions are not evaluated after the end of the run.
     const double seen = p.function ? std::min(to, t_end) : to;

@@ -36,8 +36,9 @@ namespace signorini::history {
 //
 // Shorter pieces are skipped, because each engine would treat their unresolved steps differently.
 
-/// End of the group of starts, beginning with `from`, that are one instant: indices [from, result).
+/// End of the group of starts that are one instant: those with the indices [from, result).
 [[nodiscard]] std::size_t end_of_instant(const History& f, std::size_t from, double t_end);
+/// The history with merged starts.
 [[nodiscard]] History resolved(const History& f, double t_end);
 
 }  // namespace signorini::history

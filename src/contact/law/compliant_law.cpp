@@ -1,4 +1,5 @@
-// A spring and a dashpot along the normal:  N = kn g + cn g' while closed. It opens at N = 0, so it never pulls.
+// A spring and a dashpot along the normal:  N = kn g + cn g' while closed. The contact opens at N = 0, so it
+// never pulls.
 #include <cmath>
 
 #include "contact/law.hpp"
@@ -33,7 +34,7 @@ class CompliantLaw : public CoulombLaw {
   }
   void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
                              Violations& v) const override {
-    // Deformation of the contact element; a dashpot may keep it from returning to zero length (state "inside").
+    // Deformation of the normal spring; in state "inside" a dashpot still keeps it from returning to zero.
     const double element = !is_open(state) ? (m.N - contact.normal_damping * m.vn) / contact.normal_stiffness
                            : state == State::inside ? m.gap
                                                     : 0.0;
@@ -42,7 +43,7 @@ class CompliantLaw : public CoulombLaw {
   }
 };
 
-/// The springs belong to the structure: to code that asks for its name, the contact is rigid.
+/// The springs belong to the structure, so the name of the law is that of a rigid contact.
 class ComplianceSplitLaw final : public CompliantLaw {
  public:
   ComplianceSplitLaw() : CompliantLaw({.normal_spring = true, .compliance_split = true}) {}

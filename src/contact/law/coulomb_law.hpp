@@ -2,7 +2,8 @@
 //
 //   tangent row   open, closed  T = 0
 //                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 of a separate sliding point
-//                 slip s        T + s fk N = 0,  held s: T + s fs N = 0,    T - s F = 0 where friction depends on N
+//                 slip s        T + s fk N = 0,    T - s F = 0 where friction depends on N
+//                 static limit s                                  T + s fs N = 0
 //   guards        stick         fs |N| -+ T
 //                 slip s        s p',  p' = ut' - T'/kt
 //

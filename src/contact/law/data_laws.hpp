@@ -26,7 +26,8 @@ struct DataLaw {
   std::vector<DataLawConstant> constants;
   /// Makes the law from kn and the constants, in their order.
   UserContactLaw (*make)(double normal_stiffness, const std::vector<double>& constants);
-  /// Key whose value contradicts the others, and a message; nullopt: the values are valid.
+  /// Checks the values: the key whose value contradicts the others, and a message; nullopt: the values are
+  /// valid.
   std::optional<std::pair<std::string_view, std::string>> (*validate)(double normal_stiffness,
                                                                       const std::vector<double>& constants);
 };

@@ -10,7 +10,7 @@
 namespace signorini::linear {
 namespace {
 
-// Three digits: the same loss as for pivots kept for another length (linear/klu.cpp).
+// Three digits: the same loss as for pivots kept from another step size (linear/klu.cpp).
 constexpr double most_growth = 1e3;
 constexpr std::size_t lanes = 4;
 
@@ -72,14 +72,14 @@ SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, st
   for (std::size_t i = size - edge; i-- > 0;) back(i, width);
 }
 
-/// Same with a width known at compile time.
+/// solve_band_of() with a width known at compile time.
 template <std::size_t width>
 void solve_band(std::size_t size, std::size_t stride, const double* values, const double* inverse_pivot,
                 double* b) {
   solve_band_of(width, size, stride, values, inverse_pivot, b);
 }
 
-/// Widths of two and of three unknowns for each node in a row, and smaller ones.
+/// Greatest width known at compile time; it covers chains of nodes with two or three unknowns each.
 constexpr std::size_t most_unrolled = 8;
 
 }  // namespace

@@ -5,9 +5,13 @@
 // A row depends on the `width` rows before it: factors of some rows can be continued from those, and if as many
 // consecutive rows are unchanged, so are all that follow.
 //
-// For matrices that are nearly symmetric and positive: elimination of these needs no row exchanges, since sum_k |l_ik
-// u_ki| is a_ii. The ratio of that sum to a_ii bounds the growth of rounding; beyond three digits there are no factors,
-// and a method with exchanges is needed. No test depends on units: a row and its column may be scaled.
+// A row of the factors depends on the `width` rows before it. So elimination can be continued from any row,
+// and once `width` consecutive rows are unchanged, all later ones are.
+//
+// For nearly symmetric, positive matrices: their elimination needs no row exchanges, since sum_k |l_ik u_ki|
+// is a_ii. The ratio of that sum to a_ii bounds the growth of rounding errors. If it exceeds three digits,
+// factor() fails, and a method with exchanges is needed. No test depends on units: a row and its column may
+// be scaled.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +31,8 @@ class BandFactors {
   [[nodiscard]] double* row(std::size_t i) { return values_.data() + i * stride_; }
   /// Sets all entries of rows [begin, end) to zero.
   void clear(std::size_t begin, std::size_t end);
-  /// Factors all rows. False: it would lose more digits than allowed, or is singular; the content is then undefined.
+  /// Factors all rows. False: A is singular or factoring loses too many digits; the content is then
+  /// undefined.
   [[nodiscard]] bool factor() { return factor(0, size_); }
   /// Factors rows [begin, end), after the rows before: bitwise the same as factoring all rows at once.
   [[nodiscard]] bool factor(std::size_t begin, std::size_t end);
@@ -36,8 +41,8 @@ class BandFactors {
 
  private:
   std::size_t size_, width_, stride_;
-  std::vector<double>
-      values_;  // row after row from column i - width on; later L below and U above the diagonal
+  // Row after row, from column i - width on; once factored, L below and U above the diagonal.
+  std::vector<double> values_;
   std::vector<double> inverse_pivot_;
   std::vector<double> diagonal_, sums_;  // a_ii and the sums above
 };

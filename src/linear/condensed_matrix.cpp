@@ -80,7 +80,7 @@ BandOrder band_order(const Model& model, const SystemMatrices& structure) {
 
 namespace {
 
-/// Number of changes that are remembered: new factors cost less than more of them.
+/// Number of changes that are recorded: after more changes, factoring all rows costs less.
 constexpr std::size_t most_remembered = 64;
 
 CondensedRows::ContactCoefficients held_by(const Rows& rows) {
@@ -194,7 +194,7 @@ void CondensedRows::fill(std::size_t place, const Weights& w, const double* by_N
 
 namespace {
 
-/// Number of rows renewed at once: a few widths of a narrow band.
+/// Number of rows that are computed again at once: a few widths of a narrow band.
 constexpr std::size_t rows_at_once = 32;
 
 }  // namespace
@@ -224,8 +224,8 @@ bool CondensedMatrix::factor() {
   return band_.factor();
 }
 
-/// Renews rows from `begin` on until they equal the old ones. nullopt: the factors lose digits; else the first
-/// unchanged row.
+/// Computes rows of the factors again, from `begin` on until they equal the old ones. Returns the first
+/// unchanged row; nullopt: the factors lose digits.
 std::optional<std::size_t> CondensedMatrix::refactor(std::size_t begin) {
   const std::size_t stride = band_.stride(), count = std::max(rows_at_once, 2 * rows_.width());
   before_.resize(count * stride);

@@ -1,14 +1,14 @@
-// condensed_matrix.hpp: the system of compliant contacts and masses on degrees of freedom alone.
+// condensed_matrix.hpp: the system of compliant contacts with the contact forces eliminated.
 //
 //   | S  H | | x |   | b |       S = M w_a + C w_v + K w_u,  the same weights for all
 //   | R  B | | f | = | q |       f = B^-1 (q - R x)   contact by contact
 //   (S - H B^-1 R) x = b - H B^-1 q
 //
-// If no row of a contact contains an acceleration, its forces are eliminated directly: they act like a soft spring on
-// its degrees of freedom. The remaining matrix has the band of the structure. Its factors cost less than the solves of
-// a general method, so that factors of other states or lengths are not kept. If contacts have changed at the same
-// weights, rows of the factors are renewed from the first affected one up to the place where they are bitwise
-// unchanged, which is near the contact.
+// If no row of a contact contains an acceleration, its forces are eliminated directly: they act like a soft
+// spring on its degrees of freedom. The remaining matrix has the band of the structure. Its factors cost less
+// than the solves of a general method, so that factors of other states or step sizes are not kept. If
+// contacts have changed at the same weights, rows of the factors are computed again from the first affected
+// one up to the row from which they are bitwise unchanged, which is near the contact.
 #pragma once
 
 #include <cstddef>
@@ -46,23 +46,24 @@ struct BandOrder {
 
 class CondensedRows {
  public:
-  /// An entry of the structure, in a row whose diagonal stands at width().
+  /// An entry of M, C and K: its place `at` in a row of the band, whose diagonal is at width(), and its
+  /// column.
   struct Entry {
     std::uint32_t at = 0, dof = 0;
     double m = 0.0, c = 0.0, k = 0.0;
   };
-  /// A degree of freedom of a contact.
+  /// A degree of freedom of a contact, its place in the band, and its components of n and t.
   struct ContactDof {
     std::uint32_t dof = 0, place = 0, contact = 0;
     double n = 0.0, t = 0.0;
   };
-  /// A contact in force.
+  /// Coefficients of the two rows of a contact in its present state.
   struct ContactCoefficients {
     double normal_N = 1.0, tangent_N = 0.0, tangent_T = 1.0;
     double normal_gap = 0.0, normal_ut = 0.0, normal_vn = 0.0, normal_vt = 0.0;
     double tangent_gap = 0.0, tangent_ut = 0.0, tangent_vn = 0.0, tangent_vt = 0.0;
     bool on_motion = false;  ///< its forces follow the motion
-    bool known = false;      ///< own rows determine its forces, without accelerations
+    bool known = false;      ///< its rows determine its forces and contain no acceleration
   };
 
   /// Rows of a model with saves_factorisations(), without contacts in force. nullopt: the band is wider.
@@ -75,14 +76,15 @@ class CondensedRows {
   [[nodiscard]] std::size_t contacts() const { return coefficients_.size(); }
   [[nodiscard]] const ForceLayout& layout() const { return layout_; }
 
-  /// Puts the rows of one contact in force, or those of all contacts.
+  /// Sets the rows of one contact, or those of all contacts.
   void set_rows(std::size_t contact, const Rows& rows);
   void set_rows(const std::vector<Rows>& rows);
   /// False: a row contains an acceleration or does not determine its force.
   [[nodiscard]] bool is_determined() const { return unknown_ == 0; }
   /// Version number; each change increases it.
   [[nodiscard]] long version() const { return dropped_changes_ + static_cast<long>(changed_.size()); }
-  /// Contacts put in force since that version, some possibly twice. nullopt: the record does not reach back so far.
+  /// Contacts whose rows were set since that version, some possibly twice. nullopt: the record does not reach
+  /// back so far.
   [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
 
   [[nodiscard]] std::size_t dof_at(std::size_t place) const { return dof_at_[place]; }
@@ -92,7 +94,8 @@ class CondensedRows {
   [[nodiscard]] const ContactCoefficients& coefficients(std::size_t contact) const {
     return coefficients_[contact];
   }
-  /// Touches of a contact: [first, end) of touch().
+  /// The degrees of freedom of a contact are contact_dof(i), first_contact_dof() <= i <
+  /// end_of_contact_dofs().
   [[nodiscard]] std::size_t first_contact_dof(std::size_t contact) const {
     return contact_dofs_end_[contact];
   }
@@ -100,12 +103,12 @@ class CondensedRows {
     return contact_dofs_end_[contact + 1];
   }
   [[nodiscard]] const ContactDof& contact_dof(std::size_t i) const { return contact_dofs_[i]; }
-  /// Touches at a place, ascending by contact.
+  /// Arguments i of contact_dof() at a place of the band, ascending by contact.
   [[nodiscard]] std::span<const std::uint32_t> contact_dofs_at(std::size_t place) const {
     return {at_place_.data() + at_place_end_[place], at_place_.data() + at_place_end_[place + 1]};
   }
 
-  /// B^-1 R of a contact on its touches, at these weights; by_N, by_T: one entry for each touch.
+  /// B^-1 R of a contact at these weights; by_N, by_T: one entry for each of its degrees of freedom.
   void force_coefficients(std::size_t contact, const Weights& weights, double* by_N, double* by_T) const;
   /// The row at a place; out: 2 width() + 1 numbers that are zero before, with the diagonal in the middle.
   void fill(std::size_t place, const Weights& weights, const double* by_N, const double* by_T,
@@ -120,17 +123,17 @@ class CondensedRows {
   std::vector<Entry> entries_;
   std::vector<std::size_t> entries_end_{0};       // place by place
   std::vector<ContactDof> contact_dofs_;          // contact by contact
-  std::vector<std::size_t> contact_dofs_end_{0};  // end of each contact's touches
-  std::vector<std::uint32_t> at_place_;           // touches, place by place
+  std::vector<std::size_t> contact_dofs_end_{0};  // end of each contact's entries in contact_dofs_
+  std::vector<std::uint32_t> at_place_;           // indices into contact_dofs_, place by place
   std::vector<std::size_t> at_place_end_{0};
   std::vector<ContactCoefficients> coefficients_;
-  std::size_t unknown_ = 0;           // number of contacts
+  std::size_t unknown_ = 0;           // number of contacts whose forces are not `known`
   std::vector<std::size_t> changed_;  // the last changed contacts
   long dropped_changes_ = 0;          // number of earlier changes
 };
 
-/// Number of unknowns from which avoiding a factorisation saves time: one with 200 takes about 30 us. Chosen: the tests
-/// unit/engine/newmark cover both sides.
+/// Number of unknowns from which avoiding a factorisation saves time: one factorisation with 200 unknowns
+/// takes about 30 us. Chosen; the tests in tests/unit/engine/newmark cover both sides.
 inline constexpr int min_condensed_size = 200;
 /// True if all degrees of freedom have mass, contacts share no rows, and there are at least min_condensed_size unknowns.
 [[nodiscard]] bool saves_factorisations(const Model& model, const SystemMatrices& structure,
@@ -138,15 +141,17 @@ inline constexpr int min_condensed_size = 200;
 
 class CondensedMatrix {
  public:
-  /// The widest band for which this saves time: its n width^2 products compared with those of a sparse method.
+  /// Greatest width of the band for which the condensed matrix saves time: its n width^2 products cost as
+  /// much as those of a sparse method.
   static constexpr std::size_t max_width = 16;
 
   /// The rows must outlive the object.
   explicit CondensedMatrix(const CondensedRows& rows);
 
-  /// Factors of the rows in force. False: the rows do not determine their forces, or elimination loses digits.
+  /// Factors the matrix with the present rows. False: the rows do not determine their forces, or elimination
+  /// loses digits.
   [[nodiscard]] bool set(const Weights& weights);
-  /// True if its factors belong to these weights, possibly except for contacts that have changed.
+  /// True if the factors belong to these weights, possibly except for contacts that have changed.
   [[nodiscard]] bool is_factored_at(const Weights& w) const {
     return set_ && w.acceleration == weights_.acceleration && w.velocity == weights_.velocity &&
            w.displacement == weights_.displacement;
@@ -155,7 +160,7 @@ class CondensedMatrix {
   void solve(double* x);
 
   long factorisations = 0;   ///< factorisations of all rows
-  long refactored_rows = 0;  ///< additional renewed rows
+  long refactored_rows = 0;  ///< rows computed again after changes of contacts, in addition
 
  private:
   [[nodiscard]] bool factor();
@@ -167,9 +172,9 @@ class CondensedMatrix {
   BandFactors band_;
   Weights weights_;
   long version_ = 0;                        // version of the rows of the factors
-  bool set_ = false, has_factors_ = false;  // set_: weights_ are valid; holds_: there are factors
-  std::vector<double> by_N_, by_T_;         // B^-1 R, one entry for each touch
-  std::vector<double> x_, before_;          // rows before the renewal
+  bool set_ = false, has_factors_ = false;  // set_: weights_ are valid
+  std::vector<double> by_N_, by_T_;         // B^-1 R, one entry for each ContactDof
+  std::vector<double> x_, before_;          // scratch of solve(); rows before they are computed again
   std::vector<std::size_t> touched_;        // affected places
 };
 

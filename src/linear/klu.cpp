@@ -15,7 +15,7 @@ namespace signorini::linear {
 //   FactorReader reader;  reader.read(symbolic, numeric, common, true, factors);   after klu_l_factor
 //                         reader.read(symbolic, numeric, common, false, factors);  after klu_l_refactor
 //
-// A factorisation with kept pivots changes values only: the reader remembers their places.
+// A factorisation with kept pivots changes values only, so the reader keeps their places.
 
 class FactorReader {
  public:
@@ -118,7 +118,7 @@ void FactorReader::Raw::resize(std::size_t columns, Long entries) {
   value.resize(static_cast<std::size_t>(entries) + 1);
 }
 
-/// Within each block by level; columns of one level are independent of each other.
+/// Sorts the columns of each block by level; columns of one level are independent of each other.
 void FactorReader::arrange(const std::vector<int>& level, bool backwards, std::vector<int>& columns) const {
   columns.resize(level.size());
   std::iota(columns.begin(), columns.end(), 0);

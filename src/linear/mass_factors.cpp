@@ -59,11 +59,11 @@ void MassSolver::solve(double* x, double* work) const {
 
 namespace {
 
-// Limit for the loss of digits by 1 + D Y: three, the same as for pivots kept for another length (linear/klu.cpp). Its
-// inverse loses as many as its condition number; and if D Y is large, the rows in force are small differences of x and
-// of Y times their shares.
+// Limit for the loss of digits by 1 + D Y: three, the same as for pivots kept from another step size
+// (linear/klu.cpp). The inverse loses as many digits as its condition number has; and if D Y is large, the
+// solution is a small difference of x and of Y times its factors.
 constexpr double least_quality = 1e-3;
-// Columns of Y that are kept, since rows recur.
+// Number of columns of Y that are kept, since the same rows change again.
 constexpr std::size_t most_columns = 4 * WoodburyFactors::max_rows;
 
 double dot(const ChangedRow& row, const double* x) {

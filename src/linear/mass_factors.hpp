@@ -1,4 +1,4 @@
-// mass_factors.hpp: the system of states whose forces follow from places and velocities alone.
+// mass_factors.hpp: the system of states whose forces follow from displacements and velocities alone.
 //
 //   | M  H | | a |   | b |      f = B^-1 q   contact by contact, two by two
 //   | 0  B | | f | = | q |      a = M^-1 (b - H f)
@@ -28,7 +28,7 @@ struct ContactForceBlock {
   double normal_N = 1.0, normal_T = 0.0, tangent_N = 0.0, tangent_T = 1.0;
 };
 
-/// Forces of all contacts. Empty: a row contains an acceleration, or does not determine its force.
+/// B of each contact. Empty: a row contains an acceleration, or does not determine its force.
 [[nodiscard]] std::vector<ContactForceBlock> contact_force_blocks(const std::vector<Rows>& rows);
 
 class MassSolver {
@@ -54,7 +54,8 @@ class MassSolver {
 //   A = A_0 + sum e_r d_r'          d_r: difference between row r of A and that of A_0
 //   A^-1 b = x - Y (1 + D Y)^-1 D x      x = A_0^-1 b,  columns of Y: A_0^-1 e_r,  rows of D: d_r'
 //
-// A column of Y costs a solve and is kept while A_0 stays, so a row that changes again costs none.
+// A column of Y costs one solve and is kept as long as A_0, so a row that changes again costs no further
+// solve.
 
 struct ChangedRow {
   std::size_t row = 0;
@@ -69,8 +70,8 @@ class WoodburyFactors {
   /// Sets A_0, which must be regular.
   void set_base(std::shared_ptr<const TriangularFactors> base);
   [[nodiscard]] const TriangularFactors* base() const { return base_.get(); }
-  /// Puts rows in force. False: there are too many, or the inverted sum loses more digits than a solve may; then there
-  /// is no matrix.
+  /// Sets the changed rows, which replace those set before. False: there are too many, or the inverse of 1 +
+  /// D Y loses more digits than a solve may; solve() must then not be called.
   [[nodiscard]] bool set(std::vector<ChangedRow> rows);
   /// b := A^-1 b; both of the length of A, work: scratch.
   void solve(double* b, double* work);
@@ -85,7 +86,7 @@ class WoodburyFactors {
   std::shared_ptr<const TriangularFactors> base_;
   std::map<std::size_t, Eigen::VectorXd> columns_;
   std::vector<ChangedRow> rows_;
-  std::vector<const Eigen::VectorXd*> in_force_;  // columns of Y, one for each row
+  std::vector<const Eigen::VectorXd*> in_force_;  // columns of Y, one for each of rows_
   Eigen::MatrixXd inverse_;                       // inverse of 1 + D Y
   Eigen::VectorXd parts_, shares_, work_;
   long solves_ = 0;

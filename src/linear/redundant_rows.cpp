@@ -11,7 +11,8 @@
 namespace signorini::linear {
 namespace {
 
-// Relative remainder of a row after removal of all others; rounding is below.
+// A row is dependent if its remainder after removal of all others is below this fraction of it; rounding is
+// smaller.
 constexpr double dependent = 1e-12;
 
 }  // namespace
@@ -72,8 +73,9 @@ bool RedundantRows::has_mass(const Combination& form) const {
   });
 }
 
-/// Rigid contacts that act on common degrees of freedom; separately, sliders on ground at rest: their normal forces are
-/// prescribed, and contacts that stick to differently moving surfaces hold no common motion.
+/// Groups of rigid contacts that act on common degrees of freedom; separately, groups of sliders on ground at
+/// rest. The normal forces of sliders are prescribed, and surfaces that move differently constrain no common
+/// motion.
 std::vector<std::vector<std::size_t>> RedundantRows::coupled_groups() const {
   base::DisjointSets sets(model_.contacts.size());
   std::unordered_map<int, std::size_t> feet, sliders;  // the first that acts on a degree of freedom
@@ -105,7 +107,7 @@ RedundantRows::RedundantRows(const Model& model, const SystemMatrices& structure
       if (model.contacts[k].takes_impulses()) rows.push_back(model.layout.normal(k));
       if (model.contacts[k].sticks_rigidly()) rows.push_back(model.layout.tangent(k));
     }
-    // Two walls on both sides of a mass never close together: without friction no rows are shared.
+    // Without friction no group is needed: two walls on both sides of a mass never close together.
     const Eigen::MatrixXd null = null_of_columns(columns(rows));
     bool friction = false;
     for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
@@ -143,7 +145,8 @@ std::vector<SharedForces> RedundantRows::in_force(const std::vector<Rows>& rows)
     shared.null = null_of_columns(h);
     if (shared.null.cols() == 0) continue;
     Eigen::MatrixXd h_f = h;
-    Eigen::VectorXd squares = Eigen::VectorXd::Ones(count);  // of N and T that a unit of each force brings
+    // D: sum of the squares of N and T that belong to a unit of each force.
+    Eigen::VectorXd squares = Eigen::VectorXd::Ones(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const std::size_t row = shared.rows[static_cast<std::size_t>(i)];
       if (!layout.is_normal(row)) continue;

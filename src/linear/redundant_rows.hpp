@@ -1,14 +1,18 @@
 // redundant_rows.hpp: contacts that constrain one motion redundantly, such as two feet or two sticking sliders of one
 // body.
 //
-//   | M  F | | a |   | p |      H z = 0:  rows that say the same
-//   | H' 0 | | f | = | b |      F y = 0:  forces that move nothing, so that f is not unique
+//   | M  F | | a |   | p |      H z = 0:  dependent constraints
+//   | H' 0 | | f | = | b |      F y = 0:  forces without effect on the motion, so that f is not unique
 //
-// H has the normals of what is closed and the tangents of what sticks; F the same, but n - s fs t for the normal of a contact
-// that bears its static limit at rest (T = -s fs N). With s z (D y)' in place of 0 the matrix is regular, and where z.b = 0
-// its solution has H' a = b and y.D f = 0: the motion is the same, and of all forces that go with it those are taken whose sum
-// of squares of N and T, f.D f, is least. s > 0 is of the size of H' M^-1 H, which changes no digit of either. Sliders share among themselves, on ground that stands and where
-// there is mass; beside rigid contacts they are refused.
+// H has the normals of closed contacts and the tangents of sticking contacts as columns. F is the same, but
+// has n - s fs t for the normal of a contact at its static limit (T = -s fs N).
+//
+// With s z (D y)' in place of 0 the matrix is regular. If z.b = 0, its solution satisfies H' a = b and y.D f
+// = 0. So the motion is the same, and of all possible forces it has those with the least sum of squares of N
+// and T, f.D f. s > 0 has the size of H' M^-1 H, so that it adds no rounding error to motion or forces.
+//
+// Sliders share forces with sliders only, on ground at rest and where there is mass. A slider that shares
+// with rigid contacts is refused.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,14 +23,15 @@
 
 namespace signorini::linear {
 
-/// s Z (D Y)' on rows of forces, numbered as the forces are (signorini/force_layout.hpp).
+/// The entries s Z (D Y)' of contacts that constrain one motion redundantly. Columns of Z and Y: all z and y.
+/// Rows are numbered as the forces are (signorini/force_layout.hpp).
 struct SharedForces {
   std::vector<std::size_t> rows;
   Eigen::MatrixXd entries;  ///< one for each pair of rows
   Eigen::MatrixXd null;     ///< Z, orthonormal: rows x redundantly constrained motions
 };
 
-/// Orthonormal z with H z = 0: combinations of columns that vanish up to a rounding.
+/// Orthonormal z with H z = 0, as columns: combinations of the columns of h that vanish up to rounding.
 [[nodiscard]] Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h);
 
 /// True if row i participates in one of these combinations (orthonormal columns) by more than rounding.

@@ -107,8 +107,8 @@ double SystemMatrices::quadratic(const std::vector<double>& values, const double
 namespace {
 
 constexpr std::size_t rows_of_lanes = 4;
-// Greatest number of band places for each entry: a diagonal of four rows, two loads of matrices and two of motions,
-// costs as much as three entries one by one.
+// Greatest number of places in the band per entry: a diagonal of four rows, two loads of matrices and two of
+// motions, costs as much as three entries one by one.
 constexpr std::size_t most_of_entries = 3;
 
 /// Blocks of rows whose columns all exist: [first, last).

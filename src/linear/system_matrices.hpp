@@ -17,14 +17,15 @@ namespace signorini::linear {
 //
 //   r_i -= sum_j ( c_ij v_j + k_ij u_j ),   j from i - width to i + width
 //
-// Column by column each sum would wait until the previous one is stored. Here four rows are processed in parallel,
-// diagonal by diagonal. Each row adds its terms in the order of the columns, and missing entries add zero: the results
-// are bitwise the same.
+// A product column by column would wait for each sum until the previous one is stored. Here four rows are
+// processed in parallel, diagonal by diagonal. Each row adds its terms in the order of the columns, and
+// missing entries add zero, so the results are bitwise the same.
 
 class BandedForces {
  public:
   BandedForces() = default;
-  /// Empty if bands would have far more places than entries. Compressed columns; c, k: aligned with `row`.
+  /// Stays empty if the band would have far more places than entries. Compressed columns; c, k: aligned with
+  /// `row`.
   BandedForces(const std::vector<std::int64_t>& column_start, const std::vector<int>& row,
                const std::vector<double>& c, const std::vector<double>& k);
 
@@ -49,11 +50,11 @@ struct SystemMatrices {
   void add_product(const double* a, const double* v, const double* u, double* r) const;
   /// r -= C v + K u
   void subtract_forces(const double* v, const double* u, double* r) const;
-  /// v^T C v, from half of the symmetric part, nonzero entries only.
+  /// v^T C v, computed from the nonzero entries of one triangle.
   [[nodiscard]] double damping_power(const double* v) const;
   /// x^T values x
   [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
-  /// Sum of the magnitudes of the terms: reference for rounding.
+  /// Sum of the magnitudes of the terms of quadratic(): its rounding error is relative to it.
   [[nodiscard]] double magnitude(const std::vector<double>& values, const double* x) const;
   /// r += values x, for one of m, c, k
   void add_product(const std::vector<double>& values, const double* x, double* r) const;
@@ -73,8 +74,8 @@ struct SystemMatrices {
 //
 //   r = M a + C v + K u = M (a + alpha v) + K (u + beta v) + R v,   C = alpha M + beta K + R
 //
-// R contains discrete dampers and is mostly zero, so an entry costs two numbers instead of three. Rows instead of
-// columns: every sum stays in a register. Shapes: n degrees of freedom; unit of r: force.
+// R contains discrete dampers and is mostly zero, so an entry costs two numbers instead of three. The product
+// is taken row by row, so that every sum stays in a register. Shapes: n degrees of freedom; unit of r: force.
 //
 //   for (i) product.put(i, a[i], v[i], u[i]);
 //   product.apply(r);

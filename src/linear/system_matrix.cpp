@@ -12,7 +12,7 @@ class Pattern {
  public:
   explicit Pattern(int size) : columns_(static_cast<std::size_t>(size)) {}
   void add(int row, int column) { columns_[static_cast<std::size_t>(column)].insert(row); }
-  /// Each of these columns has the rows of all.
+  /// Gives each of these columns the rows of all of them.
   void unite(const std::vector<int>& columns) {
     std::set<int> all;
     for (const int j : columns) {
@@ -34,7 +34,7 @@ class Pattern {
   std::vector<std::set<int>> columns_;
 };
 
-/// Rows of the matrix, and columns: those of forces follow those of the degrees of freedom.
+/// Rows and columns of forces in the matrix; they follow those of the degrees of freedom.
 struct ForcePlaces {
   int dofs;
   const ForceLayout& layout;

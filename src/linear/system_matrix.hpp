@@ -3,14 +3,17 @@
 //   | M w_a + C w_v + K w_u    n   t |   columns of the degrees of freedom carry weights
 //   | rows of the contacts         . |   (acceleration, velocity, displacement) each
 //
-// The weights define the unknown of that column. IDA solves for dv of degrees of freedom with mass (w = cj, 1, 1/cj)
-// and for du of those without (0, cj, 1); the expansion in time solves for v', for u' of damped and u of undamped
-// massless degrees of freedom (motion/state_systems.hpp); Newmark uses (1, h/2, h^2/4). Order of unknowns and rows: the n
-// degrees of freedom, then N_k and T_k of each contact in turn. The pattern is the union over all states: one for the
-// whole run. Rigid contacts that constrain one motion together have the additional entries s z z', so that forces are
-// unique (linear/redundant_rows.hpp). If a degree of freedom represents a motion without mass
-// (linear/undamped_motion.hpp), its column is that of the motion, the sum of z_i times the columns that i would have
-// with its weights.
+// The weights define the unknown of a column:
+//   IDA                  dv with mass: (cj, 1, 1/cj),  du without mass: (0, cj, 1)
+//   expansion in time    v' with mass, u' of damped and u of undamped massless degrees of freedom
+//                        (motion/state_systems.hpp)
+//   Newmark              (1, h/2, h^2/4)
+//
+// Order of unknowns and rows: the n degrees of freedom, then N_k and T_k of each contact in turn. The pattern
+// is the union over all states, one for the whole run. Rigid contacts that constrain one motion together have
+// the additional entries s z (D y)', so that forces are unique (linear/redundant_rows.hpp). If a degree of
+// freedom represents a motion z without mass (linear/undamped_motion.hpp), its column is that of the motion:
+// the sum of z_i times the columns that the degrees of freedom i would have with its weights.
 #pragma once
 
 #include <vector>
@@ -29,7 +32,7 @@ struct Weights {
   double acceleration = 0.0, velocity = 0.0, displacement = 0.0;
 };
 
-/// The factor of one degree of freedom in a form.
+/// Factor of a degree of freedom in a form; 0 if the form does not contain it.
 [[nodiscard]] double component(const Combination& combination, int dof);
 
 /// Entry of a contact's row in the column of a degree of freedom with these components of normal and tangent.
@@ -45,8 +48,8 @@ class SystemMatrix {
  public:
   SystemMatrix(const Model& model, const SystemMatrices& structure);
 
-  /// Fills the values; weights: one for each degree of freedom. `fresh`: choose new pivots (after a state change).
-  /// False: singular.
+  /// Fills and factors the matrix; weights: one for each degree of freedom. `fresh`: choose new pivots (after
+  /// a state change). False: the matrix is singular.
   bool set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
            const std::vector<UndampedMotion>& undamped = {});
   /// b := A^-1 b, length size().

@@ -80,7 +80,7 @@ void add_row(SparseRow& a, double factor, const SparseRow& b) {
   }
 }
 
-/// The velocity that a row depends on, on degrees of freedom without other damping.
+/// Form of the velocity that a row depends on, restricted to degrees of freedom with neither mass nor damper.
 SparseRow velocity_of(const Form& row, const Contact& contact, const std::vector<DofKind>& own) {
   SparseRow result;
   const auto add = [&](const Combination& form, double factor) {
@@ -127,7 +127,7 @@ class Elimination {
   std::map<int, SparseRow> rows_;  // by column
 };
 
-/// Terms of the velocities that rows of the contact may depend on, each in one of its states.
+/// Forms of all velocities that rows of the contact depend on in some state.
 std::vector<Combination> velocities_of(const Contact& contact) {
   if (!contact.obeys_coulomb()) {
     Combination both = contact.normal;

@@ -40,7 +40,8 @@ Model common_to_parts(const Model& whole) {
   return model;
 }
 
-/// place: place in the part of a degree of freedom of the whole; -1: not in the part.
+/// Block of a matrix on `dofs`. place: place of each degree of freedom of the whole in the part; -1: not in
+/// the part.
 SparseMatrix block_of(const SparseMatrix& a, const std::vector<int>& dofs, const std::vector<int>& place) {
   const auto n = static_cast<int>(dofs.size());
   std::vector<Eigen::Triplet<double>> entries;

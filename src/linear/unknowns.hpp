@@ -25,9 +25,9 @@ struct Unknowns {
 
 // The unknown in the equation of a degree of freedom.
 //
-//   massive    its acceleration
-//   damped     its velocity: no mass, but a damper
-//   algebraic  its displacement: neither
+//   massive    with mass: its acceleration
+//   damped     without mass, with a damper: its velocity
+//   algebraic  with neither: its displacement
 
 enum class DofKind : unsigned char { massive, damped, algebraic };
 
@@ -40,14 +40,14 @@ enum class DofKind : unsigned char { massive, damped, algebraic };
 //
 //   M_WW, C_WW, K_WW,   n_k, t_k of contacts on W alone,   P_W
 //
-// The coupling of W to the rest is left out: it is zero for independent parts (parts.hpp); otherwise it acts at
-// the boundary of a neighbourhood (motion/local_derivatives.hpp).
+// The coupling of W to the rest is left out. It is zero for independent parts (model/assembly/parts.hpp);
+// otherwise it acts at the boundary of a neighbourhood (motion/local_derivatives.hpp).
 
-/// Model on `dofs` with `contacts`, which act on these alone: the data that runs of a model need; no outputs, no names
-/// but its own, no drawing, no loads.
+/// Model on `dofs` with `contacts`, which act on these alone. It has the data that a run needs, without
+/// outputs, drawing and loads.
 [[nodiscard]] Model restricted(const Model& model, const std::vector<int>& dofs,
                                const std::vector<std::size_t>& contacts);
-/// The same load without a direction: it acts on no degree of freedom yet.
+/// Copy of a load with an empty direction: it acts on no degree of freedom.
 [[nodiscard]] Load without_direction(const Load& load);
 
 }  // namespace signorini::linear

@@ -2,8 +2,8 @@
 //
 //   M a + C v + K u + sum ( n N + t T ) = P,   rows of the state     for a, N, T and v of massless parts
 //
-// For massless degrees of freedom the equation itself yields u (or v if they are damped), its derivative v (a), its
-// second derivative a.
+// For massless degrees of freedom without damping the equation itself yields u, its first derivative v and
+// its second derivative a. For damped ones it yields v, and its first derivative a.
 #pragma once
 
 #include "motion/taylor.hpp"

@@ -1,6 +1,6 @@
 // contact_series.hpp: motion and forces of contacts on a step, as polynomials.
 //
-//   f(t + s x) = sum_k f_k x^k  for N, T, g, ut, g', ut', g'', and the body's own ut
+//   f(t + s x) = sum_k f_k x^k  for N, T, g, ut, g', ut', g'', q', and ut of the body (slide)
 //
 // A guard is a linear form on these, so it is a polynomial too. Rates are computed from g and ut on request: most
 // guards use none.
@@ -52,13 +52,14 @@ class ContactSeries {
   /// structure's series.
   void set_origin(double origin) { origin_ = origin; }
   [[nodiscard]] double origin() const { return origin_; }
-  /// Bounds the rates of the quantities whose turning points are searched, up to x from the origin.
+  /// Computes upper bounds of |f'| within x of the origin, for the quantities whose extremes are searched: N,
+  /// T, gap and slide.
   void bound_rates(double x);
-  /// Upper limit of |f'| there; infinite if it has not been bounded since fill().
+  /// Upper bound of |f'| by bound_rates(); infinite if it was not called since fill().
   [[nodiscard]] double rate(Field field) const { return rates_[field]; }
   /// out[0 .. degree]: coefficients of the form, about the origin.
   void combine(const Form& form, double* out) const;
-  /// The guard's polynomial, about the origin.
+  /// Properties of a guard's polynomial about the origin.
   struct GuardSeries {
     std::size_t degree = 0;
     double truncation_bound = 0.0;  ///< upper limit of the sum of terms of higher orders
@@ -97,7 +98,7 @@ class ContactSeries {
   std::array<double, fields> rates_ = unbounded();
   std::size_t slide_row_ = slide;  // row of ut, if the body's ut is the same
   mutable std::vector<double> values_;
-  mutable std::array<bool, fields> valid_{};           // valid entries of values_
+  mutable std::array<bool, fields> valid_{};           // rows of values_ that are filled
   mutable std::vector<double> factor_, other_factor_;  // factors of a product
 };
 

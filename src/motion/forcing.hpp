@@ -2,8 +2,8 @@
 //
 //   P(t) = sum_i d_i f_i(t),   q_k(t) compression of sliders,   s_k(t) motion of surfaces
 //
-// A Forcing contains the pieces in force on one side of an instant and continues them smoothly, so that an integrator
-// that evaluates at a discontinuity sees the side from which it approaches.
+// A Forcing contains the pieces that are valid on one side of an instant and continues them smoothly. So an
+// integrator that evaluates it at a discontinuity gets the values of the side from which it approaches.
 #pragma once
 
 #include "signorini/model.hpp"
@@ -26,8 +26,9 @@ class Forcing {
   Forcing(const Model& model, double t, Side side);
   /// A forcing without loads or prescribed motion.
   [[nodiscard]] static Forcing none(const Model& model);
-  /// The same pieces on a part of the model: loads[i] and contacts[i] are the numbers in the whole model of the part's.
-  /// `more`, with the length of the part, is an additional constant load. Both models must outlive the object.
+  /// The same pieces on a part of the model. Load i of the part is loads[i] of the whole model, and likewise
+  /// for contacts. `more`, with the length of the part, is an additional constant load. Both models must
+  /// outlive the object.
   [[nodiscard]] Forcing on_part(const Model& part, const std::vector<int>& dofs,
                                 const std::vector<std::size_t>& loads,
                                 const std::vector<std::size_t>& contacts, const Vector& more) const;
@@ -38,14 +39,15 @@ class Forcing {
   void add_load(double t, int order, double* P, double factor = 1.0) const;
   /// Constant part of the load on a degree of freedom.
   [[nodiscard]] double constant_load(std::size_t dof) const { return constant_.data()[dof]; }
-  /// P += the varying part of the load at t, for the loads whose numbers are `wanted` only.
+  /// P += the varying part of the load at t, from those loads i with wanted(i).
   template <class Wanted>
   void add_varying(double t, const Wanted& wanted, double* P) const;
   /// Coefficients scale^k / k! f^(k)(t), 0 <= k < count, of all loads, compressions and surfaces.
   void expand(double t, double scale, std::size_t count, ForcingSeries& out) const;
   /// P += coefficient k of the load vector.
   void add_load(const ForcingSeries& series, std::size_t k, double* P) const;
-  /// Same with magnitudes of the terms: measure of the uncertainty of loads that balance each other.
+  /// Same with the magnitudes of the terms, to which the rounding error of loads that balance each other is
+  /// relative.
   void add_load_terms(const ForcingSeries& series, std::size_t k, double* P) const;
   /// False: no load acts.
   [[nodiscard]] bool has_loads() const { return loaded_; }
@@ -55,20 +57,20 @@ class Forcing {
   [[nodiscard]] bool surface_moves(std::size_t k) const { return moves_[k]; }
   /// False: all loads, compressions and surfaces are constant.
   [[nodiscard]] bool varies() const { return varies_; }
-  /// True while the compression or the surface of contact k changes.
+  /// True if the compression of contact k or the place of its surface varies with time.
   [[nodiscard]] bool is_driven(std::size_t k) const { return driven_[k]; }
-  /// Greatest circular frequency in the forcing; surface_omega(): in the motions of surfaces alone. Unit: rad per time.
+  /// Greatest circular frequency in the forcing, and in the motions of surfaces alone. Unit: rad per time.
   [[nodiscard]] double max_omega() const;
   [[nodiscard]] double surface_omega() const;
   /// Greatest degree of a polynomial in the forcing.
   [[nodiscard]] std::size_t max_degree() const;
-  /// Derivative of normal_force of contact k.
+  /// Derivative of the given order of normal_force of contact k (order 0: its value).
   [[nodiscard]] double applied_normal_force(std::size_t k, double t, int order) const {
     return presses_[k]  ? applied_normal_force_[k]->value(t, order)
            : order == 0 ? constant_normal_force_[k]
                         : 0.0;
   }
-  /// Derivative of the motion of the surface of contact k (order 1: surface velocity).
+  /// Derivative of the given order of the motion of the surface of contact k (order 1: surface velocity).
   [[nodiscard]] double surface(std::size_t k, double t, int order) const {
     return moves_[k] ? surface_[k]->value(t, order) : order == 0 ? constant_surface_[k] : 0.0;
   }
@@ -76,10 +78,10 @@ class Forcing {
   void expand_surface(std::size_t k, double t, double scale, std::size_t count, double* out) const {
     surface_[k]->taylor(t, scale, count, out);
   }
-  /// Number of coefficients that represent a surface's motion on a step of up to a quarter of a radian: the remainder
-  /// of a wave is 0.25^13 / 13!.
+  /// Number of coefficients that represent a surface's motion on a step of up to a quarter of a radian. The
+  /// relative remainder of a sine is then 0.25^13 / 13!.
   [[nodiscard]] std::size_t surface_terms(std::size_t k) const;
-  /// Rounding of the surface velocity at t.
+  /// Rounding error of the velocity of the surface of contact k at t.
   [[nodiscard]] double surface_rounding(std::size_t k, double t) const;
   /// True while the compression of slider k is zero over an interval.
   [[nodiscard]] bool is_unloaded(std::size_t k) const { return unloaded_[k]; }
@@ -93,8 +95,8 @@ class Forcing {
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load and its piece
   std::vector<const Piece*> applied_normal_force_, surface_;
   std::vector<bool> unloaded_, moves_, presses_, driven_;
-  std::vector<std::size_t> loaded_contacts_,
-      moving_surfaces_;  // contacts with nonzero compression, with moving surface
+  // Contacts with nonzero compression; contacts with moving surface.
+  std::vector<std::size_t> loaded_contacts_, moving_surfaces_;
   std::vector<double> constant_normal_force_, constant_surface_;  // used if the forcing is constant
   bool varies_ = false, loaded_ = false;
 };

@@ -10,10 +10,11 @@
 namespace signorini::motion {
 namespace {
 
-// Factor between the difference due to some roundings and noise: the difference is a single sample.
+// Noise per difference of the two computations; larger than one, because the difference is a single sample.
 constexpr double noise_factor = rounding::many_operations / rounding::eps / DataPerturbation::max_roundings;
 
-// Noise of a form on data: the largest sample of their rounding, and the rounding of the sum.
+// Noise of a form on data, relative to the sum of its terms: the largest sample of their rounding, and the
+// rounding of the sum.
 constexpr double of_data = 2.0 * rounding::many_operations;
 
 constexpr std::size_t known = MotionJet::orders + 2;  // number of derivatives used by the orders of a motion
@@ -68,7 +69,7 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
   if (contact.friction.is_load_dependent()) fill_limit(contact, c, series, last, d);
 }
 
-/// The k-th derivative; pressing: coefficients, factorial: k!.
+/// The k-th derivative; applied: coefficients of the applied normal force, factorial: k!.
 ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double* applied, double factorial) {
   ContactMotion m;
   m.N = d.N[k];

@@ -11,9 +11,10 @@
 namespace signorini::motion {
 namespace {
 
-/// Elements added to the radius: each order spreads a change by one more element, by M^-1 and by K.
+/// Number of elements added to the radius: each order spreads a change by one element by M^-1, and one by K.
 constexpr int spread = 2 * (Jet::orders + 1);
-/// Limit for contacts that are expanded locally, one by one; with more of them the whole structure is used. Chosen.
+/// Limit for the number of contacts that are expanded locally, one by one; with more the whole structure is
+/// used. Chosen.
 constexpr std::size_t most_open = 6;
 
 /// True if some guard contains an acceleration, whose order 1 is not known here.
@@ -23,8 +24,8 @@ bool accelerates(const Contact& contact, const ContactState& state) {
   return false;
 }
 
-/// Relative to the greatest entry of a column of M^-1: smaller entries are rounding; and part of the structure beyond
-/// which a column saves no time.
+/// Entries of a column of M^-1 below of_nothing_here times its greatest one are rounding. A column saves no
+/// time if more than 1 / part_of_structure of its entries remain.
 constexpr double of_nothing_here = rounding::eps / 16.0;
 constexpr std::size_t part_of_structure = 4;
 
@@ -130,9 +131,9 @@ void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forci
   d.T = -rows.tangent.rate(d) / rows.tangent.T;
 }
 
-/// Upper limit for the noise of motion/jet.cpp: there the terms count once, and |x - y| once for each disturbance:
-/// places and velocities as data, N in its row as well, T in its own row and through N. The rounding of x and y
-/// themselves is less than one more.
+/// Upper limit for the noise of motion/jet.cpp. There the terms count once, and |x - y| once for each
+/// perturbation: of displacements and velocities as data, of N in its row, of T in its own row and through N.
+/// The rounding of x and y themselves is less than one more.
 void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
                                       std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];
@@ -193,8 +194,8 @@ bool LocalDerivatives::compute_locally(const StateSystemPtr& system, const Forci
   return is_enough;
 }
 
-/// True if order 0 decided the contact before and is bitwise unchanged: forces follow from its own rows, places and
-/// velocities.
+/// True if order 0 decided the contact before and is bitwise unchanged: forces follow from its own rows,
+/// displacements and velocities.
 bool LocalDerivatives::is_unchanged(std::size_t contact, const Jet& jet, const PreviousJet& previous) const {
   if (jet.system->states()[contact] != previous.jet.system->states()[contact] ||
       std::binary_search(previous.open.begin(), previous.open.end(), contact))
@@ -216,7 +217,7 @@ Jet LocalDerivatives::expand(const StateSystemPtr& system, const Forcing& forcin
   return jet;
 }
 
-/// system: that of any state.
+/// Columns of M^-1 for a contact; system: that of any state.
 const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contact,
                                                               const StateSystem& system) {
   columns_.resize(model_.contacts.size());
@@ -247,7 +248,8 @@ const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contac
   return columns;
 }
 
-/// Same for states that differ from those of a known jet. nullopt: too many states differ, or the change reaches far.
+/// Same as expand(), from a known jet for states that differ from its own. nullopt: too many states differ,
+/// or the change reaches far.
 std::optional<Jet> LocalDerivatives::update(const StateSystemPtr& system, const Forcing& forcing, double t,
                                             const PreviousJet& previous) {
   const contact::ContactStates &states = system->states(), &before = previous.jet.system->states();

@@ -1,15 +1,17 @@
 // local_derivatives.hpp: the motion that a decision needs, computed near the contacts concerned.
 //
 //   M a = P - C v - K u - sum ( n N + t T )        everywhere, once; with it every guard's value and rate
-//   |guard| > rounding + resolution |guard'|       decides most contacts
+//   |guard| > rounding + resolution |guard'|       decides the states of most contacts
 //   derivatives of higher order                    of the others, each on a neighbourhood W (motion/jet.hpp)
-//   a - M^-1 (n dN + t dT)                         other states at the same place, for contacts whose state differs
+//   a - M^-1 (n dN + t dT)                         for other states at the same u and v: dN, dT of contacts
+//                                                  whose state differs
 //
 // W: motion/neighbourhoods.hpp. The structure outside W acts on it with its forces of order 0. Their noise is the
 // difference between the two computations of a jet (motion/jet.hpp), the second of which omits them. If the guard does
 // not exceed that noise, the neighbourhood does not decide the state.
 //
-// For large structures and states whose forces follow from places and velocities alone (linear/mass_factors.hpp).
+// For large structures and states whose forces follow from displacements and velocities alone
+// (linear/mass_factors.hpp).
 #pragma once
 
 #include <cstddef>
@@ -27,7 +29,7 @@ class LocalDerivatives {
   /// object.
   explicit LocalDerivatives(StateSystems& systems, int least = large_structure);
 
-  /// True if local jets suit the model, as far as is known; false once M^-1 was found to decay nowhere.
+  /// True if local jets can be computed for the model; false once M^-1 was found to decay nowhere.
   [[nodiscard]] bool possible() const { return possible_; }
   struct LocalJet {
     Jet jet;                        ///< orders 0 to 2 of u, orders 0 and 1 of forces
@@ -38,8 +40,9 @@ class LocalDerivatives {
     const Jet& jet;
     const std::vector<std::size_t>& open;
   };
-  /// Same meaning as JetMaker::make. nullopt: the whole structure is needed. beside: `motions` still contains its
-  /// motions, which are kept if other states change neither row nor acceleration.
+  /// Same meaning as JetMaker::make. nullopt: the whole structure is needed. With `previous`, `motions` must
+  /// still contain the motions of that jet; they are kept if the other states change neither row nor
+  /// acceleration.
   [[nodiscard]] std::optional<LocalJet> make(const StateSystemPtr& system, const Forcing& forcing, double t,
                                              const Vector& u, const Vector& v,
                                              std::vector<MotionJet>& motions,

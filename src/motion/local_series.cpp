@@ -8,8 +8,8 @@
 namespace signorini::motion {
 namespace {
 
-/// Elements beyond the place where M^-1 is rounding: each level of a series spreads a change by one more, with
-/// decreasing size. Chosen; decays() checks it.
+/// Number of elements by which W extends beyond the place where M^-1 falls below rounding: each level of a
+/// series spreads a change by one more element, with decreasing size. Chosen; decays() checks it.
 constexpr int spread_of_series = 20;
 
 /// Sorts ascending and removes duplicates.

@@ -2,10 +2,12 @@
 //
 //   M a_k + C v_k + K u_k + contacts on W = P_k - ( M a_k + C v_k + K u_k + contacts across )_outside       on W
 //
-// Outside W (motion/neighbourhoods.hpp) the motion keeps its series: the effect of the change there is rounding. This
-// is checked: at the boundary of W the new series must equal the old one up to rounding.
+// Outside W (motion/neighbourhoods.hpp) the motion keeps its series, because the effect of the change there
+// is below rounding. This is checked: at the boundary of W the new series must equal the old one up to
+// rounding.
 //
-// For large structures and states whose forces follow from places and velocities alone (linear/mass_factors.hpp).
+// For large structures and states whose forces follow from displacements and velocities alone
+// (linear/mass_factors.hpp).
 #pragma once
 
 #include <functional>
@@ -29,18 +31,19 @@ class LocalSeries {
     std::function<void(int dof, double* out)> u;
     std::function<void(std::size_t slot, double* out)> force;
   };
-  /// Sizes of motions: weights make degrees of freedom comparable; least: the weighted motion whose rounding counts as
-  /// rounding everywhere.
+  /// Sizes of motions: weights make degrees of freedom comparable. least: size of a weighted motion;
+  /// differences up to its rounding error count as zero everywhere.
   struct Sizes {
     const std::vector<double>& weights;
     double least;
   };
   struct LocalExpansion {
     const Neighbourhood* where;
-    const Series* series;  ///< series on it, valid until the next one is made there
+    const Series* series;  ///< series on that neighbourhood, valid until the next one is made there
   };
-  /// Expands from u and v at t to `levels`. changed: contacts. reach: that of the earlier series, in units of `scale`.
-  /// nullopt: no single W contains all changes, or their effect reaches beyond it.
+  /// Expands from u and v at t to `levels`. changed: contacts whose states have changed. reach: length of the
+  /// interval on which the earlier series is used, in units of `scale`. nullopt: no single W contains all
+  /// changes, or their effect extends beyond it.
   [[nodiscard]] std::optional<LocalExpansion> expand(const std::vector<std::size_t>& changed,
                                                      const StateSystemPtr& system, const Forcing& forcing,
                                                      double t, const Vector& u, const Vector& v, int levels,
@@ -53,8 +56,8 @@ class LocalSeries {
     Taylor taylor;
     Series series;
     std::vector<int> ring, boundary;              // neighbours outside, in the whole; places inside
-    std::vector<Eigen::Index> place_of_coupling;  // place in the ring of each tie
-    std::vector<std::size_t> place_of_crossing;   // place in `across` of each pull
+    std::vector<Eigen::Index> place_of_coupling;  // place in the ring of each coupling
+    std::vector<std::size_t> place_of_crossing;   // place in `across` of each crossing force
     std::vector<std::size_t> across;              // forces
     Eigen::MatrixXd outside, forces;              // coefficients: columns for the ring; for `across`
   };

@@ -10,10 +10,10 @@
 namespace signorini::motion {
 namespace {
 
-/// Relative to the largest entry of a column of M^-1: smaller entries are rounding.
+/// Entries of a column of M^-1 below this fraction of its largest one are rounding.
 constexpr double of_nothing = rounding::eps / 16.0;
-/// Contacts up to this part of the radius away share a neighbourhood. A neighbourhood is at most a quarter of the
-/// structure. Chosen values.
+/// Contacts whose distance is at most radius / sharing share a neighbourhood. A neighbourhood has at most
+/// 1 / least_gain of all degrees of freedom. Chosen values.
 constexpr int sharing = 4, least_gain = 4;
 
 bool is_plain(const Contact& c) {
@@ -57,7 +57,7 @@ Neighbourhoods::Neighbourhoods(StateSystems& systems, int spread)
     root_of_mass_.push_back(std::sqrt(model_.mass.coeff(i, i)));
 }
 
-/// Distance of each degree of freedom, in elements; -1: not connected.
+/// Distance of each degree of freedom from those in `from`, in elements; -1: not connected.
 std::vector<int> Neighbourhoods::distances(const std::vector<int>& from) const {
   std::vector<int> distance(neighbours_.size(), -1), queue = from;
   for (const int dof : from) distance[static_cast<std::size_t>(dof)] = 0;

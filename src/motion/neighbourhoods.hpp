@@ -1,6 +1,6 @@
 // neighbourhoods.hpp: a model of the neighbourhood of a contact.
 //
-//   W:   degrees of freedom where M^-1 n and M^-1 t of the contact exceed rounding, and some elements more
+//   W:   degrees of freedom where M^-1 n and M^-1 t of the contact exceed rounding, and some elements around
 //   M_WW a + C_WW v + K_WW u + contacts on W = P_W - ( M a + C v + K u + contacts across )_outside
 //
 // M^-1 decays with the distance, and so does the instantaneous effect of distant forces on a contact. Contacts close to
@@ -13,8 +13,8 @@
 
 namespace signorini::motion {
 
-/// True if forces of all contacts follow from places and velocities by rows that do not change with the motion, and all
-/// degrees of freedom have mass.
+/// True if all degrees of freedom have mass, and forces of all contacts follow from displacements and
+/// velocities by rows with constant coefficients.
 [[nodiscard]] bool follows_from_motion(const Model& model);
 /// Number of degrees of freedom from which local expansions save time. Chosen.
 inline constexpr int large_structure = 400;
@@ -31,22 +31,22 @@ struct Neighbourhood {
   Neighbourhood(const Neighbourhood&) = delete;  // its parts refer to each other by address
   Neighbourhood& operator=(const Neighbourhood&) = delete;
 
-  /// Limit of cached states. States share one factorisation of M_WW, so that keeping many saves no time; there may be
-  /// hundreds of neighbourhoods.
+  /// Limits of the cache of states. They are low, because states share one factorisation of M_WW, and because
+  /// there may be hundreds of neighbourhoods.
   static constexpr base::CacheLimits few_states{8, std::size_t{1} << 18};
   Model model;
   linear::SystemMatrices structure;
   StateSystems systems;
   std::size_t number = 0;                    // in the order of creation
   std::vector<int> dofs;                     // numbers in the whole, ascending
-  std::vector<std::size_t> contacts, loads;  // same
+  std::vector<std::size_t> contacts, loads;  // numbers in the whole, ascending
   /// Coupling of row `at` here to column `dof` outside.
   struct Coupling {
     int at, dof;
     double m, c, k;
   };
   std::vector<Coupling> couplings;
-  /// Contacts that reach across the boundary: their forces act on `at`.
+  /// Force of a contact that acts both inside and outside: it acts on degree of freedom `at` here.
   struct CrossingForce {
     int at;
     std::size_t force;  // slot of the force
@@ -64,10 +64,12 @@ struct Neighbourhood {
 
 class Neighbourhoods {
  public:
-  /// spread: elements beyond the place where M^-1 is below rounding. Both arguments must outlive the object.
+  /// spread: number of elements by which W extends beyond the place where M^-1 falls below rounding.
+  /// `systems` must outlive the object.
   Neighbourhoods(StateSystems& systems, int spread);
 
-  /// Null: M^-1 does not decay within a quarter of the structure. system: that of any state, with a factorisation of M.
+  /// Neighbourhood of a contact. Null: M^-1 does not decay within a quarter of the structure. system: that of
+  /// any state, with a factorisation of M.
   [[nodiscard]] Neighbourhood* around(std::size_t contact, const StateSystem& system);
   /// True once several searches have found no neighbourhood.
   [[nodiscard]] bool has_given_up() const { return made_.empty() && failures_ >= max_failures; }

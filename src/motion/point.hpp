@@ -18,9 +18,7 @@
 
 namespace signorini::motion {
 
-// The resolution of times that are doubles.
-
-/// Times closer than this are equal for an integrator: IDA's own measure.
+/// Times closer than this are equal for an integrator, by IDA's own measure.
 [[nodiscard]] inline double resolution_at(double t, double step) {
   return rounding::time_resolution * (std::abs(t) + std::abs(step));
 }
@@ -67,8 +65,8 @@ struct Point {
   return m;
 }
 
-/// Tangential displacement and velocity of the touching body, relative to the surface: those of the motion unless a
-/// shear element is in between.
+/// Tangential displacement and velocity of the touching body, relative to the surface. Without a shear
+/// element they are ut and ut' of motion_of().
 struct BodySlide {
   double ut = 0.0, vt = 0.0;
 };
@@ -93,7 +91,8 @@ struct BodySlide {
 //
 // Powers of a contact: contact/work.hpp.
 
-/// Integrals of the powers. friction, surface: one for each contact; pressing: of -N, unit force * time.
+/// Integrals of the powers. friction, surface and applied_normal_force have one entry for each contact;
+/// applied_normal_force is the integral of -N, force * time.
 struct WorkIntegrals {
   explicit WorkIntegrals(std::size_t contacts = 0)
       : friction(contacts, 0.0), surface(contacts, 0.0), applied_normal_force(contacts, 0.0) {}
@@ -133,13 +132,13 @@ class Powers {
   const linear::SystemMatrices& structure_;
 };
 
-// Uncertainty of form . x due to one rounding of the data, in roundings.
+// Rounding error of form . x if the data are rounded once, in units of eps.
 //
 //   |form| |x|  in the plane, whatever the angle between them and the axes;  sum |form_i x_i|  of unlike coordinates
 
 inline constexpr std::size_t max_plane_terms = 4;  // for a form on the translations of one node, or of two
 
-/// x: maps a degree of freedom to its size. Components that the form does not contain do not count.
+/// x(dof): size of a degree of freedom. Components that the form does not contain do not count.
 template <class Size>
 double form_magnitude_by(const Model& model, const Combination& form, const Size& x) {
   double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
@@ -155,6 +154,7 @@ double form_magnitude_by(const Model& model, const Combination& form, const Size
   }
   return terms + std::sqrt(form_squared * x_squared);
 }
+/// Same with the sizes of a vector x.
 template <class Entries>
 double form_magnitude(const Model& model, const Combination& form, const Entries& x) {
   return form_magnitude_by(model, form, [&x](int dof) { return x[dof]; });

@@ -39,7 +39,8 @@ namespace {
 /// Number of derivatives of surface motions that a decision examines.
 constexpr int most_reported = 8;
 
-/// True if z.s' = 0 from t on: surfaces under feet that share a motion move alike, or are at rest.
+/// True if z.s' = 0 from t on: the surfaces of contacts that constrain one motion together move alike, or are
+/// at rest.
 bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared, const Eigen::VectorXd& z,
                   const Forcing& forcing, double t) {
   for (int order = 1; order <= most_reported; ++order) {
@@ -81,8 +82,8 @@ StateSystems::StateSystems(const Model& model, const linear::SystemMatrices& str
     }
 }
 
-/// Computing it takes no longer than a search, which compares states one by one. Null: a row contains an acceleration,
-/// or friction that will change.
+/// System by the factors of M. Computing it takes no longer than a search, which compares states one by one.
+/// Null: a row contains an acceleration, or friction whose coefficient varies.
 std::shared_ptr<const FactorisedStates> StateSystems::by_mass(const contact::ContactStates& contact_states,
                                                               const std::vector<Rows>& rows) {
   std::vector<linear::ContactForceBlock> forces =

@@ -1,13 +1,15 @@
 // state_systems.hpp: source of the systems of contact states: one cache of factorisations, by state.
 //
-//   const StateSystemPtr system = systems.of(states);      null: rows are linearly dependent
+//   const StateSystemPtr system = systems.system_of(states);      null: rows are linearly dependent
 //
-// Bounds: a periodic motion takes each contact through stick and slip both ways, about four states for each contact, so
-// 1024 states cover cycles of 256 contacts. A dense system contains up to (40^2 + 2 * 40 * 38) numbers, 37 kB, and the
-// solves of a decision cost as much as making the system again: a missing system at most doubles the time of a
-// decision. 16 MiB hold 400 such systems, or the factors of a million entries, beyond which processor caches end and a
-// factorisation costs more than a look-up in any case. States whose forces follow from places and velocities alone
-// share one factorisation of M (linear/mass_factors.hpp), are made as fast as they would be found, and are not cached.
+// Limits of the cache: in a periodic motion a contact sticks and slips both ways, about four states for each
+// contact, so 1024 states cover cycles of 256 contacts. A dense system contains up to (40^2 + 2 * 40 * 38)
+// numbers, 37 kB. Making it again costs as much as the solves of a decision, so a missing system at most
+// doubles the time of a decision. 16 MiB hold 400 such systems, or factors with a million entries. Larger
+// factors exceed processor caches.
+//
+// States whose forces follow from displacements and velocities alone share one factorisation of M
+// (linear/mass_factors.hpp). They are not cached, because making one takes no longer than finding it.
 #pragma once
 
 #include <memory>
@@ -31,10 +33,10 @@ namespace signorini::motion {
 //   | M w_a + C w_v + K w_u    n   t |  x = b      w: 1 for the unknown quantity of a degree of freedom
 //   | rows of the contacts         . |             (linear/unknowns.hpp), else 0
 //
-// The part that depends on the states alone is a FactorisedStates, shared by all anchors: anchors are constants of rows.
-// Friction that depends on the slip rate is in the matrix: such a system is valid for the friction coefficients that it
-// was made with, initially the kinetic ones.
-// Shapes: n degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
+// The part that depends on the states alone is a FactorisedStates. Systems that differ in anchors share it,
+// because anchors are constants of rows. Friction that depends on the slip rate is in the matrix: such a
+// system is valid for the friction coefficients that it was made with, initially the kinetic ones. Shapes: n
+// degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
 
 /// Limit of unknowns up to which a dense inverse is faster than a sparse solve.
 inline constexpr std::size_t max_dense_size = 40;
@@ -42,15 +44,16 @@ inline constexpr std::size_t max_dense_size = 40;
 struct FactorisedStates {
   linear::Unknowns unknowns;
   std::vector<linear::DofKind> kinds;  ///< one for each degree of freedom
-  /// The column of such a degree of freedom represents a whole motion.
+  /// Motions without mass and damping, each represented by the column of its degree of freedom.
   std::vector<linear::UndampedMotion> undamped;
   std::vector<linear::PrescribedDof> prescribed;
-  std::vector<linear::SharedForces> shared;   ///< rigid contacts that constrain one motion together
-  std::vector<std::size_t> rate_dependent;    ///< contacts that slip with rate-dependent friction
-  bool massless = false;                      ///< some degrees of freedom are massless
-  bool regular = false;                       ///< false: rows are linearly dependent; there is no inverse
-  linear::TriangularFactors sparse;           ///< empty if `inverse` or `by_mass` is used
-  std::optional<linear::MassSolver> by_mass;  ///< used if the forces follow from places and velocities alone
+  std::vector<linear::SharedForces> shared;  ///< rigid contacts that constrain one motion together
+  std::vector<std::size_t> rate_dependent;   ///< contacts that slip with rate-dependent friction
+  bool massless = false;                     ///< some degrees of freedom are massless
+  bool regular = false;                      ///< false: rows are linearly dependent; there is no inverse
+  linear::TriangularFactors sparse;          ///< empty if `inverse` or `by_mass` is used
+  std::optional<linear::MassSolver>
+      by_mass;  ///< used if forces follow from displacements and velocities alone
   /// Column by column: A^-1, and the responses of the unknowns to a unit of u or v of each degree of freedom, if all
   /// have mass: x = A^-1 b + from_u u + from_v v.
   std::vector<double> inverse, from_u, from_v;
@@ -94,18 +97,20 @@ class StateSystems {
 
   /// The system of a contact state. Null: its rows are linearly dependent, so forces would not be unique.
   [[nodiscard]] StateSystemPtr system_of(const contact::ContactStates& states);
-  /// The same system with these coefficients of friction for the contacts `by_rate`. It is not cached, since slip rates
-  /// do not recur. Null: singular.
+  /// The same system with these tangent rows for the contacts FactorisedStates::rate_dependent. It is not
+  /// cached, since slip rates do not recur. Null: singular.
   [[nodiscard]] StateSystemPtr with_friction(const StateSystem& system, std::span<const Form> tangents);
 
-  /// True if other sticking or touching contacts hold contact c at rest on its surface, so that its sticking would add
-  /// no constraint. With H z = 0 of the rows in force its slip rate is -z.s'/z_c, s the motions of the surfaces: zero
-  /// from t on if all derivatives of z.s are zero. A contact held by others on a moving surface slips.
+  /// True if other sticking or closed contacts keep contact c at rest on its surface, so that its own
+  /// sticking would add no constraint. With H z = 0 (linear/redundant_rows.hpp) its slip rate is -z.s'/z_c,
+  /// s: motions of the surfaces. The rate is zero from t on if all derivatives of z.s are zero. A contact
+  /// that others hold on a moving surface slips.
   [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates states, const Forcing& forcing,
                                     double t) const;
 
-  /// Marks slips of contacts that others hold, and that keep their static friction (State::static_limit_plus); if both
-  /// coefficients are equal there is no difference.
+  /// Gives slipping contacts that others hold the states static_limit_plus and static_limit_minus, in which
+  /// they keep their static friction; contacts that are no longer held get slip_plus and slip_minus. Contacts
+  /// with equal coefficients are left as they are.
   void mark_static_limits(contact::ContactStates& states, const Forcing& forcing, double t) const;
 
   /// Lists of two or more contacts that may constrain one motion together; may_share(): membership.
@@ -143,8 +148,9 @@ class StateSystems {
   std::vector<linear::Weights> weights_;
   std::shared_ptr<const linear::TriangularFactors> mass_;  // null: not used for this model
   base::LruCache<std::vector<State>, std::shared_ptr<const FactorisedStates>> cache_;
-  std::vector<std::size_t> holdable_;  // contacts that others may hold at a static limit above kinetic
-  StateSystemPtr last_;                // the last system returned
+  // Contacts that others may hold, and whose static friction is above the kinetic one.
+  std::vector<std::size_t> holdable_;
+  StateSystemPtr last_;  // the last system returned
   long made_ = 0;
 };
 
@@ -153,8 +159,9 @@ class StateSystems {
 //   n . u + g0 = 0,  n . v = 0     at closed rigid contacts
 //   t . v = s'                     at contacts that stick without tangential stiffness
 
-/// Changes u and v as little as possible, in the norm of M, so that they satisfy the constraints of the contact state
-/// at t. Returns the impulses along n and t of the contacts that change v, slots like those of forces; empty: none.
+/// Changes u and v as little as possible, in the norm of M, so that they satisfy the constraints of the
+/// contact state at t. Returns the impulses of the contacts that change v so, along n and t, in the order of
+/// forces; empty: none.
 Eigen::VectorXd project_constraints(const Model& model, const StateSystem& system, const Forcing& forcing,
                                     double t, Vector& u, Vector& v);
 

@@ -27,7 +27,8 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
   row_ = contact::sliding_row(s, friction_.first());
 }
 
-/// N_0 follows from g or q, because all degrees of freedom of such a contact have mass.
+/// Begins a series with friction that depends on N. N_0 follows from g or q, because all degrees of freedom
+/// of such a contact have mass.
 void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   const Friction& friction = contact_->friction;
   const double pressed = -normal_coefficient(*contact_, index_, normal, series, 0);
@@ -46,7 +47,7 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const double along =
       s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);  // the body's own velocity
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
-  // The contribution of a dashpot to the growth of |N| needs accelerations (doubtful()).
+  // The contribution of a dashpot to the growth of |N| needs accelerations (is_ambiguous()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +
                         normal.applied_normal_force * per_time * f.applied_normal_force[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
@@ -144,7 +145,8 @@ Taylor::Taylor(StateSystems& systems)
     if (model_.contacts[c].curved_surface()) curved_contacts_.push_back(c);
 }
 
-/// Friction at the beginning of a series is a coefficient of its matrix.
+/// Prepares all contacts with varying friction. Their friction at the beginning of the series is a
+/// coefficient of its matrix.
 void Taylor::start_friction(const Forcing& forcing, Series& series) {
   friction_.clear();
   const std::vector<std::size_t>& by_rate = system_->factorised().rate_dependent;
@@ -188,7 +190,7 @@ void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   friction_ = std::move(settled);
 }
 
-/// Contribution of curved surfaces beside K: products of two series.
+/// Adds the forces of curved surfaces that are not in K: products of two series.
 void Taylor::add_restoring_forces(int order, const Series& series) {
   for (const std::size_t c : curved_contacts_) {
     const Contact& contact = model_.contacts[c];
@@ -382,7 +384,7 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
   terms[system_->unknowns().tangent(c)] = q;
 }
 
-/// Disturbs each equation by some roundings of its terms: the backward error of its solution.
+/// Perturbs each equation by some roundings of its terms: the backward error of its solution.
 void Taylor::perturb(const Forcing& forcing, int order, const DataPerturbation& disturbance) {
   const Series& motion = disturbance.motion;
   if (order == 0) {

@@ -4,10 +4,11 @@
 //   M a_k + C v_k + K u_k + sum ( n N_k + t T_k ) = P_k,   rows of the contact state
 //   v_k = (k+1)/s u_(k+1),   a_k = (k+1)(k+2)/s^2 u_(k+2)
 //
-// Level k is one solve with the state's system (motion/state_systems.hpp): its unknowns are a_k of degrees of freedom
-// with mass, v_k of massless degrees of freedom with damping, u_k of those without, N_k and T_k. So u, v at an instant
-// give consistent forces and accelerations (level 0), and then the whole series, for every kind of system: nonsymmetric
-// by friction, singular by free motions, with massless parts or rigid sticking.
+// Level k is one solve with the state's system (motion/state_systems.hpp): its unknowns are a_k of degrees of
+// freedom with mass, v_k of massless degrees of freedom with damping, u_k of those without, N_k and T_k. So u
+// and v at an instant give consistent forces and accelerations (level 0), and then the whole series. This
+// holds for every kind of system: nonsymmetric by friction, singular by free motions, with massless parts or
+// rigid sticking.
 #pragma once
 
 #include <functional>
@@ -45,8 +46,8 @@ struct Series {
   return contact.tangent.dot(u) - series.forcing.surface[index * series.forcing.count + k];
 }
 
-/// Coefficient k of N of a contact with the normal row N = kn g + cn g', N = -q or N = 0, if u and v have mass: known
-/// before level k is.
+/// Coefficient k of N of a contact with the normal row N = kn g + cn g', N = -q or N = 0. If its degrees of
+/// freedom have mass, it is known before level k is solved.
 [[nodiscard]] inline double normal_coefficient(const Contact& contact, std::size_t index, const Form& row,
                                                const Series& series, std::size_t k) {
   const double* v = series.u.data() + (k + 1) * static_cast<std::size_t>(series.u.rows());
@@ -61,13 +62,14 @@ struct Series {
 //
 //   T_k + s sum_(j = 0..k) f_j N_(k-j) = 0       f_j: contact/friction.hpp
 //
-// f_0 is in the matrix of the system; the terms of the higher ones are known at level k, since p'_k is. A sliding point
-// without mass (a shear element) has p'_k as an unknown of level k:
+// f_0 is in the matrix of the system; the terms with f_1 to f_k are known at level k, since p'_k is. A
+// sliding point without mass (a shear element) has p'_k as an unknown of level k:
 //
 //   T_k + s f_0 N_k + f'(s p'_0) N_0 p'_k = -s sum' f_j N_(k-j)     sum': without the part of p'_k in f_k
 //
-// and p'_0 follows from T_0 (contact/friction.hpp). If friction is at its greatest, or N_0 is zero, the point
-// follows quasi-statically: its displacement is the unknown, and friction's coefficient is constant.
+// and p'_0 follows from T_0 (contact/friction.hpp). If the coefficient of friction is at its greatest value,
+// or N_0 is zero, the point follows quasi-statically: its displacement is the unknown, and the coefficient is
+// constant.
 //
 // For friction that depends on N, F'(|N_0|) is in the matrix (contact/friction.hpp):
 //   T_k + s F' N_k = s ( F_k - F' |N|_k )
@@ -81,19 +83,20 @@ class FrictionSeries {
   [[nodiscard]] std::size_t contact() const { return index_; }
   /// The tangent row in the matrix.
   [[nodiscard]] const Form& row() const { return row_; }
-  /// Instantaneous displacement of a point without mass if N has decreased so far that friction does not hold it at any
-  /// rate near its present one; else zero. Unit: length.
+  /// Jump of a point without mass, if N has decreased so far that friction balances the spring at no rate
+  /// near the present one; else zero. Unit: length.
   [[nodiscard]] double jump() const { return jump_; }
-  /// True if friction is at its greatest, the spring force does not determine the rate, and the growth rate of N
-  /// depends on accelerations, through a dashpot: row() is that of a rate at which friction just reaches its greatest
-  /// value.
+  /// True if accelerations must decide whether the point follows quasi-statically: the coefficient of
+  /// friction is at its greatest value, and the rate of N depends on accelerations through a dashpot. row()
+  /// then is that of max_rate().
   [[nodiscard]] bool is_ambiguous() const { return ambiguous_; }
-  /// Changes to a point that follows quasi-statically; the accelerations require it.
+  /// Lets the point follow quasi-statically, after the accelerations have decided so.
   void follow_quasi_statically();
   /// Rate along the slip in a series in which the point follows quasi-statically.
   [[nodiscard]] double rate_in(const Series& series) const { return sign_ * slip_rate(0, series); }
+  /// Rate at which the coefficient of friction counts as its greatest value: contact::saturation_rate().
   [[nodiscard]] double max_rate() const;
-  /// Known part of the row; to be called for k = 0, 1, 2, ... in turn.
+  /// Known part of the row at level k; must be called for k = 0, 1, 2, ... in this order.
   [[nodiscard]] double known(int k, const Series& series);
 
  private:
@@ -112,14 +115,15 @@ class FrictionSeries {
   std::optional<contact::LimitSeries> limit_;  // for friction that depends on N
 };
 
-/// Some roundings of all terms of all equations, irregular but reproducible: equal disturbances would leave cancelling
-/// sums unchanged, so that an accidental zero would look like one of the equations.
+/// Perturbations of all equations by some roundings of their terms, irregular but reproducible. Equal
+/// perturbations would leave cancelling sums unchanged, so that an accidental zero would look like a zero of
+/// the equations.
 struct DataPerturbation {
   const Series& motion;  ///< undisturbed: source of the terms
 
-  static constexpr double max_roundings =
-      8.0;  ///< number of roundings: results show them above their last digit
-  /// +-(1/2 .. 1) most eps
+  /// Greatest perturbation in units of eps; chosen so that results show it above their last digit.
+  static constexpr double max_roundings = 8.0;
+  /// Relative perturbation number i: between 1/2 and 1 times max_roundings eps in magnitude, of either sign.
   static double fraction(std::size_t i);
 };
 
@@ -132,7 +136,8 @@ class Taylor {
   void expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
               const Vector& v, int levels, double scale, Series& out,
               const DataPerturbation* disturbance = nullptr);
-  /// Same in two parts: memory for `levels`, then the levels up to the given one.
+  /// Same in two parts: begin() allocates memory for `levels`, extend() computes the levels up to the given
+  /// one.
   void begin(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
              int levels, double scale, Series& out, const DataPerturbation* disturbance = nullptr);
   void extend(const Forcing& forcing, int levels, Series& out, const DataPerturbation* disturbance = nullptr);
@@ -146,8 +151,8 @@ class Taylor {
   /// The system of the last series: that of its contact state, with friction at its slip rates.
   [[nodiscard]] const StateSystemPtr& system() const { return system_; }
   [[nodiscard]] bool massless() const { return massless_; }
-  /// Column k: sum of the magnitudes of the terms of each equation at level k of the last disturbed series.
-  /// n + 2 contacts rows.
+  /// Sums of the magnitudes of the terms of each equation, level k of the last perturbed series in column k.
+  /// Rows: the n degrees of freedom, then the rows of all contacts.
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
 
  private:

@@ -14,8 +14,8 @@
 // to the surface. If it closes with g' < 0, an impact is computed (decide/impact.hpp). With Stribeck friction
 // fk depends on the slip rate (contact/friction.hpp).
 //
-// With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
-// in stick.
+// With a shear element (kt and ct side by side) p is an unknown:
+//   ct (ut' - p') + kt (ut - p) = T,   and p' = 0 in stick
 // A slider has no gap and the normal row N = -normal_force(t); without kt its row in stick is ut'' = 0.
 // A user law may replace all this: user_contact_law.hpp. The interface of all laws: contact_law.hpp.
 // Forces on the body: -N along n, -T along t.

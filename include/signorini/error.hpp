@@ -24,8 +24,9 @@ enum class ExitCode : int {
 
 /// A place in a text file; line and column count from 1, 0 means unknown.
 struct SourcePlace {
-  static constexpr int command_line = -1;  ///< as a line: the command line; `file` is then the text that the
-                                           ///< user typed (Override::shown_as)
+  /// Value of `line` for a place on the command line; `file` is then the text that the user typed
+  /// (Override::shown_as).
+  static constexpr int command_line = -1;
 
   std::string file;
   int line = 0;

@@ -32,9 +32,9 @@ struct Measurements {
   std::string file = {};  ///< file name for messages
 };
 
-/// Reads a table with a column t, any of event_index (contact and event then are checked against that row of
-/// events.csv), columns of history.csv or columns-1.csv, and sigma, which applies to every number of the row. Empty
-/// cells are skipped. Errors: FileError; Error with the line.
+/// Reads a table. It has a column t, and any of these: event_index, columns of history.csv or columns-1.csv,
+/// and sigma, which applies to every number of the row. With event_index, columns contact and event are
+/// checked against that row of events.csv. Empty cells are skipped. Errors: FileError; Error with the line.
 [[nodiscard]] Measurements read_measurements(const std::string& path);
 
 struct FittedKey {
@@ -58,9 +58,9 @@ struct Fit {
   std::vector<std::string> issues;  ///< reasons why it is not converged, one sentence each
 };
 
-/// `go_on` is called before every run; false stops the fit. Errors: those of sensitivities(); UsageError for fewer rows
-/// than keys and for unknown columns; for events that the first run lacks or that differ, and for times after its end,
-/// Error with the line, or UsageError if there is no file.
+/// `go_on` is called before every run; false stops the fit. Errors: those of sensitivities(); UsageError for
+/// fewer rows than keys and for unknown columns. Events that the first run lacks or that differ, and times
+/// after its end, are refused by an Error with the line, or by a UsageError if there is no file.
 [[nodiscard]] Fit fit(const SceneReader& read, const std::vector<std::string>& paths,
                       const Measurements& measured, const std::function<bool()>& go_on = {});
 

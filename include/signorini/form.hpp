@@ -3,10 +3,10 @@
 //   value = c + a_N N + a_T T + a_g g + a_ut ut + a_vn g' + a_vt ut' + a_an g'' + a_at ut''
 //             + a_q q + a_q' q' + a_F F + a_F' F'        q = normal_force(t), F = f(|N|) |N|
 //
-// Residual rows (value = 0) and guards (value > 0) are such forms, so a contact law is pure data for an engine, and its
-// time derivatives follow from the derivatives of the motion. F is the limit of the friction force where the
-// coefficient depends on N. It is the only term that is not linear in the motion; the code that evaluates the motion of
-// such a contact computes F (contact/friction.hpp).
+// Residual rows (value = 0) and guards (value > 0) are such forms. So a contact law is pure data for an
+// engine, and the time derivatives of rows and guards follow from those of the motion. F is the limit of the
+// friction force where the coefficient depends on N. It is the only term that is not linear in the motion;
+// the code that evaluates the motion of such a contact computes F (contact/friction.hpp).
 #pragma once
 
 #include <cmath>
@@ -39,8 +39,8 @@ inline constexpr std::size_t max_user_law_states = 31;
 [[nodiscard]] constexpr std::size_t user_law_state_number(State own) {
   return static_cast<unsigned>(own) / 8U - 1U;
 }
-/// Kind of any state: a user-law state has the kind that its law gives it, a static limit counts as slip in
-/// its direction, any other state is its own kind.
+/// Kind of any state. The law gives the kind of a user-law state; a static limit counts as slip in its
+/// direction; any other state is its own kind.
 [[nodiscard]] constexpr State kind_of(State state) {
   const unsigned kind = static_cast<unsigned>(state) % 8U;
   return static_cast<State>(kind < 6U ? kind : kind - 2U);

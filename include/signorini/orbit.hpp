@@ -82,10 +82,10 @@ struct Orbit {
   SavedState start;      ///< state at the orbit's time 0
 };
 
-/// Errors: SceneError and UsageError for scenes without a period and without a belt, for loads that do not repeat with
-/// `period`, for a given energy in a driven or damped scene, and for engines and laws without tangents (exact and ida
-/// have them). A failed search is a value: found is false, and `reason` says why. Of `recorder` only `progress` is
-/// called, which may stop the search.
+/// Searches for a periodic motion. Of `recorder` only `progress` is called, which may stop the search. A
+/// failed search is a value: found is false, and `reason` says why. Errors are SceneError and UsageError:
+///   a scene without a period and without a belt;  loads that do not repeat with `period`
+///   a given energy in a driven or damped scene;  an engine or law without tangents (exact and ida have them)
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
                                Recorder* recorder = nullptr);
 

@@ -4,10 +4,10 @@
 //   0 = M v' + C v + K u - P(t) + sum_k ( n_k N_k + t_k T_k )
 //   0 = two rows for each contact, chosen by its state (contact.hpp)
 //
-// The loop. x = (u, v, N, T); x- is its value just before an instant, x+ just after: u- = u+ always, v jumps at
-// impacts, N and T at jumps of loads or when friction releases. A contact state is the list of the states of all
-// contacts; it is valid on [t, t'), up to the first instant t' at which one of its guards is no longer positive or the
-// forcing P, the compression of a slider or the motion of a surface is not smooth (a breakpoint).
+// The loop. x = (u, v, N, T); x- is its value just before an instant, x+ just after: u- = u+ always, v jumps
+// at impacts, N and T at jumps of loads or when friction releases. A contact state is the list of the states
+// of all contacts. It is valid on [t, t'). At t' one of its guards is no longer positive, or there is a
+// breakpoint: the forcing P, the compression of a slider or the motion of a surface is not smooth.
 //
 //   x-, states- <- u0, v0, guessed from the gaps
 //   x+, states+ <- decide(x-, states-) at t = 0        record the impacts, and an output row at 0

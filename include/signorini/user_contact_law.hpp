@@ -5,8 +5,9 @@
 //   valid while     guard_ij(N, T, g, ut, g', ut', p) > 0     at most three, with optional products of forms
 //   at their zero   i <- next, p <- memory(N, T, g, ut, g', ut') if given
 //
-// All are linear forms (form.hpp), with a coefficient for the memory p, a length, such as the anchor of friction or the
-// dent of crushed material. Every normal row must contain N, every tangent row T; forms on accelerations are refused.
+// All are linear forms (form.hpp), with a coefficient for the memory p. p is a length, such as the anchor of
+// friction or the dent of crushed material. Every normal row must contain N, every tangent row T; forms on
+// accelerations are refused.
 //
 //   auto pad = std::make_shared<UserContactLaw>();         a pad that yields at -Y (src/contact/law/yielding_pad.cpp)
 //   pad->states = {{"off", State::open, {{.N = 1}}, {{.T = 1}}, {{{{.gap = 1}, -1}, 1}}},

@@ -9,8 +9,8 @@
 namespace signorini::base {
 namespace {
 
-using Powers =
-    std::array<double, PolynomialInterpolation::max_points>;  // a_0 + a_1 y + ..., y = 2x - 1 in [-1, 1]
+// Coefficients of a_0 + a_1 y + ..., y = 2x - 1 in [-1, 1].
+using Powers = std::array<double, PolynomialInterpolation::max_points>;
 
 /// Newton's divided differences, expanded to powers.
 Powers powers_of(const PolynomialInterpolation::Values& f, std::size_t n) {

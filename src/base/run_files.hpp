@@ -57,9 +57,9 @@ struct Manifest {
 /// Must be called before a file of the directory changes. Errors: FileError.
 void remove_manifest(const std::filesystem::path& directory);
 
-/// Refuses files that are not regular files, and, if there is a manifest, files that are not listed or missing or that
-/// have another size or checksum. Without names: checks all files that a run writes. Errors: FileError, with the name
-/// of the file.
+/// Refuses files that are not regular files. If there is a manifest, also refuses files that are missing or
+/// not listed, and files with another size or checksum. Without names: checks all files that a run writes.
+/// Errors: FileError, with the name of the file.
 void check_run_files(const std::filesystem::path& directory);
 void check_run_files(const std::filesystem::path& directory, const std::vector<std::string_view>& names);
 /// Without a manifest: a sentence that says so, and whether the last line of states.csv is incomplete. Empty

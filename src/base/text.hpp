@@ -96,8 +96,9 @@ class Fingerprint {
 // A last line without its line break (of a run in progress, or killed) is not a row: its cells are returned,
 // so that the caller can report or use them.
 
-/// Returns false at the end, with the cells of a last line without line break in `cells`, and for a row of more than
-/// 100 MB (a million degrees of freedom need 40), which is invalid.
+/// Reads the next row. Returns false at the end; `cells` then has the cells of a last line without line
+/// break. Also returns false for a row of more than 100 MB, which is invalid (a million degrees of freedom
+/// need 40 MB).
 [[nodiscard]] bool read_csv_row(std::istream& in, std::vector<std::string>& cells);
 
 }  // namespace signorini::base

@@ -147,8 +147,8 @@ double LimitSeries::take(double x) {
 
 namespace {
 
-constexpr int most_steps =
-    200;  // Newton steps: the first ones advance by v at least, the last ones converge quadratically
+// Newton steps: the first ones advance by v at least, the last ones converge quadratically.
+constexpr int most_steps = 200;
 
 }  // namespace
 

@@ -6,9 +6,10 @@
 //
 // If no row of a contact contains an acceleration, its forces are eliminated directly: they act like a soft
 // spring on its degrees of freedom. The remaining matrix has the band of the structure. Its factors cost less
-// than the solves of a general method, so that factors of other states or step sizes are not kept. If
-// contacts have changed at the same weights, rows of the factors are computed again from the first affected
-// one up to the row from which they are bitwise unchanged, which is near the contact.
+// than the solves of a general method, so that factors of other states or step sizes are not kept.
+//
+// If contacts have changed at the same weights, rows of the factors are computed again from the first
+// affected one on. This ends near the contact, where rows become bitwise equal to the old ones.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ namespace signorini::linear {
 //   R \ (P A Q) = L U + F       block upper triangular: L, U on the diagonal blocks, F above them
 //   U = D U',  u'_ii = 1        pivots are stored as reciprocals, applied once, not between columns
 //
-// KLU uses 16 bytes for each entry, divides by pivots and scales, and processes columns in the order of
+// KLU uses 16 bytes for each entry, and divides by pivots and scales. It processes columns in the order of
 // elimination, where most columns depend on the previous one. This format uses 12 bytes, and places
 // independent columns next to each other. Solves outnumber factorisations: an IDA step takes one solve, a
 // step of the series thirty.

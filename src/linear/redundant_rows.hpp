@@ -7,9 +7,10 @@
 // H has the normals of closed contacts and the tangents of sticking contacts as columns. F is the same, but
 // has n - s fs t for the normal of a contact at its static limit (T = -s fs N).
 //
-// With s z (D y)' in place of 0 the matrix is regular. If z.b = 0, its solution satisfies H' a = b and y.D f
-// = 0. So the motion is the same, and of all possible forces it has those with the least sum of squares of N
-// and T, f.D f. s > 0 has the size of H' M^-1 H, so that it adds no rounding error to motion or forces.
+// With s z (D y)' in place of 0 the matrix is regular. If z.b = 0, its solution satisfies
+//   H' a = b,   y.D f = 0
+// So the motion is the same, and f are the possible forces with the least sum of squares of N and T, f.D f.
+// s > 0 has the size of H' M^-1 H, so that it adds no rounding error to motion or forces.
 //
 // Sliders share forces with sliders only, on ground at rest and where there is mass. A slider that shares
 // with rigid contacts is refused.

@@ -70,8 +70,8 @@ Curves curves_of(const std::vector<PlaneMesh::Edge>& edges, const NodePosition& 
   return curves;
 }
 
-/// The largest distance of a node from the origin. Meshes are rotated and moved as a whole, so each coordinate has an
-/// error of eps times this distance, even if it is zero (cos 90 degrees is 6e-17).
+/// The largest distance of a node from the origin. Each coordinate has an error of eps times this distance,
+/// even if it is zero: meshes are rotated and moved as a whole, and cos 90 degrees is 6e-17.
 double reach_of(std::initializer_list<const Curves*> all) {
   double reach = 0.0;
   for (const Curves* curves : all)

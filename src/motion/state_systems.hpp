@@ -35,8 +35,8 @@ namespace signorini::motion {
 //
 // The part that depends on the states alone is a FactorisedStates. Systems that differ in anchors share it,
 // because anchors are constants of rows. Friction that depends on the slip rate is in the matrix: such a
-// system is valid for the friction coefficients that it was made with, initially the kinetic ones. Shapes: n
-// degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
+// system is valid for the friction coefficients that it was made with, initially the kinetic ones.
+// Shapes: n degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
 
 /// Limit of unknowns up to which a dense inverse is faster than a sparse solve.
 inline constexpr std::size_t max_dense_size = 40;
@@ -52,8 +52,8 @@ struct FactorisedStates {
   bool massless = false;                     ///< some degrees of freedom are massless
   bool regular = false;                      ///< false: rows are linearly dependent; there is no inverse
   linear::TriangularFactors sparse;          ///< empty if `inverse` or `by_mass` is used
-  std::optional<linear::MassSolver>
-      by_mass;  ///< used if forces follow from displacements and velocities alone
+  /// Used if forces follow from displacements and velocities alone.
+  std::optional<linear::MassSolver> by_mass;
   /// Column by column: A^-1, and the responses of the unknowns to a unit of u or v of each degree of freedom, if all
   /// have mass: x = A^-1 b + from_u u + from_v v.
   std::vector<double> inverse, from_u, from_v;

@@ -44,8 +44,8 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const double *u = series.u.data(), *u1 = u + series.u.rows(), per_time = 1.0 / series.scale;
   const ForcingSeries& f = series.forcing;
   const double length = element.body.dot(u) - c.tangent.dot(u);
-  const double along =
-      s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);  // the body's own velocity
+  // Velocity of the body, relative to the surface.
+  const double along = s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
   // The contribution of a dashpot to the growth of |N| needs accelerations (is_ambiguous()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +

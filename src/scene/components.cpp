@@ -6,7 +6,7 @@ namespace signorini::scene {
 namespace {
 
 constexpr std::string_view against_key = "against";
-constexpr double beside = 1e-9;  // relative to the segment's length: rounding of coordinates in a file
+constexpr double beside = 1e-9;  // relative to the segment's length; covers rounding of coordinates in a file
 
 std::string node_name(Table& contact, const toml::node& item, const NameScope& space,
                       const std::string& node) {

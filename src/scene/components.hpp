@@ -1,8 +1,8 @@
-// components.hpp: names of the motion components of a node.
+// components.hpp: names of the motion components of a node; the counterpart of a contact.
 //
 //   0  ux, vx    1  uy, vy    2  rz, wz (a rotation)      degrees of freedom of [matrices]: u, v
 //
-//   motion_named("A.wz")   // a rotation, its rate: 1 / time
+//   motion_named("A.wz")   // rate of a rotation, unit 1 / time
 #pragma once
 
 #include <array>
@@ -57,8 +57,8 @@ struct NamedMotion {
   [[nodiscard]] constexpr Unit unit() const { return {0, rotation ? 0 : 1, rate ? -1 : 0}; }
 };
 
-/// Unit of a motion by its name; a name that is not a component of a node has the unit of length, or of its rate:
-/// "d0.u", "d0.v", "first.slip".
+/// Type of a motion by its name. A name that is not a component of a node is a length or its rate: "d0.u",
+/// "d0.v", "first.slip".
 [[nodiscard]] constexpr NamedMotion motion_named(std::string_view name) {
   if (const auto named = component_named(name)) return {named->component().rotation, named->rate};
   return {false, last_part(name) == "v"};
@@ -70,9 +70,7 @@ struct NamedMotion {
   return named ? !named->rate : column.ends_with(".u");
 }
 
-// Which body a node belongs to.
-
-/// node: index into Scene::nodes; returns an index into Scene::bodies.
+/// Body to which a node belongs: index into Scene::bodies; nullopt: none. node: index into Scene::nodes.
 [[nodiscard]] inline std::optional<std::size_t> body_of_node(const Scene& scene, std::size_t node) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodySpec& body = scene.bodies[i];

@@ -225,7 +225,7 @@ class TableReader {
   TimeTable table_;
   std::string line_;
   std::vector<std::string> words_;
-  int number_ = 0, last_ = 1;  // line numbers: the current line, the last line that was not skipped
+  int number_ = 0, last_ = 1;  // number of the current line, and of the last line that was not skipped
   std::size_t points_ = 0;
   bool heading_allowed_ = true;
 };

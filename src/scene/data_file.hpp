@@ -27,12 +27,13 @@ namespace signorini::scene {
 /// Longest allowed line of numbers.
 inline constexpr std::size_t max_line_length = 200;
 /// Reads the next line, at most `max_line_length` + 1 bytes of it: a file without line breaks must not fill memory.
+/// Returns false at the end of the file.
 bool read_line(std::istream& in, std::string& line);
 
 /// Throws a FileError with the place of the key.
 [[noreturn]] void refuse_file(const Table& table, std::string_view key, const std::filesystem::path& path,
                               const std::string& why);
-/// The same of an error that names the file.
+/// Same for an error that already names the file.
 [[noreturn]] void refuse_file(const Table& table, std::string_view key, const FileError& error);
 /// Opens the file that `key` names. Errors: FileError with the place of the key.
 [[nodiscard]] std::ifstream open_data_file(const Table& table, std::string_view key,
@@ -43,8 +44,8 @@ inline constexpr double standard_gravity = 9.80665;  // m/s^2
 struct TimeTable {
   std::vector<double> times, values;
   bool in_g = false;  ///< the file states that its values are multiples of the acceleration of gravity
-  std::optional<double> unit = {};  ///< otherwise: the file states that its values are multiples of this, in
-                                    ///< m/s^2
+  /// Unit of the values in m/s^2, if the file states another one than g.
+  std::optional<double> unit = {};
 };
 
 /// Layout of a table file; zeros: taken from the file itself.
@@ -56,7 +57,7 @@ struct TableLayout {
   double second = 1.0;      ///< one second in the scene's unit of time: a PEER file's step is in seconds
 };
 
-/// Errors: SceneError at the line of the file; `key` stands in front of the message.
+/// Reads a table of time and value. Errors: SceneError at the line of the file; `key` begins the message.
 [[nodiscard]] TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key,
                                         const TableLayout& layout = {});
 

@@ -39,7 +39,7 @@ History triangle(double start, double end) {
                  {Piece{}, polynomial(start, {0.0, slope}), polynomial(end, {0.0, -slope}), Piece{}});
 }
 
-/// Slopes at the nodes of one stretch without jumps.
+/// Steffen's slopes at the points of a part of the table without jumps.
 std::vector<double> steffen_slopes(const double* t, const double* y, std::size_t n) {
   std::unique_ptr<gsl_interp, void (*)(gsl_interp*)> interp(gsl_interp_alloc(gsl_interp_steffen, n),
                                                             gsl_interp_free);
@@ -49,7 +49,7 @@ std::vector<double> steffen_slopes(const double* t, const double* y, std::size_t
   return slopes;
 }
 
-/// The pieces of one stretch of strictly ascending times, appended.
+/// Appends the pieces of a part of the table with strictly ascending times.
 void append_stretch(const double* t, const double* y, std::size_t n, bool steffen,
                     std::vector<double>& starts, std::vector<Piece>& pieces) {
   std::vector<double> d;
@@ -91,7 +91,7 @@ History table(const HistorySpec& spec, const std::string& key) {
   return History(std::move(starts), std::move(pieces));
 }
 
-/// The end of a pulse, refused unless it comes after the start.
+/// The end of a pulse; refused unless it is after the start.
 double pulse_end(const HistorySpec& spec, const std::string& key) {
   if (!std::isfinite(spec.end)) throw SceneError(spec.place, key, "this pulse needs an end");
   return spec.end;

@@ -26,9 +26,9 @@
 
 namespace signorini::scene {
 
-/// Errors: SceneError at the spec's place under `key` ("loads.1.history").
+/// The history that a spec describes. Errors: SceneError at the spec's place under `key` ("loads.1.history").
 [[nodiscard]] History make_history(const HistorySpec& spec, const std::string& key);
-/// The integral of the history from 0.
+/// Integral of the history from 0 to t. Errors: as make_history().
 [[nodiscard]] History make_integral(const HistorySpec& spec, const std::string& key);
 
 }  // namespace signorini::scene

@@ -15,9 +15,9 @@ namespace {
 
 using enum KeyType;
 
-/// Choices that stand in a table of their own (signorini/engine.hpp).
+/// Stands for choices that another table lists (signorini/engine.hpp).
 constexpr std::string_view engines_and_auto = "engines";
-/// Besides these a scene may name the laws made of data (contact/law/data_laws.hpp).
+/// Names of the built-in laws; a scene may also name the laws made of data (contact/law/data_laws.hpp).
 constexpr std::string_view built_in_laws = "compliant rigid slider";
 
 // clang-format off
@@ -369,7 +369,7 @@ constexpr Key table_of_keys[] = {
 };
 // clang-format on
 
-/// Rows of one table stand together.
+/// True if all rows of each table are consecutive.
 constexpr bool tables_stand_together() {
   for (std::size_t i = 1; i < std::size(table_of_keys); ++i) {
     if (table_of_keys[i].table == table_of_keys[i - 1].table) continue;
@@ -380,7 +380,8 @@ constexpr bool tables_stand_together() {
 }
 static_assert(tables_stand_together());
 
-/// The table with the laws made of data: their names and meanings, and the keys of their constants behind the stiffness.
+/// The table of keys together with the laws made of data: their names and meanings, and the keys of their
+/// constants after that of the stiffness.
 class Keys {
  public:
   Keys() {
@@ -408,7 +409,7 @@ class Keys {
   [[nodiscard]] std::span<const Key> rows() const { return rows_; }
 
  private:
-  /// Keys hold views: texts stay where they are.
+  /// Stores a text at a fixed address, because a Key has only a view of it.
   std::string_view kept(std::string made) { return texts_.emplace_back(std::move(made)); }
 
   std::deque<std::string> texts_;

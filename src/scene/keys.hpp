@@ -59,7 +59,8 @@ struct Key {
 
 [[nodiscard]] std::span<const Key> all_keys();
 
-/// The row of the key, or of "*" in the same table, or null. A stop has the keys of a contact in addition to its own.
+/// The row of the key, or of "*" in the same table; null: there is none. A stop has the keys of a contact in
+/// addition to its own.
 [[nodiscard]] const Key* find_key(std::string_view table, std::string_view name);
 
 /// Names of the keys of a table, in the order of the table.

@@ -75,7 +75,7 @@ class Reader {
     for (std::string& word : words_) {
       for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
-    // One % instead of two is a common slip of printf.
+    // One % instead of two is a common mistake with printf, in which %% writes one %.
     if (!words_.empty() && words_[0] == "%matrixmarket") words_[0] = "%%matrixmarket";
     const auto is = [&](std::size_t i, const char* a, const char* b) {
       return words_[i] == a || words_[i] == b;

@@ -21,10 +21,10 @@ inline constexpr int max_dofs = 1'000'000;
 /// Sorted by row and column, duplicates added, zeros dropped.
 void tidy(MatrixSpec& matrix);
 
-/// Errors: SceneError at the line of the matrix file; `key` begins the message.
+/// Reads a matrix. Errors: SceneError at the line of the matrix file; `key` begins the message.
 [[nodiscard]] MatrixSpec read_matrix_market(std::istream& in, const std::string& file,
                                             const std::string& key);
-/// A matrix with one column, stored in full.
+/// Values of a matrix with one column. Errors: as read_matrix_market().
 [[nodiscard]] std::vector<double> read_market_vector(std::istream& in, const std::string& file,
                                                      const std::string& key);
 

@@ -30,8 +30,8 @@ std::vector<int> drawn_mesh_nodes(const Scene& scene) {
 
 namespace {
 
-constexpr double on_the_line = 1e-9;  // relative to a product of lengths; chosen for drawings, where smaller
-                                      // deviations are invisible
+// Relative to a product of lengths; chosen for drawings, where smaller deviations are invisible.
+constexpr double on_the_line = 1e-9;
 
 /// True if c is on the left of the line from a to b.
 bool turns_left(const Node& a, const Node& b, const Node& c) {

@@ -27,7 +27,8 @@ constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "o
 constexpr std::pair<const char*, const char*> instead[] = {{"tolerance", "cutoff_omega"},
                                                            {"tolerance", "cutoff_frequency"}};
 
-/// The tables of an array that one part of a path selects; `names`: tables with a name.
+/// The tables of an array that one part of a path selects, by index; adds the names of all named tables to
+/// `names`.
 std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& array,
                                    std::vector<std::string>& names) {
   std::vector<std::size_t> chosen;
@@ -47,8 +48,8 @@ std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& 
 
 const std::string all_contacts = "contacts.*.";
 
-/// True if this stop can have `key`, a key of contacts: the stop is not a slider and has its own direction; it has
-/// friction if it has a tangential stiffness or is rigid; no keys of [matrices].
+/// True if this stop can have `key`, a key of contacts. A stop is no slider, has its own direction and no
+/// keys of [matrices]; it can have friction if it has a tangential stiffness or is rigid.
 bool can_have(const toml::table& root, const toml::table& stop, const std::string& key) {
   const std::string name = key.substr(0, key.find('.'));
   if (find_key("stops[]", name) == nullptr || name == "normal_force") return false;
@@ -159,7 +160,7 @@ class Change {
     into(*next, rest);
   }
 
-  /// friction = 0.3 is short for { static = 0.3, kinetic = 0.3 }.
+  /// Replaces friction = 0.3 by the table { static = 0.3, kinetic = 0.3 }, for which it is short.
   static toml::node& split_friction(toml::table& table) {
     const double value = *table.get("friction")->value<double>();
     const toml::source_path_ptr& file = table.get("friction")->source().path;

@@ -4,7 +4,7 @@
 //
 // Tables of an array are selected by name, by number from 1, or all by *. A stop is two contacts, so contacts.*.KEY
 // also applies to stops.*.KEY if a stop can have KEY. Values are TOML; an unquoted word is a string. An invalid path is
-// a UsageError here; the reader finds invalid values, and it knows that such a value comes from no file.
+// a UsageError here. The reader finds invalid values; its message then names the override in place of a file.
 #pragma once
 
 #include <toml++/toml.h>
@@ -17,6 +17,7 @@
 
 namespace signorini::scene {
 
+/// Changes the parsed file. Errors: UsageError.
 void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 
 /// Keys that the path refers to in these tables, normalised: numbers instead of names, and one spelling for equivalent
@@ -25,7 +26,7 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 /// Same for a scene file. Errors: those of read_scene for invalid TOML.
 [[nodiscard]] std::vector<std::string> places_in(const std::string& scene, const std::string& path);
 
-/// Expansion of a path: contacts.*.KEY is itself and stops.NAME.KEY for each stop that can have the key.
+/// The path itself; for contacts.*.KEY also stops.NAME.KEY for each stop that can have the key.
 [[nodiscard]] std::vector<std::string> matching_paths(const toml::table& root, const std::string& path);
 /// Number of tables that a path with * selects: "3 of [[contacts]], 6 of [[stops]]"; empty for a path
 /// without *.
@@ -44,10 +45,10 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 //   key_of("contacts.left.normal_stiffness") == find_key("contacts[]", "normal_stiffness")
 //   range_of(*key_of("rigid.block.inertia")) == [0, infinity)
 
-/// Null if the path refers to no key.
+/// The key that a path refers to, or null.
 [[nodiscard]] const Key* key_of(const std::string& path);
 
-/// Numbers from `least` to `greatest`, in the key's unit; `open`: `least` itself is excluded.
+/// Allowed numbers, from min to max, in the key's unit. excludes_min: min itself is not allowed.
 struct KeyRange {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();

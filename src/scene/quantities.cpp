@@ -15,7 +15,8 @@ void visit_optional(std::optional<double>& x, const Unit& of, const Visit& visit
   if (x) visit(*x, of);
 }
 
-/// Numbers outside the shape have the unit of f; a load has them in its own amplitude.
+/// Offset and amplitude have the unit `of`; the shape is a plain number. For the history of a load `of` is
+/// plain, too: the load's own amplitude has the unit.
 void visit_history(HistorySpec& f, const Unit& of, const Visit& visit) {
   visit(f.offset, of);
   visit(f.amplitude, of);

@@ -14,7 +14,7 @@
 
 namespace signorini::scene {
 
-/// What a quantity of this unit is multiplied by.
+/// Factor of a quantity of this unit.
 [[nodiscard]] double factor_of(const Unit& unit, const Factors& factors);
 /// 1 / factors; exact for powers of two.
 [[nodiscard]] Factors inverse(const Factors& factors);
@@ -26,8 +26,8 @@ void visit_quantities(Scene& scene, const std::function<void(double&, const Unit
 /// Same for a history whose values have the unit `of`.
 void visit_numbers(History& history, const Unit& of, const std::function<void(double&, const Unit&)>& visit);
 
-/// All quantities times the factors of their units; `resolved` stays as it is. Exact where the factors are
-/// powers of two and nothing leaves the range of a double.
+/// All quantities times the factors of their units; Scene::resolved stays unchanged. Exact where the factors
+/// are powers of two and nothing leaves the range of a double.
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);
 [[nodiscard]] RunSpec rescaled(RunSpec run, const Factors& factors);
 

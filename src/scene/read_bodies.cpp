@@ -140,8 +140,8 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
         *std::min_element(scene.nodes.begin() + static_cast<std::ptrdiff_t>(first),
                           scene.nodes.begin() + static_cast<std::ptrdiff_t>(end),
                           [&](const Node& a, const Node& b) { return distance(a) < distance(b); });
-    constexpr double digits =
-        1e-6;  // relative to the body's size: places in a scene are written with six digits or more
+    // Relative to the body's size: places in a scene are written with six digits or more.
+    constexpr double digits = 1e-6;
     if (distance(nearest) > digits * size)
       points.fail(entry.name, fmt::format("no node is at this place, the nearest is {} at [{:.9g}, {:.9g}]: "
                                           "expected the place of a node",
@@ -157,7 +157,7 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
   table.record("points", points.record().inline_table());
 }
 
-/// Turns the mesh's nodes into nodes of the scene.
+/// Moves the mesh's nodes to the nodes of the scene.
 void take_mesh(PlaneMesh mesh, BodySpec& body, Scene& scene) {
   body.first_node = scene.nodes.size();
   body.node_count = mesh.nodes.size();

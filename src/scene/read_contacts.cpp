@@ -16,13 +16,14 @@
 namespace signorini::scene {
 namespace {
 
-/// Friction between two coefficients: its required keys; keys of other laws are refused.
+/// A law of friction that varies between two coefficients: its keys are required, keys of other laws are
+/// refused.
 struct VaryingFriction {
   std::array<const char*, 3> keys;  // static_, kinetic, and the constant of the exponential
   std::optional<double> Friction::*constant;
   const char* required;
   std::span<const char* const> others;
-  const char* apart;  // reason for refusing others
+  const char* apart;  // reason for the refusal of `others`
 
   [[nodiscard]] bool is_meant(const Table& table) const {
     return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); });
@@ -151,7 +152,7 @@ void read_rigid(Table& table, ContactSpec& contact, const NameScope& space) {
   contact.capture_velocity = table.optional_number("capture_velocity");
 }
 
-/// The frame-rod element of a seam: a bar with the seam's area and thickness across it, the same in shear along it.
+/// Stiffnesses of the frame-rod element of a seam: E area / thickness across it, G area / thickness along it.
 void read_seam(Table& table, ContactSpec& contact) {
   for (const char* key : {"normal_stiffness", "tangential_stiffness"})
     if (table.has(key)) table.fail(key, "cannot be combined with seam; give only one of them");
@@ -183,7 +184,8 @@ void read_compliant(Table& table, ContactSpec& contact, const NameScope& space) 
     table.require("tangential_stiffness", " (required for law = \"compliant\" with friction)");
 }
 
-/// Keys that are not read here have no meaning: such a law has all it needs in its constants.
+/// Reads a law made of data. Keys that are not read here have no meaning for it, because its constants
+/// determine it.
 void read_data_law(Table& table, ContactSpec& contact, const NameScope& space, const DataLaw& law) {
   const std::string required = fmt::format(" (required for law = \"{}\")", law.name);
   read_gap(table, contact, space, std::string(law.name));
@@ -296,7 +298,7 @@ void add_contact(Table& table, ContactSpec contact, Names& names, Scene& scene) 
 
 namespace {
 
-/// The opposite contact of a stop.
+/// The contact on the opposite side of a stop.
 ContactSpec mirrored(ContactSpec contact) {
   for (double& x : contact.normal->vector) x = -x;
   for (auto& [dof, factor] : contact.normal->dofs) factor = -factor;
@@ -381,8 +383,9 @@ void read_stops(Table& top, Scene& scene, ResolvedScene& record) {
 //
 //   T = friction of N,   restoring force N u / R,   |u| <= stop
 //
-// If N is constant, the restoring force is a spring N / R. If N varies, by a history or as the reaction of the
-// structure, the spring has the stiffness for the force at rest, and the contact's bowl adds the rest.
+// If N is constant, the restoring force is a spring N / R. If N varies, by a history or as a reaction of the
+// structure, the spring has the stiffness for the force at rest. The contact's curved surface (CurvedSurface)
+// adds the difference.
 
 namespace {
 
@@ -405,7 +408,8 @@ Direction along(const Table& table, const std::string& node, const std::string& 
   return direction;
 }
 
-/// Reads the source of a varying N. Returns the force that the spring is for.
+/// Reads N, its history or the contact that bears it. Returns the force from which the stiffness of the
+/// spring follows.
 double read_force(Table& table, ContactSpec& contact, double radius, const Scene& scene) {
   const bool bears = table.has("normal_stiffness");
   if (!bears) table.require("normal_force", " (required without normal_stiffness)");
@@ -436,7 +440,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   return carried;
 }
 
-/// Reads the rim on both sides; the first contact is met along the tangent.
+/// Reads the stops on both sides; the first one limits the motion along the tangent.
 void read_rim(Table& table, const ContactSpec& contact, Names& names, Scene& scene) {
   const auto stop = table.optional_number("stop"), stiffness = table.optional_number("stop_stiffness");
   if (!stop) {

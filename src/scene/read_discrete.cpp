@@ -30,7 +30,7 @@ void read_ratios(Table& table, DampingSpec& damping) {
   const auto [f1, f2] = read_pair(table, "frequencies", false);
   if (f1 == f2) table.wrong("frequencies", "two different ones");
   const double w1 = 2.0 * std::numbers::pi * f1, w2 = 2.0 * std::numbers::pi * f2;
-  // A difference of rounding size is zero: damping by mass or by stiffness alone.
+  // A difference of rounding size is set to zero: the damping is by mass or by stiffness alone.
   const auto difference = [](double a, double b) {
     return std::abs(a - b) <= rounding::few_operations * std::max(a, b) ? 0.0 : a - b;
   };
@@ -63,13 +63,13 @@ void read_masses(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// A key of a table, as the place of a message.
+/// A key of a table, whose place a message may have.
 struct ConflictingKey {
   const Table& table;
   const char* key;
 };
 
-/// Refuses contradictory keys: the message is placed at the one given by --set, else at the first.
+/// Refuses contradictory keys. The message has the place of the key given by --set, else of the first one.
 [[noreturn]] void contradict(std::initializer_list<ConflictingKey> keys, const std::string& message) {
   const ConflictingKey* at = keys.begin();
   for (const ConflictingKey& one : keys)

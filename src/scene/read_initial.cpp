@@ -84,7 +84,7 @@ void read_stages(Table& run, InitialSpec& initial) {
   run.record("stages", toml_array(texts));
 }
 
-/// From the summary of a run; none where it has none, as that of a run that was killed. Errors: FileError.
+/// Part `model` of the summary of a run; empty if the run has no summary, as after a kill. Errors: FileError.
 base::Json model_of_run(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
   std::ifstream in(path);
@@ -164,7 +164,8 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   run.record("initial", record.inline_table());
 }
 
-/// `run` and `t` are keys, unless a node has that name; its state is a table.
+/// True if `node`, the value of run.initial, refers to another run. A node of the structure may have the name
+/// of the key `run` or `t`; its value is then a table.
 bool is_of_run(Table& run, const toml::node* node) {
   const toml::table* table = node ? node->as_table() : nullptr;
   if (!table) return false;

@@ -65,7 +65,7 @@ BaseMotionSpec read_one_motion(Table& table, const Scene& scene) {
   return motion;
 }
 
-/// Takes a user's name of a load; names that stages use for all loads of a kind are refused.
+/// Adds the name that the user gave to a load; refuses names that stages use for all loads of a kind.
 void take_name(const Table& table, const std::string& name, Names& names) {
   if (name.empty()) return;
   for (const char* kind : {"gravity", "temperature", "supports"})
@@ -225,7 +225,7 @@ double metric_acceleration(const Units& units) {
   return metre / (second_in(units) * second_in(units));
 }
 
-/// Use of a history: a load has its amplitude outside; an acceleration may be given in g.
+/// Use of a history. load: the amplitude is outside of it; acceleration: its values may be in g.
 enum class Role { load, standalone, acceleration };
 
 /// Layout of the values in the file. The caller records it with the file.

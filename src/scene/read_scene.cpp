@@ -98,8 +98,8 @@ void check_schema(const toml::table& root, const std::string& file) {
   }
 }
 
-/// Compares with the run that this one continues: its units must be the same, because its numbers depend on them; a
-/// different structure is allowed, because it may be intended, but reported.
+/// Compares the scene with that of the run that it continues. Its units must be the same, because the saved
+/// numbers depend on them. A different structure is allowed, because it may be intended, but it is reported.
 void compare_with_run(Scene& scene) {
   const std::filesystem::path path = std::filesystem::path(scene.initial.saved->run) / "run.toml";
   std::ifstream in(path);

@@ -146,7 +146,7 @@ void read_springs_of(Table& table, SeamLaw& law) {
                "no mass, so its motion is not unique if friction decreases with its rate");
 }
 
-/// Does not record the key; its reader does.
+/// True if the key has this word as its value. The key is not recorded here; its reader records it.
 bool is_word(Table& table, const char* key, std::string_view word) {
   return table.has(key) && table.raw(key)->value_or(std::string()) == word;
 }
@@ -164,7 +164,7 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
                "depends on its mesh");
   contact.normal_force = constant_history(0.0);
   if (contact.law == Law::rigid && is_word(table, "contact_mass", "none")) {
-    // no rebound
+    // Nothing to read: there is no rebound.
   } else if (contact.law == Law::rigid) {
     contact.restitution = table.number("restitution");
     contact.capture_velocity = table.optional_number("capture_velocity");

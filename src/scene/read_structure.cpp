@@ -213,7 +213,7 @@ namespace {
 /// Cross-section: area, second moment of area, distance of the outermost fibre.
 struct Shape {
   double area = 0.0, moment = 0.0, reach = 0.0;
-  double more_mass = 0.0;  ///< per length, in addition to the material's mass
+  double more_mass = 0.0;  ///< mass per length in addition to that of the material
 };
 
 constexpr const char* all_shapes[] = {"pipe", "box", "i", "round"};

@@ -30,7 +30,7 @@ struct NameScope {
 
 void read_units(Table& top, Scene& scene, ResolvedScene& record);
 void read_run(Table& top, Scene& scene, ResolvedScene& record);
-/// Part of [run]; `run` is that table.
+/// Reads the initial state, which is a part of the table [run].
 void read_initial(Table& run, Scene& scene);
 void read_damping(Table& top, Scene& scene, ResolvedScene& record);
 void read_reduction(Table& top, Scene& scene, ResolvedScene& record);
@@ -69,24 +69,27 @@ void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
                                                        const NameScope& space);
 /// Reads `node` or `nodes`; one of the two is required.
 [[nodiscard]] std::vector<std::string> read_one_or_more_nodes(Table& table, const NameScope& space);
-/// With [nodes] a unit vector (the node's name is left empty); with [matrices] degrees of freedom by name, or the name
-/// of a file with one column.
+/// Reads a direction: with [nodes] a unit vector (Direction::node stays empty); with [matrices] degrees of
+/// freedom by name, or the name of a file with one column.
 [[nodiscard]] Direction read_direction(Table& table, std::string_view key, const NameScope& space);
-/// The column of numbers in the Matrix Market file that the key names, `size` of them.
+/// The column of numbers in the Matrix Market file that the key names, one for each degree of freedom of
+/// [matrices].
 [[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key,
                                                    const NameScope& space);
 
-/// A boundary of a body, "BODY.GROUP", with edges. Errors: SceneError that lists the existing groups.
+/// A boundary of a body, "BODY.GROUP".
 struct BoundaryRef {
   std::size_t body = 0;
   const PlaneMesh::Group* group = nullptr;
 };
+/// The boundary with this name; it has edges. Errors: SceneError that lists the existing groups.
 [[nodiscard]] BoundaryRef find_boundary(const Table& table, std::string_view key, const std::string& name,
                                         const Scene& scene);
 
 /// A load's history: offset 0, amplitude 1. The scene provides the directory of files, t_end and the units.
 [[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key, const Scene& scene);
-/// A history outside a load: a number, or a table with offset and amplitude. Absent: the default, or zero.
+/// A history outside a load: a number, or a table with offset and amplitude. If the key is absent: its
+/// default, or zero.
 [[nodiscard]] HistorySpec read_number_or_history(Table& table, std::string_view key, const Scene& scene);
 /// Same as read_number_or_history; values may be in units of g.
 [[nodiscard]] HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& scene);
@@ -94,7 +97,9 @@ struct BoundaryRef {
 
 // Readers shared by the tables that make contacts: [[contacts]], [[stops]], [[pendulums]].
 //
-//   contact.friction = read_friction(table);   read_elements(table, contact);   add_contact(table, contact, names, scene);
+//   contact.friction = read_friction(table);
+//   read_elements(table, contact);
+//   add_contact(table, contact, names, scene);
 
 /// A number, { static, kinetic, stribeck_velocity } or { slow, fast, velocity }.
 [[nodiscard]] Friction read_friction(Table& table);
@@ -107,7 +112,7 @@ void check_applied_normal_force(const Table& table, const HistorySpec& spec, dou
 
 /// Names of all contacts read so far.
 [[nodiscard]] Names contact_names(const Scene& scene);
-/// The given name, or the default name by number; recorded.
+/// The given name, or the default name by number; records it.
 [[nodiscard]] std::string read_contact_name(Table& table, const char* kind, std::size_t number);
 /// Adds the contact; refuses a name that another contact has.
 void add_contact(Table& table, ContactSpec contact, Names& names, Scene& scene);

@@ -104,8 +104,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_value =
-    60;  // length of a value in a message; longer values are shown by their fingerprint
+// Greatest length of a value in a message; longer values are shown by their fingerprint.
+constexpr std::size_t longest_value = 60;
 
 /// True if the text is the name of a file; a resolved scene has full paths of files.
 bool names_file(const std::string& text) {
@@ -162,7 +162,7 @@ std::vector<std::string> differing_keys(const ResolvedKeys& kept, const Resolved
 
 namespace {
 
-/// The table without keys of excitation.
+/// Copy of the table without keys of excitation.
 toml::table undriven(toml::table table) {
   for (const char* key : {"motion", "acceleration", "surface_velocity", "normal_force", "initial_shear",
                           "temperature", "initial_strain"})

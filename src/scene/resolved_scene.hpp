@@ -54,25 +54,25 @@ class ResolvedScene {
   std::vector<Section> sections_;
 };
 
-// A scene as a flat list of keys and values, to compare two of them.
+// A scene as a flat list of keys and values, for comparisons of two scenes.
 //
 //   "contacts.stop.gap" -> "0.3",   "springs.2.stiffness" -> "2.1",   "nodes.A" -> "[0.0,0.0]"
 //
 // Entries of a list are addressed by name, or by number from 1. All defaults are filled in. A key that names a file has
-// the file's content as its value, so a changed file is a different value and a moved one is not.
+// the file's content as its value: a changed file is a different value, a moved file is the same.
 
 using ResolvedKeys = std::map<std::string, std::string>;
 
 /// Keys without the title. Errors: FileError for a file that can no longer be read.
 [[nodiscard]] ResolvedKeys resolved_keys(const Scene& scene);
 
-/// "contacts.stop.gap (0.3, here 0.2)": keys with different values, by name.
+/// Keys with different values, by name: "contacts.stop.gap (0.3, here 0.2)".
 [[nodiscard]] std::vector<std::string> differing_keys(const ResolvedKeys& kept, const ResolvedKeys& here);
 
-// Do two scenes, with all defaults filled in, describe the same structure?
+// Compares the structures of two scenes with all defaults filled in, table by table:
 //
-//   nodes, lines, sections, members, masses, springs, damping, supports, contacts, stops, reduction, matrices, gravity,
-//   run.geometric
+//   nodes, lines, sections, members, masses, springs, damping, supports, contacts, stops, reduction,
+//   matrices, gravity, run.geometric
 //
 // Excitation is ignored, because a continued run may have another one: motions of supports and surfaces, normal forces
 // of sliders, temperatures and initial strains of members, and the initial shear of friction.
@@ -80,7 +80,7 @@ using ResolvedKeys = std::map<std::string, std::string>;
 [[nodiscard]] bool same_units(const toml::table& a, const toml::table& b);
 /// "kN, t, m, s"
 [[nodiscard]] std::string units_of(const toml::table& scene);
-/// The tables with different content, in the order above.
+/// The tables of the structure with different content, in the order above.
 [[nodiscard]] std::vector<std::string> differing_structure(const toml::table& a, const toml::table& b);
 
 }  // namespace signorini::scene

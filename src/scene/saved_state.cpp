@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view of_shear = ".T", of_state = ".state", of_own = ".own", of_memory = ".memory";
 
-/// Contact name "c" in "c.T".
+/// Name of the contact in the name of a column: "c" for "c.T".
 std::string contact_in(const std::string& name, std::string_view end) {
   return name.substr(0, name.size() - end.size());
 }
@@ -85,7 +85,7 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
     }
     state.t = time;
     found.times.push_back(base::format_number(time));
-    // The file has the run's digits; the scene may have fewer.
+    // The scene may give t with fewer digits than the file.
     if (!t || std::abs(time - *t) <= 1e-9 * std::abs(*t)) found.state = std::move(state);
   }
   return found;
@@ -95,7 +95,7 @@ namespace {
 
 const std::vector<std::string> heading = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"};
 
-/// nullopt: a cell is not a number.
+/// The contact in a row of contacts.csv; nullopt: a cell is not a number.
 std::optional<SavedState::FinalContact> row_of(const std::vector<std::string>& cells) {
   SavedState::FinalContact left;
   left.contact = cells[1];

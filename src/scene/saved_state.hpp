@@ -1,11 +1,13 @@
-// saved_state.hpp: states saved by a run in states.csv: all data needed to continue the motion.
+// saved_state.hpp: states that a run saves in states.csv, with all data needed to continue the motion.
 //
 //   t,A.ux,A.uy,...,A.vx,A.vy,...,first.T,first.state
 //   1.2,0.0103,...
 //
-// Columns: displacements, velocities, "support B.uy" and "support B.vy" of moving supports, "c.slip" of shear elements,
-// "c.surface" of moving surfaces, "c.T" and "c.state" of contacts with friction, "c.own" and "c.memory" of user laws. A
-// column "x.state" with numbers belongs to a degree of freedom of that name.
+// Columns beside displacements and velocities, for a support B and a contact c:
+//   "support B.uy", "support B.vy"   moving supports      "c.T", "c.state"      contacts with friction
+//   "c.slip"                         shear elements       "c.own", "c.memory"   user laws
+//   "c.surface"                      moving surfaces
+// A column "x.state" with numbers belongs to a degree of freedom of that name.
 #pragma once
 
 #include <filesystem>
@@ -38,19 +40,21 @@ struct SavedStates {
 //
 //   t,contact,state,gap,ut,vt,slip,N,T   further columns are ignored
 //
-// A continued motion does not depend on these rows; the law checker compares it with them (src/law_check).
+// A continued motion does not depend on these rows; the law checker compares the motion with them
+// (src/law_check).
 
 /// The rows at t. Empty: there are none, or the file is not that of a run.
 [[nodiscard]] std::vector<SavedState::FinalContact> read_final_contacts(const std::filesystem::path& path,
                                                                         double t);
 
-// Geometric.csv, the forces whose stiffness acted in a run with run.geometric.
+// The file geometric.csv: the forces whose stiffness acted in a run with run.geometric.
 //
 //   what,from,to,N_from,N_to,stiffness
 //   member,A,A-B.1,-12.5,-12.25,
 //   rigid,block,,,,-98.1
 //
-// The file has one row for each finite element and each rigid body, in model order. A continued run reads them here.
+// The file has one row for each finite element and each rigid body, in model order. read_prestress() reads it
+// for a continued run.
 
 inline constexpr const char* prestress_file = "geometric.csv";
 [[nodiscard]] const std::vector<std::string>& prestress_columns();

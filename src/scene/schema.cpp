@@ -73,7 +73,7 @@ std::string below(const Key& key) {
   return (key.table.empty() ? "" : std::string(key.table) + ".") + std::string(key.name);
 }
 
-/// The table of friction for either law.
+/// Schema of the table `friction`, for all laws of friction.
 base::Json friction_table(const std::string& path) {
   const base::Json falls = {{"required", base::Json::array({"static"})}};
   const base::Json rises = {{"required", base::Json::array({"slow", "fast", "velocity"})}};
@@ -171,7 +171,7 @@ base::Json table_schema(std::string_view table) {
   for (const std::string& name : key_names(table)) {
     const Key& key = *find_key(table, name);
     properties[name] = key_schema(key);
-    // A user's name may equal that of a key.
+    // A name chosen by the user may equal that of a key.
     if (any) properties[name] = any_of(properties[name], value_type(*any));
     if (key.default_value == "required") required.push_back(name);
   }

@@ -39,14 +39,15 @@ class Table {
   [[nodiscard]] std::string choice(std::string_view key);
   [[nodiscard]] std::array<double, 2> vector(std::string_view key);
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);
-  // nullopt if absent:
+  // Keys without a default; nullopt if absent:
   [[nodiscard]] std::optional<double> optional_number(std::string_view key);
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key);
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key);
-  /// A table below this one, kind "KIND.KEY"; empty where absent. Record it with record().
+  /// A table below this one, of kind "KIND.KEY"; empty if absent. The caller must record its values with
+  /// record().
   [[nodiscard]] Table child(std::string_view key);
 
-  /// Refuses the absence of a key; `why` is the reason for the message.
+  /// Refuses the absence of a key; `why` ends the message.
   void require(std::string_view key, const std::string& why);
   /// Error "found X, expected Y" at a given key.
   [[noreturn]] void wrong(std::string_view key, const std::string& expected) const;
@@ -65,7 +66,7 @@ class Table {
   [[nodiscard]] const toml::table& node() const { return *node_; }
 
   void record(std::string_view key, std::string value) { record_.set(key, std::move(value)); }
-  /// Values read: keys in the order of the file, then defaults.
+  /// All values read so far: keys in the order of the file, then defaults.
   [[nodiscard]] ResolvedTable record() const;
 
  private:

@@ -13,7 +13,8 @@
 
 namespace signorini::scene {
 
-/// Source mark of values from an Override, which no file name begins with; the file name is the override's text.
+/// First character of the source path of values from an Override; the text of the override follows. No file
+/// name begins with it.
 inline constexpr char override_mark = '\x1a';
 
 [[nodiscard]] SourcePlace place_of(const toml::source_region& region);
@@ -39,14 +40,10 @@ struct Entry {
 /// The entries in the order of the file (toml++ sorts by name), then those of overrides.
 [[nodiscard]] std::vector<Entry> entries_of(const toml::table& table);
 
-// The text of a scene file, before it is parsed.
-
-/// The whole file; parse_scene() makes a scene of it. Errors: FileError; SceneError where it is larger than 64 MB.
+/// The text of a scene file, for parse_scene(). Errors: FileError; SceneError if it is larger than 64 MB.
 [[nodiscard]] std::string scene_text(const std::string& path);
 
-// A TOML value as a JSON value of the same shape.
-
-/// Dates and times, which no scene has, become empty objects.
+/// A TOML value as a JSON value of the same shape. Dates and times, which no scene has, become empty objects.
 [[nodiscard]] base::Json json_of(const toml::node& node);
 
 }  // namespace signorini::scene

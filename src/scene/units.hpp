@@ -14,7 +14,7 @@ namespace signorini::scene {
 [[nodiscard]] bool same_unit(const Unit& a, const Unit& b);
 [[nodiscard]] Unit product_of_units(const Unit& a, const Unit& b);
 
-/// `all`: the outputs of the scene, at least those before it.
+/// Unit of an output. `all`: the outputs of the scene, at least those before this one.
 [[nodiscard]] Unit unit_of_output(const OutputSpec& spec, const std::vector<OutputSpec>& all);
 /// Unit of a combination's term, with its factor. The term's name must be known.
 [[nodiscard]] Unit unit_of_term(const OutputTerm& term, const std::vector<OutputSpec>& all);
@@ -26,7 +26,7 @@ namespace signorini::scene {
 //
 // The inverse is unit_text() (signorini/output.hpp).
 
-/// nullopt: not a unit. mass = force time^2 / length; "1" and "rad" are plain numbers.
+/// nullopt: the text is not a unit. mass = force time^2 / length; "1" and "rad" are plain numbers.
 [[nodiscard]] std::optional<Unit> unit_of_text(std::string_view text, const Units& names);
 
 }  // namespace signorini::scene

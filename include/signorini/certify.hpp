@@ -70,6 +70,7 @@ struct Certificate {
   double wait = 0.0;  ///< s, from the end of the run to the end of its companions
 
   [[nodiscard]] bool certain(std::size_t row) const { return t_errors[row] == t_errors[row]; }
+  /// Number of certain rows of events.csv.
   [[nodiscard]] std::size_t certain_events() const;
 };
 

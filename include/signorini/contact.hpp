@@ -54,6 +54,7 @@ struct Combination {
     for (const auto& [index, factor] : terms) sum += std::abs(factor * u[index]);
     return sum;
   }
+  /// f += force times the form: the effect of a force along the form on the equations of motion.
   template <class V>
   void add_to(V& f, double force) const {
     for (const auto& [index, factor] : terms) f[index] += factor * force;

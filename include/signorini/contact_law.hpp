@@ -103,7 +103,7 @@ class ContactLaw {
   [[nodiscard]] virtual std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
                                                              const ContactMotion& before) const = 0;
 
-  // Energy and conditions: src/contact/work.hpp, law.hpp.
+  // Interface for energy and conditions. Units and signs: src/contact/work.hpp and law.hpp.
   /// Slip rate by which T is multiplied in the power of ContactWork::friction.
   [[nodiscard]] virtual double working_slip_rate(const Contact& contact, State state,
                                                  const ContactMotion& m) const = 0;

@@ -35,6 +35,7 @@ struct Piece {
   double time_scale = 1.0;           ///< s, the function's time over the history's time
   std::vector<double> rates = {};    ///< b_r
 
+  /// The piece f(t) = F(t).
   [[nodiscard]] static Piece of(Function function) {
     Piece piece;
     piece.function = std::move(function);
@@ -65,9 +66,9 @@ class History {
   History(std::vector<double> starts, std::vector<Piece> pieces);
   [[nodiscard]] static History constant(double value);
 
-  /// The piece in force just after t (right-continuous).
+  /// The piece that is valid just after t (right-continuous).
   [[nodiscard]] const Piece& piece(double t) const;
-  /// The piece in force just before t.
+  /// The piece that is valid just before t.
   [[nodiscard]] const Piece& piece_before(double t) const;
   [[nodiscard]] double value(double t) const { return piece(t).value(t); }
   /// Breakpoints, ascending.
@@ -84,6 +85,7 @@ class History {
   [[nodiscard]] History then(double t, const History& next) const;
   /// f on [from, from + period), repeated `rounds` times; f unchanged before and after.
   [[nodiscard]] History repeated(double from, double period, int rounds) const;
+  /// True if all pieces are the same constant.
   [[nodiscard]] bool is_constant() const;
   /// True if it contains no user-defined function.
   [[nodiscard]] bool has_closed_form() const;

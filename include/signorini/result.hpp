@@ -121,7 +121,9 @@ class Steering {
 class Recorder {
  public:
   virtual ~Recorder() = default;
+  /// Called for each row of events.csv.
   virtual void event(const Event& event) = 0;
+  /// Called at each output time.
   virtual void sample(const Sample& sample) = 0;
   /// Called at the times of RunSpec::frames with a deformed shape.
   virtual void frame(const Sample& /*sample*/) {}

@@ -23,6 +23,7 @@ class TaylorNumber {
   static constexpr std::size_t count = 12;
 
   TaylorNumber(double constant) { c_[0] = constant; }  // NOLINT: numbers are constants
+  /// The variable itself, at the value t.
   [[nodiscard]] static TaylorNumber variable(double t) {
     TaylorNumber x(t);
     x.c_[1] = 1.0;

@@ -88,6 +88,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
+  /// Unites the sets of i and j.
   void join(std::size_t i, std::size_t j) {
     i = find(i);
     j = find(j);

@@ -37,9 +37,10 @@ struct PolynomialInterpolation {
 
   /// Position of the i-th of n points.
   [[nodiscard]] static double point(std::size_t n, std::size_t i);
+  /// p(x), from the values f at n points.
   [[nodiscard]] static double interpolate(const Values& f, std::size_t n, double x);
 
-  /// The first position is given if several values are equal up to rounding.
+  /// Extreme values of p and their positions; the first position if several values are equal up to rounding.
   struct Extremes {
     double least = 0.0, greatest = 0.0, at_least = 0.0, at_greatest = 0.0;
   };

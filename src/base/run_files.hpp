@@ -43,10 +43,12 @@ struct Manifest {
   std::string program, outcome;  ///< the version of Signorini; done, stopped, interrupted
   std::vector<ManifestEntry> files;
 
+  /// nullptr: the file is not listed.
   [[nodiscard]] const ManifestEntry* find(std::string_view file) const;
   void remove(std::string_view file);
   /// Records the current state of the file; a file that does not exist is dropped. Errors: FileError.
   void add(const std::filesystem::path& directory, std::string_view file);
+  /// Content of manifest.json.
   [[nodiscard]] std::string text() const;
 };
 

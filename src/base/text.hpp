@@ -65,6 +65,7 @@ namespace signorini::base {
 class Fingerprint {
  public:
   void add(std::string_view part);
+  /// The sixteen digits for all parts so far.
   [[nodiscard]] std::string text() const;
 
  private:

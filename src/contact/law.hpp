@@ -59,6 +59,7 @@ enum class Guard : unsigned char {
 }  // namespace signorini
 
 namespace signorini::contact {
+/// Name of a guard in messages.
 [[nodiscard]] const char* to_string(Guard guard);
 /// True for the guards of the friction limit.
 [[nodiscard]] constexpr bool is_friction_limit(Guard guard) {
@@ -128,6 +129,7 @@ struct Rows {
 
 namespace signorini::contact {
 
+/// Rows and guards of a contact in this state, by its law; unused guards have the kind Guard::none.
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
 /// Those that the law does not have (ForceLayout::guards) are absent.
 [[nodiscard]] ContactLaw::Guards guards(const Contact& contact, const ContactState& state);

@@ -21,6 +21,7 @@ namespace signorini::linear {
 
 class BandFactors {
  public:
+  /// A zero matrix, to be filled row by row.
   BandFactors(std::size_t size, std::size_t width);
 
   [[nodiscard]] std::size_t size() const { return size_; }

@@ -36,9 +36,10 @@ struct BandOrder {
   std::size_t width = 0;
 };
 
+/// The order for all states of the model's contacts.
 [[nodiscard]] BandOrder band_order(const Model& model, const SystemMatrices& structure);
 
-// Compliant contacts in force on a structure, row by row of its band.
+// Rows of the structure and of its compliant contacts in their present states, in the order of the band.
 //
 //   row i of  M w_a + C w_v + K w_u - H B^-1 R      i: a place in the band; H, B, R: linear/condensed_matrix.hpp
 //
@@ -67,7 +68,8 @@ class CondensedRows {
     bool known = false;      ///< its rows determine its forces and contain no acceleration
   };
 
-  /// Rows of a model with saves_factorisations(), without contacts in force. nullopt: the band is wider.
+  /// Rows of a model with saves_factorisations(), with all contacts open. nullopt: the band is wider than
+  /// most_width.
   [[nodiscard]] static std::optional<CondensedRows> create(const Model& model,
                                                            const SystemMatrices& structure,
                                                            std::size_t most_width);
@@ -88,6 +90,7 @@ class CondensedRows {
   /// back so far.
   [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
 
+  /// Degree of freedom at a place of the band, and the entries of its row.
   [[nodiscard]] std::size_t dof_at(std::size_t place) const { return dof_at_[place]; }
   [[nodiscard]] std::span<const Entry> entries(std::size_t place) const {
     return {entries_.data() + entries_end_[place], entries_.data() + entries_end_[place + 1]};
@@ -95,8 +98,8 @@ class CondensedRows {
   [[nodiscard]] const ContactCoefficients& coefficients(std::size_t contact) const {
     return coefficients_[contact];
   }
-  /// The degrees of freedom of a contact are contact_dof(i), first_contact_dof() <= i <
-  /// end_of_contact_dofs().
+  /// The degrees of freedom of a contact are contact_dof(i) for i from first_contact_dof() to
+  /// end_of_contact_dofs(), which is excluded.
   [[nodiscard]] std::size_t first_contact_dof(std::size_t contact) const {
     return contact_dofs_end_[contact];
   }

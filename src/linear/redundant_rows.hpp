@@ -46,7 +46,7 @@ class RedundantRows {
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
   /// True if the contact is in one of those lists.
   [[nodiscard]] bool may_share(std::size_t contact) const { return grouped_[contact]; }
-  /// Shared forces of the rows in force; empty: all rows are independent.
+  /// Shared forces of a contact state with these rows; empty: all rows are independent.
   [[nodiscard]] std::vector<SharedForces> in_force(const std::vector<Rows>& rows) const;
 
  private:

@@ -52,7 +52,7 @@ struct MotionKinds {
   std::vector<UndampedMotion> undamped;
 };
 
-/// `own`: kinds by the structure alone (dof_kinds).
+/// Kinds and motions in a contact state with these rows. own: kinds by the structure alone (dof_kinds).
 [[nodiscard]] MotionKinds kinds_in_states(const std::vector<DofKind>& own, const Model& model,
                                           const std::vector<Rows>& rows);
 

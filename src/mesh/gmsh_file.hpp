@@ -3,10 +3,10 @@
 //   $PhysicalNames   dimension tag "name"        groups: of surfaces, curves and points
 //   elements         1 line2  8 line3  15 point  2 t3  9 t6  3 q4  16 q8; others are refused
 //
-// A body consists of the elements of some physical surfaces, or of all. Its groups are the physical curves and points
-// that touch it. Nodes that it does not use are omitted; a node that no element of the file uses is refused. If all
-// elements run clockwise, they are reversed; if only some do, or a Jacobian is not positive at a node, the mesh folds
-// and is refused.
+// A body consists of the elements of some physical surfaces, or of all. Its groups are the physical curves
+// and points with nodes of these elements. Nodes that the body does not use are omitted; a node that no
+// element of the file uses is refused. If all elements run clockwise, they are reversed. If only some do, or
+// a Jacobian is not positive at a node, the mesh folds and is refused.
 // Source: Gmsh reference manual, sections "MSH file format version 4.1" and "version 2 (Legacy)".
 #pragma once
 
@@ -37,6 +37,7 @@ class GmshTokenizer {
   /// Expects "$EndName".
   void end_section(const std::string& name);
 
+  /// The next word as an integer. Errors of all reads: SceneError at the line of the file.
   [[nodiscard]] long integer(const char* what);
   /// An integer >= 0, at most `most_entries`.
   [[nodiscard]] long count(const char* what);

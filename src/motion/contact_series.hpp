@@ -32,6 +32,7 @@ class ContactSeries {
  public:
   enum Field : std::size_t { N, T, gap, ut, vn, vt, an, applied_normal_force_rate, slide, fields };
 
+  /// Takes the polynomials of contact number `index` from a series of the structure.
   void fill(const Contact& contact, std::size_t index, const Series& series, std::size_t degree);
   /// Allocates polynomials to be filled by the caller; all are zero.
   void reset(std::size_t degree) {

@@ -23,6 +23,7 @@ struct ForcingSeries {
 
 class Forcing {
  public:
+  /// The pieces that are valid just before or just after t.
   Forcing(const Model& model, double t, Side side);
   /// A forcing without loads or prescribed motion.
   [[nodiscard]] static Forcing none(const Model& model);

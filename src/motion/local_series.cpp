@@ -46,7 +46,8 @@ LocalSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
     place_of_crossing.push_back(place_in(across, pull.force));
 }
 
-/// True if the new series equals the old one at the boundary, up to some roundings of the motion there and beside it.
+/// True if the new series equals the old one at the boundary, up to some roundings of the motion there and
+/// next to it.
 bool LocalSeries::decays(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
                          const PreviousSeries& previous) const {
   const auto terms_of = [&](const double* a, std::size_t count, int dof) {

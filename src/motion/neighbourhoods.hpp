@@ -54,6 +54,7 @@ struct Neighbourhood {
   };
   std::vector<CrossingForce> crossing_forces;
 
+  /// States of the contacts in the neighbourhood, from those of all contacts.
   [[nodiscard]] contact::ContactStates local_states(const contact::ContactStates& whole) const {
     contact::ContactStates states;
     states.reserve(contacts.size());

@@ -37,7 +37,7 @@ void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   row_.constant = sign_ * (limit_->slope() * pressed - contact::friction_limit(friction, pressed));
 }
 
-/// Determines the slip rate of a point without mass from the spring that holds it.
+/// Begins a series of a point without mass: the forces of its spring and dashpot determine its slip rate.
 void FrictionSeries::begin_massless(int s, const Form& normal, const Series& series) {
   const Contact& c = *contact_;
   const ShearElement& element = *c.sliding_point();

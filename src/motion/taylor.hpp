@@ -183,7 +183,7 @@ class Taylor {
   std::vector<std::size_t> curved_contacts_;  // contacts on curved surfaces under forces that vary
   std::vector<FrictionSeries> friction_;      // for contacts with rate-dependent friction
   std::vector<double> x_, work_, known_u_, known_v_, mobility_, parts_;
-  Eigen::MatrixXd terms_, sizes_;  // for a disturbed series; sizes_: |u_k| and the rounding carried into it
+  Eigen::MatrixXd terms_, sizes_;  // for a perturbed series; sizes_: |u_k| and the rounding carried into it
 };
 
 }  // namespace signorini::motion

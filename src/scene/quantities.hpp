@@ -29,6 +29,7 @@ void visit_numbers(History& history, const Unit& of, const std::function<void(do
 /// All quantities times the factors of their units; Scene::resolved stays unchanged. Exact where the factors
 /// are powers of two and nothing leaves the range of a double.
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);
+/// Same for the settings of a run.
 [[nodiscard]] RunSpec rescaled(RunSpec run, const Factors& factors);
 
 }  // namespace signorini::scene

@@ -23,6 +23,7 @@ struct NameScope {
   std::unordered_map<std::string, std::vector<std::string>> groups;  ///< "BODY.GROUP": its nodes
   std::filesystem::path directory;                                   ///< directory of relative file names
 };
+/// The scope of a scene as far as it has been read.
 [[nodiscard]] NameScope name_scope(const Scene& scene);
 
 /// Directory of the scene's own file, in which relative file names are looked up.

@@ -57,6 +57,7 @@ struct SavedStates {
 // for a continued run.
 
 inline constexpr const char* prestress_file = "geometric.csv";
+/// Heading of geometric.csv.
 [[nodiscard]] const std::vector<std::string>& prestress_columns();
 
 /// nullopt: the file does not exist. Errors: SceneError at the line of the file; `key` begins the message.

@@ -60,11 +60,14 @@ class Table {
   /// True if `kind` is the table's name in the key table.
   [[nodiscard]] bool is(std::string_view kind) const { return kind_ == kind; }
   [[nodiscard]] SourcePlace place() const { return place_; }
+  /// Place of the key's value, or of the table if the key is absent.
   [[nodiscard]] SourcePlace place(std::string_view key) const;
   [[nodiscard]] const std::string& path() const { return path_; }
+  /// Path of a key of this table, for messages.
   [[nodiscard]] std::string path(std::string_view key) const;
   [[nodiscard]] const toml::table& node() const { return *node_; }
 
+  /// Records a value that the caller has read with raw() or child(), as TOML.
   void record(std::string_view key, std::string value) { record_.set(key, std::move(value)); }
   /// All values read so far: keys in the order of the file, then defaults.
   [[nodiscard]] ResolvedTable record() const;

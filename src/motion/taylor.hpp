@@ -119,7 +119,7 @@ class FrictionSeries {
 /// perturbations would leave cancelling sums unchanged, so that an accidental zero would look like a zero of
 /// the equations.
 struct DataPerturbation {
-  const Series& motion;  ///< undisturbed: source of the terms
+  const Series& motion;  ///< unperturbed series, from which the terms are computed
 
   /// Greatest perturbation in units of eps; chosen so that results show it above their last digit.
   static constexpr double max_roundings = 8.0;
@@ -146,7 +146,7 @@ class Taylor {
   using AdditionalLoads = std::function<void(int level, double* P)>;
   void set_additional_loads(AdditionalLoads besides) { additional_loads_ = std::move(besides); }
 
-  /// 1 over the mass of each degree of freedom alone, 0 for massless ones.
+  /// 1 / M_ii for each degree of freedom i; 0 without mass.
   [[nodiscard]] const std::vector<double>& mobility() const { return mobility_; }
   /// The system of the last series: that of its contact state, with friction at its slip rates.
   [[nodiscard]] const StateSystemPtr& system() const { return system_; }

@@ -48,7 +48,7 @@ struct TimeTable {
   std::optional<double> unit = {};
 };
 
-/// Layout of a table file; zeros: taken from the file itself.
+/// Layout of a table file; values of 0 are taken from the file itself.
 struct TableLayout {
   int column = 0;          ///< column of the values, from 2; 0: the second of two
   double time_step = 0.0;  ///< > 0: values only

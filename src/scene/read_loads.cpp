@@ -316,7 +316,7 @@ void read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
   }
 }
 
-/// Number of repetitions of the shape before t_end.
+/// Reads period and shift, and sets the number of repetitions of the shape before t_end.
 void read_period(Table& table, HistorySpec& spec, double t_end) {
   spec.shift = table.optional_number("shift").value_or(0.0);
   const auto period = table.optional_number("period");

@@ -38,13 +38,13 @@ void read_reduction(Table& top, Scene& scene, ResolvedScene& record);
 void read_sections(Table& top, Scene& scene, ResolvedScene& record);
 void read_nodes(Table& top, Scene& scene, ResolvedScene& record);
 void read_lines(Table& top, Scene& scene, ResolvedScene& record);
-/// After all named nodes, because meshes add nodes.
+/// Must be called after all named nodes are read, because meshes add nodes.
 void read_bodies(Table& top, Scene& scene, ResolvedScene& record);
-/// After the matrices.
+/// Must be called after read_matrices().
 void read_surfaces(Table& top, Scene& scene, ResolvedScene& record);
-/// After contacts, stops and pendulums, because seams add contacts.
+/// Must be called after contacts, stops and pendulums are read, because seams add contacts.
 void read_seams(Table& top, Scene& scene, ResolvedScene& record);
-/// Before tables that refer to centres, which may be new nodes.
+/// Must be called before tables that refer to centres are read, because centres may be new nodes.
 void read_rigid(Table& top, Scene& scene, ResolvedScene& record);
 void read_members(Table& top, Scene& scene, ResolvedScene& record);
 void read_masses(Table& top, Scene& scene, ResolvedScene& record);
@@ -52,12 +52,12 @@ void read_springs(Table& top, Scene& scene, ResolvedScene& record);
 void read_supports(Table& top, Scene& scene, ResolvedScene& record);
 void read_matrices(Table& top, Scene& scene, ResolvedScene& record);
 void read_contacts(Table& top, Scene& scene, ResolvedScene& record);
-/// After the contacts: each stop adds two contacts.
+/// Must be called after the contacts are read, because each stop adds two contacts.
 void read_stops(Table& top, Scene& scene, ResolvedScene& record);
-/// After the stops: each pendulum adds a contact, a spring and two stops.
+/// Must be called after the stops are read, because each pendulum adds a contact, a spring and two stops.
 void read_pendulums(Table& top, Scene& scene, ResolvedScene& record);
 void read_loads(Table& top, Scene& scene, ResolvedScene& record);
-/// After all tables that outputs refer to.
+/// Must be called after all tables that outputs refer to are read.
 void read_outputs(Table& top, Scene& scene, ResolvedScene& record);
 void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
 

@@ -59,8 +59,8 @@ struct Fit {
 };
 
 /// `go_on` is called before every run; false stops the fit. Errors: those of sensitivities(); UsageError for
-/// fewer rows than keys and for unknown columns. Events that the first run lacks or that differ, and times
-/// after its end, are refused by an Error with the line, or by a UsageError if there is no file.
+/// fewer rows than keys and for unknown columns. Also refused are events that the first run lacks or that
+/// differ, and times after its end: by an Error with the line, or by a UsageError if there is no file.
 [[nodiscard]] Fit fit(const SceneReader& read, const std::vector<std::string>& paths,
                       const Measurements& measured, const std::function<bool()>& go_on = {});
 

@@ -130,11 +130,17 @@ struct BranchPoint {
   long events = 0;  ///< number in one period
   int branch = 1;   ///< 1: the first branch; others as in Branch::sides
   /// Reasons why the point is special, joined with "+"; empty: none.
-  /// At a located point: "fold" (the parameter reverses its direction), "flip", "neimark-sacker", "branch
-  /// point", "sequence" (the last point with its sequence), "end" (no step continues, as at a graze where two
-  /// orbits meet and vanish). Elsewhere a change since the point before: "fold" (the parameter reverses at a
-  /// corner of the branch, where the sequence changes), "stability" (gained or lost), "sequence", "restart"
-  /// (the branch before could not be continued), "switched" (the first point of a side branch).
+  /// At a located point:
+  ///   "fold"             the parameter reverses its direction
+  ///   "flip", "neimark-sacker", "branch point"
+  ///   "sequence"         the last point with its sequence
+  ///   "end"              no step continues, as at a graze where two orbits meet and vanish
+  /// Elsewhere, for a change since the point before:
+  ///   "fold"             the parameter reverses at a corner of the branch, where the sequence changes
+  ///   "stability"        stability is gained or lost
+  ///   "sequence"         the sequence has changed
+  ///   "restart"          the branch before could not be continued
+  ///   "switched"         the first point of a side branch
   std::string special;
 };
 

@@ -453,7 +453,8 @@ struct BaseMotionSpec {
 
 enum class LoadType { force, moment, distributed, traction };
 
-/// A force or a moment at a node, a force per length on pieces of members, or a force per area on a boundary of a body.
+/// A force or a moment at a node, a force per length on pieces of members, or a traction on a boundary of a
+/// body.
 struct LoadSpec {
   Direction direction = {};  ///< moment: its node only
   double amplitude = 0.0;

@@ -145,8 +145,8 @@ struct SequenceChange {
 [[nodiscard]] std::vector<SequenceChange> smallest_sequence_changes(const Sensitivities& s);
 
 /// Derivatives of a run by the keys at these paths. `recorder` receives the run's rows, and may not steer.
-/// Errors: SceneError, also for scenes that the engine refuses; UsageError for a key that is not a number,
-/// for a key on which the model does not depend smoothly, and for options that exclude each other.
+/// Errors: SceneError, also for scenes that the engine refuses; UsageError for options that exclude each
+/// other, and for a key that is not a number or on which the model does not depend smoothly.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                                           Recorder* recorder = nullptr,
                                           const SensitivityOptions& options = {});

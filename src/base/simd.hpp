@@ -18,7 +18,7 @@ namespace signorini::base {
 
 using Double4 = double __attribute__((vector_size(32)));
 
-/// A vector of doubles at any address. A class, because a template argument would lose the alignment
+/// A vector of doubles at any address. It is a class, because a template argument would lose the alignment
 /// attribute of a vector type.
 template <class T>
 struct [[gnu::packed, gnu::may_alias]] UnalignedLanes {

@@ -58,8 +58,7 @@ namespace signorini::base {
 //   FNV-1a of 64 bits:   h = 14695981039346656037,  for each byte  h = (h xor byte) 1099511628211 mod 2^64
 //   sixteen hexadecimal digits of h
 //
-// A single changed byte always changes the fingerprint; any other change leaves it as it is with probability
-// 2^-64.
+// A single changed byte always changes the fingerprint. Any other change keeps it with probability 2^-64.
 
 /// Fingerprint of a text, which may be added in parts.
 class Fingerprint {

@@ -3,7 +3,7 @@
 //   tangent row   open, closed  T = 0
 //                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 of a separate sliding point
 //                 slip s        T + s fk N = 0,    T - s F = 0 where friction depends on N
-//                 static limit s                                  T + s fs N = 0
+//                 limit s       T + s fs N = 0,  at the static limit without slip
 //   guards        stick         fs |N| -+ T
 //                 slip s        s p',  p' = ut' - T'/kt
 //

@@ -70,8 +70,8 @@ class WoodburyFactors {
   /// Sets A_0, which must be regular.
   void set_base(std::shared_ptr<const TriangularFactors> base);
   [[nodiscard]] const TriangularFactors* base() const { return base_.get(); }
-  /// Sets the changed rows, which replace those set before. False: there are too many, or the inverse of 1 +
-  /// D Y loses more digits than a solve may; solve() must then not be called.
+  /// Sets the changed rows, which replace those set before. False: there are too many, or the inverse of
+  /// 1 + D Y loses more digits than a solve may; solve() must then not be called.
   [[nodiscard]] bool set(std::vector<ChangedRow> rows);
   /// b := A^-1 b; both of the length of A, work: scratch.
   void solve(double* b, double* work);

@@ -34,8 +34,8 @@ namespace signorini::motion {
 //   | rows of the contacts         . |             (linear/unknowns.hpp), else 0
 //
 // The part that depends on the states alone is a FactorisedStates. Systems that differ in anchors share it,
-// because anchors are constants of rows. Friction that depends on the slip rate is in the matrix: such a
-// system is valid for the friction coefficients that it was made with, initially the kinetic ones.
+// because anchors are constants of rows. Friction that depends on the slip rate or on N is in the matrix:
+// such a system is valid for the friction coefficients that it was made with, initially the kinetic ones.
 // Shapes: n degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
 
 /// Limit of unknowns up to which a dense inverse is faster than a sparse solve.
@@ -48,7 +48,7 @@ struct FactorisedStates {
   std::vector<linear::UndampedMotion> undamped;
   std::vector<linear::PrescribedDof> prescribed;
   std::vector<linear::SharedForces> shared;  ///< rigid contacts that constrain one motion together
-  std::vector<std::size_t> rate_dependent;   ///< contacts that slip with rate-dependent friction
+  std::vector<std::size_t> rate_dependent;   ///< contacts that slip with varying friction
   bool massless = false;                     ///< some degrees of freedom are massless
   bool regular = false;                      ///< false: rows are linearly dependent; there is no inverse
   linear::TriangularFactors sparse;          ///< empty if `inverse` or `by_mass` is used
@@ -98,7 +98,7 @@ class StateSystems {
   /// The system of a contact state. Null: its rows are linearly dependent, so forces would not be unique.
   [[nodiscard]] StateSystemPtr system_of(const contact::ContactStates& states);
   /// The same system with these tangent rows for the contacts FactorisedStates::rate_dependent. It is not
-  /// cached, since slip rates do not recur. Null: singular.
+  /// cached, since slip rates and forces do not recur. Null: the matrix is singular.
   [[nodiscard]] StateSystemPtr with_friction(const StateSystem& system, std::span<const Form> tangents);
 
   /// True if other sticking or closed contacts keep contact c at rest on its surface, so that its own
@@ -160,8 +160,8 @@ class StateSystems {
 //   t . v = s'                     at contacts that stick without tangential stiffness
 
 /// Changes u and v as little as possible, in the norm of M, so that they satisfy the constraints of the
-/// contact state at t. Returns the impulses of the contacts that change v so, along n and t, in the order of
-/// forces; empty: none.
+/// contact state at t. Returns the impulses of the contacts that make this change of v, along n and t, in the
+/// order of forces; empty: there are none.
 Eigen::VectorXd project_constraints(const Model& model, const StateSystem& system, const Forcing& forcing,
                                     double t, Vector& u, Vector& v);
 

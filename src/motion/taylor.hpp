@@ -181,7 +181,7 @@ class Taylor {
   StateSystemPtr system_;
   AdditionalLoads additional_loads_;          // empty: none
   std::vector<std::size_t> curved_contacts_;  // contacts on curved surfaces under forces that vary
-  std::vector<FrictionSeries> friction_;      // for contacts with rate-dependent friction
+  std::vector<FrictionSeries> friction_;      // for contacts that slip with varying friction
   std::vector<double> x_, work_, known_u_, known_v_, mobility_, parts_;
   Eigen::MatrixXd terms_, sizes_;  // for a perturbed series; sizes_: |u_k| and the rounding carried into it
 };

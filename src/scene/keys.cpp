@@ -15,7 +15,7 @@ namespace {
 
 using enum KeyType;
 
-/// Stands for choices that another table lists (signorini/engine.hpp).
+/// Marks a key whose choices are "auto" and the names of the engines (signorini/engine.hpp).
 constexpr std::string_view engines_and_auto = "engines";
 /// Names of the built-in laws; a scene may also name the laws made of data (contact/law/data_laws.hpp).
 constexpr std::string_view built_in_laws = "compliant rigid slider";

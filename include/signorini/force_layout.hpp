@@ -3,9 +3,9 @@
 //   forces   N_1, T_1,  N_2, T_2, ...      a normal force for each contact, then a force for each of its tangents
 //   guards   G_11, G_12, ...,  G_21, ...   the guards of each contact in turn, in the order of its law
 //
-// Residual rows of contacts have the same order as the forces. The numbers of tangents and guards belong to the contact:
-// its law gives them (LawCapabilities), and nothing else computes a place from them. Some contacts of a model, such as
-// those of a part or of a decision, have a layout of their own (`part`).
+// Residual rows of contacts have the same order as the forces. The law of a contact gives its numbers of
+// tangents and guards (LawCapabilities); only ForceLayout computes places from them. part() makes the layout
+// of some contacts of a model, such as those of a part or of a decision.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@ namespace signorini {
 
 class ForceLayout {
  public:
-  /// Numbers of one contact.
+  /// Numbers of tangents and guards of one contact.
   struct Counts {
     std::uint32_t tangents = 1, guards = 3;
     std::uint32_t unused_forces = 0;  ///< places after the tangents; their force is zero
     std::uint32_t unused_guards = 0;  ///< slots after the guards, without a guard
   };
 
-  /// Layout of no contact.
+  /// Layout without contacts.
   ForceLayout() = default;
   explicit ForceLayout(const std::vector<Counts>& contacts) {
     auto table = std::make_shared<Table>();
@@ -45,7 +45,7 @@ class ForceLayout {
     contacts_ = contacts.size();
     table_ = std::move(table);
   }
-  /// All contacts have the same numbers.
+  /// Layout of contacts with the default Counts.
   explicit ForceLayout(std::size_t contacts) : ForceLayout(std::vector<Counts>(contacts)) {}
 
   /// Layout of the listed contacts alone, in this order.
@@ -62,6 +62,7 @@ class ForceLayout {
   /// Number of all places.
   [[nodiscard]] std::size_t size() const { return contacts_ == 0 ? 0 : starts_[contacts_].place; }
   [[nodiscard]] std::size_t tangents(std::size_t contact) const { return starts_[contact].tangents; }
+  /// Place of N of a contact, and of its i-th tangential force.
   [[nodiscard]] std::size_t normal(std::size_t contact) const { return starts_[contact].place; }
   [[nodiscard]] std::size_t tangent(std::size_t contact, std::size_t i = 0) const {
     return starts_[contact].place + 1 + i;
@@ -74,7 +75,7 @@ class ForceLayout {
     return place <= start.place + start.tangents;
   }
 
-  /// Number of the slots of all guards.
+  /// Number of all slots.
   [[nodiscard]] std::size_t guard_count() const { return contacts_ == 0 ? 0 : starts_[contacts_].slot; }
   [[nodiscard]] std::size_t guards(std::size_t contact) const { return starts_[contact].guards; }
   /// Slot of a contact's guard.

@@ -2,7 +2,7 @@
 //
 //   d_k . z = 0,  z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p
 //
-// d_k: the form of the velocity in a row of the contact state, such as g' in kn g + cn g', restricted to
+// d_k: the form of the velocity in a row of the contact state, such as g' in kn g + cn g'. It contains only
 // degrees of freedom with neither mass nor damper. As many of these as there are independent d_k count as
 // damped. Every other one, p, represents a motion z along which forces are in equilibrium at every instant.
 // Motions that the structure itself leaves undamped: model/massless.hpp.

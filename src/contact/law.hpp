@@ -129,9 +129,10 @@ struct Rows {
 
 namespace signorini::contact {
 
-/// Rows and guards of a contact in this state, by its law; unused guards have the kind Guard::none.
+/// Rows of a contact in this state, by its law.
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
-/// Those that the law does not have (ForceLayout::guards) are absent.
+/// Guards of a contact in this state, by its law. The law has at most ForceLayout::guards() of them; unused
+/// entries have the kind Guard::none.
 [[nodiscard]] ContactLaw::Guards guards(const Contact& contact, const ContactState& state);
 /// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);

@@ -1,4 +1,4 @@
-// contact_kinematics.hpp: kinematics of a contact for the law checker: its motion, the guards of its states, and the rounding of both.
+// contact_kinematics.hpp: motion of a contact for the law checker, guards of its states, and their rounding.
 //
 //   g = g0 + n.u,  ut = t.u - s,  g' = n.v,  ut' = t.v - s',  g'' = n.a,  ut'' = t.a - s''
 //   size of a form on x: |n| |x|, x on the contact's own degrees of freedom
@@ -45,12 +45,14 @@ struct GuardValues {
   [[nodiscard]] const GuardValue* end() const { return list.data() + count; }
 };
 
+/// Motion and forces of contact k on one side of an instant.
 [[nodiscard]] ContactKinematics kinematics(const Contact& contact, std::size_t k, const CheckedSide& side);
-/// Direction of slip: +1 or -1 while slipping, otherwise 0.
+/// Direction of slip: +1 or -1 in a slip state, otherwise 0.
 [[nodiscard]] int slip_direction(State state);
-/// |T|/|N| for slip at this rate under this N.
+/// Friction coefficient |T|/|N| for slip at this rate under this N.
 [[nodiscard]] double friction_at(const Contact& c, double slip_rate, double N);
-/// The same coefficient in a given state: the static one if the contact is held at its static limit.
+/// Friction coefficient in a given state: the static one if the contact is held at its static limit,
+/// otherwise friction_at().
 [[nodiscard]] double friction_in(const Contact& c, State state, double slip_rate, double N);
 /// Guards of a state for a motion whose forces satisfy the state's own rows.
 [[nodiscard]] GuardValues guards_of(const Contact& contact, const ContactState& state,
@@ -66,10 +68,11 @@ struct GuardValues {
 //   g >= 0          -N >= 0,  fs |N| - |T| >= 0          s p' >= 0
 //   |N - kn g - cn g'| <= c eps |N|      |T - kt (ut - p)| <= c eps (|T| + kt |p|)      |T + s fk N| <= c eps |T|
 //
-// Limits of the laws (contact_kinematics.hpp, laws.hpp) grow with the sizes of all terms, which are sums over degrees of freedom.
-// This check omits these sums, so its limits never exceed those of the laws: a contact that passes here passes there.
+// Limits of the laws (laws.hpp) grow with the sizes of all terms, which are sums over degrees of freedom.
+// This check omits these sums, so its limits never exceed those of the laws: a contact that passes it
+// satisfies the laws.
 
-/// True if no guard of the state is negative. False also if these few data do not decide it.
+/// True if no guard of the state is negative; false also if `side` does not determine this.
 [[nodiscard]] bool guards_hold(const Contact& contact, std::size_t k, const ContactState& state,
                                const CheckedSide& side);
 /// True if N and T satisfy the state's rows. rest: speed up to which a contact counts as at rest.

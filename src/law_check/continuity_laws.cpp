@@ -75,9 +75,10 @@ void InstantLawChecker::continuity() {
     if (model_.contacts[k].obeys_coulomb()) friction_continuity(k);
 }
 
-/// Uncertainty of u at a massless degree of freedom. There u follows from forces, and springs of contacts turn its
-/// rounding into forces: stiff springs bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on
-/// massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is singular.
+/// Uncertainty of u at a massless degree of freedom. There u follows from forces, and springs of contacts
+/// convert the rounding of u to forces: stiff springs bend the structure by  sum_j |(K^-1)_ij| noise_j,  K:
+/// of the structure on massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is
+/// singular.
 double InstantLawChecker::massless_uncertainty(int dof) const {
   if (context_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
   const std::vector<int>& all = context_.massless();
@@ -132,15 +133,15 @@ bool InstantLawChecker::lets_massless_jump() const {
   return any;
 }
 
-/// True if the body of a contact is massless; beside a dashpot it is the body that jumps.
+/// True if the body of a contact is massless: if it has a dashpot, the body jumps and not the sliding point.
 bool InstantLawChecker::body_follows(std::size_t k) const {
   const std::vector<std::pair<int, double>>& terms = model_.contacts[k].body_tangent().terms;
   return std::any_of(terms.begin(), terms.end(),
                      [&](const auto& term) { return !context_.has_mass(term.first); });
 }
 
-/// True if contact k stuck at its static limit, which is above the kinetic one, and now slides, is open, or has slid
-/// and stopped within the instant (an event "slip" from stick to stick).
+/// True if contact k stuck at its static limit, which is above the kinetic one, and has let go: it slides, is
+/// open, or has slid and stopped within the instant (an event "slip" from stick to stick).
 bool InstantLawChecker::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];

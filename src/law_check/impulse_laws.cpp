@@ -103,9 +103,9 @@ void InstantLawChecker::momentum() {
       true);
 }
 
-/// Checks that impulses which no law of impact gives are no larger than the speed of a resting contact explains. Such a
-/// contact is held while others are stopped, and moves with them if it slides: the smaller of the effect of its own
-/// capture and the effect of all captures counts.
+/// Checks that captures, impulses which no law of impact gives, are no larger than the speed of a resting
+/// contact explains. A captured contact is held while others are stopped, and moves with them if it slides.
+/// So the smaller of two effects counts: that of its own capture, and that of all captures.
 void InstantLawChecker::captures() {
   if (record_.captures.size() == 0 || record_.captures.isZero(0.0)) return;
   Vector impulse = Vector::Zero(model_.size());
@@ -172,8 +172,8 @@ void InstantLawChecker::restitution() {
   }
 }
 
-/// Velocities before and after one impact of an instant: v- plus the effect of the impulses of earlier turns, and v+
-/// minus the effect of later turns.
+/// Velocities before and after one impact of an instant: v- plus the effect of the impulses of earlier
+/// impacts, and v+ minus the effect of later impacts.
 InstantLawChecker::ImpactVelocities InstantLawChecker::impact_velocities(
     const RecordedImpulse& p, const ContactKinematics& before, const ContactKinematics& after) const {
   ImpactVelocities strike{before.dg, after.dg, after.dut};

@@ -2,9 +2,9 @@
 //
 //   before: u, v-, states-, N-, T-     impulses P_k, captures c_k     after: u, v+, a+, states+, N+, T+
 //
-// The record contains data only: no decision, no engine. A run fills it once per instant (run/run_law_checker.hpp); a
-// directory of results does the same (study/law_check/directory_law_checker.hpp). The data it points to must outlive it.
-// Units: those of the model.
+// The record contains data only: no decision, no engine. It is filled once per instant, by a run
+// (run/run_law_checker.hpp) or from a directory of results (study/law_check/directory_law_checker.hpp).
+// The data that it points to must outlive it. Units: those of the model.
 #pragma once
 
 #include <array>
@@ -47,8 +47,8 @@ struct CheckedSide {
   const double* energy_speeds = nullptr;
 };
 
-/// Impulse on the body at one contact in one impact, along n and t. Unit: force * time. Impacts of one instant are
-/// successive; all touching contacts have an entry in each, which may be zero.
+/// Impulse on the body at one contact in one impact, along n and t. Unit: force * time. Impacts of one
+/// instant are successive. Every touching contact has one entry for each impact; the entry may be zero.
 struct RecordedImpulse {
   std::size_t contact = 0;
   int impact_number = 1;
@@ -72,8 +72,8 @@ struct InstantRecord {
   double t = 0.0;
   double resolution = 0.0;  ///< times closer than this count as one instant
   CheckedSide before, after;
-  std::vector<RecordedImpulse> impulses;  ///< in the order of the turns; empty: no impact
-  Vector captures;                        ///< as forces, along n and t; empty: none
+  std::vector<RecordedImpulse> impulses;  ///< in the order of the impacts; empty: no impact
+  Vector captures;                        ///< laid out as forces, along n and t; empty: none
   std::vector<RecordedEvent> events;
   std::vector<std::size_t> released;  ///< contacts that massless parts left instantaneously
   bool start = false;                 ///< start of the run: `before` is guessed from the gaps, or continued
@@ -83,7 +83,7 @@ struct InstantRecord {
   bool located = true;  ///< the engine locates the zeros of guards
   double eigenvector_condition =
       1.0;  ///< StepFacts::eigenvector_condition of the motion before; 1: no modes, or orthogonal ones
-  double forgiven = 0.0;  ///< factor of rounding by which states fail that were reported as undecided
+  double forgiven = 0.0;  ///< states reported as undecided fail by this factor of their rounding
 };
 
 }  // namespace signorini::law_check

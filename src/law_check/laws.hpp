@@ -12,21 +12,22 @@
 
 namespace signorini::law_check {
 
-/// Factor of a tolerance: engines re-arm a guard ten tolerances from its zero, and it has two terms.
+/// Factor of a tolerance. An engine re-arms a guard ten tolerances from its zero, and a guard has two terms.
 inline constexpr double tolerance_factor = 20.0;
-/// Factor for slip rates: if no motion continues, slip rates up to sixteen times the speeds of rest also count as rest
+/// Factor of the speed of rest up to which slip rates also count as rest, if no motion continues
 /// (docs/theory.md, "Rigid contacts").
 inline constexpr double slow_slip_factor = 16.0;
-/// Factor of an uncertainty of a time: t_uncertainty is of first order; the same amount is allowed for the rest of the
-/// motion's series, and for a second guard at the same instant. Chosen value.
+/// Factor of an uncertainty of a time: one part for t_uncertainty, which is of first order, one for the
+/// higher terms of the motion's series, and one for a second guard at the same instant. Chosen value.
 inline constexpr double uncertainty_factor = 3.0;
 
-/// Fraction of a guard's terms beyond which failing states, and changes without a reason, are grave: no underestimated
-/// rounding explains them. Chosen value; four rigid contacts on a body that three support (coupled seed 19) fail by the
-/// full size.
+/// Fraction of a guard's terms beyond which failing states, and changes without a reason, are grave: no
+/// underestimated rounding explains them. Chosen value; four rigid contacts under a body that three would
+/// support fail by the whole size of the terms (test "coupled", seed 19).
 inline constexpr double grave_fraction = 1e-3;
 
-/// Accelerations by unit forces of a contact whose degrees of freedom all have mass: of the structure, and its own.
+/// Accelerations by unit forces along n and t of a contact whose degrees of freedom all have mass. by_n,
+/// by_t: of the structure; nn, nt, tt: of the contact itself, W_k.
 struct ContactResponse {
   Vector by_n, by_t;
   double nn = 0.0, nt = 0.0, tt = 0.0;
@@ -50,7 +51,7 @@ class CheckContext {
   [[nodiscard]] Vector solve_mass(const Vector& x) const;
   /// Largest sqrt((M^-1)_ii), for translations and for rotations.
   [[nodiscard]] const std::array<double, 2>& inverse_mass_root() const;
-  /// Response to its own forces; null: contact k acts on a massless degree of freedom.
+  /// Response of contact k to its own forces; null if the contact acts on a massless degree of freedom.
   [[nodiscard]] const ContactResponse* contact_response(std::size_t k) const;
   /// Largest sum of the absolute terms of M a + C v + K u and of contact forces: constraint forces are differences of
   /// these terms.
@@ -60,26 +61,27 @@ class CheckContext {
   [[nodiscard]] std::array<double, 2> max_entries(const Vector& x) const;
   /// Twice the elastic energy, u^T K u, with springs of contacts in K.
   [[nodiscard]] double twice_energy(const Vector& u) const;
-  /// Massless degrees of freedom, contacts that act on one, and rows of K and C as columns; empty: all have mass.
+  /// Massless degrees of freedom, contacts that act on one of them, and the transposes of K and C, whose
+  /// columns are the rows of K and C. All are empty if every degree of freedom has mass.
   [[nodiscard]] const std::vector<int>& massless() const { return massless_; }
   [[nodiscard]] const std::vector<std::size_t>& contacts_on_massless() const { return on_massless_; }
   [[nodiscard]] const SparseMatrix& stiffness_by_rows() const { return stiffness_by_rows_; }
   [[nodiscard]] const SparseMatrix& damping_by_rows() const { return damping_by_rows_; }
-  /// Upper bound of the speed that captures give contact k.
+  /// Upper bound of the speed that the impulses `captures` give contact k.
   [[nodiscard]] double capture_speed(const Vector& captures, std::size_t k) const;
-  /// Bound of the acceleration of its gap that its force may have balanced.
+  /// Bound of the acceleration of contact k's gap that the contact's force may have balanced.
   [[nodiscard]] double max_gap_acceleration(const InstantRecord& record, std::size_t k) const;
-  /// The same bound for both directions, from the motions before and after.
+  /// Bound of the acceleration of contact k along n or t, from the motions before and after.
   [[nodiscard]] double max_contact_acceleration(const InstantRecord& record, std::size_t k) const;
-  /// Change of accelerations by dampers, for the velocities that captures remove from steps; guards are located with
-  /// these accelerations. Empty: none.
+  /// Accelerations by which dampers respond to the velocities that captures remove. Guards are located before
+  /// these accelerations are removed. Empty: none.
   [[nodiscard]] Vector capture_accelerations(const InstantRecord& record) const;
-  /// Velocities that captures remove from steps. Empty: none.
+  /// Velocities that captures remove at the end of a step. Empty: none.
   [[nodiscard]] Vector capture_velocities(const InstantRecord& record) const;
-  /// Weights for the forces of contact k just before, among all constraint forces.
+  /// Weights that give the constraint forces of contact k just before; other constraint forces act as well.
   [[nodiscard]] ConstraintForceWeights constraint_force_weights(const InstantRecord& record,
                                                                 std::size_t k) const;
-  /// Uncertainty of w . f just before, from two different sums.
+  /// Difference that rounding makes between two sums for w . f just before (check_context.cpp).
   [[nodiscard]] double constraint_force_noise(const InstantRecord& record, const Vector& w) const;
   /// Speed below which a contact that leaves may count as at rest.
   [[nodiscard]] double rest_speed(const InstantRecord& record, std::size_t k) const;
@@ -107,7 +109,7 @@ class CheckContext {
 /// Checks a stretch of motion at its two ends: just after one instant, and just before the next one, at t.
 [[nodiscard]] std::vector<Violation> stretch_laws(const CheckContext& context, double t,
                                                   const CheckedSide& from, const CheckedSide& to);
-/// Checks rows with mass just after an instant; reports the worst one. load: P.
+/// Checks the equation of motion in rows with mass just after an instant; returns the worst row. load: P.
 [[nodiscard]] std::vector<Violation> equilibrium_law(const CheckContext& context, double t,
                                                      const CheckedSide& side, const Vector& load);
 
@@ -116,13 +118,14 @@ struct MasslessImbalance {
   int dof = 0;
   const char* law = "";
   double value = 0.0, limit = 0.0;
-  int order = 0;  ///< order of the derivative
+  int order = 0;  ///< 0: forces; 1, 2: their first or second rates
 };
-/// orders: 1 forces, 2 also their rates, 3 also the rates of these. At most one row is returned per order.
+/// Massless rows that are not balanced, at most one per order. orders: 1 forces, 2 also their rates, 3 also
+/// the second rates.
 [[nodiscard]] std::vector<MasslessImbalance> massless_balance(const CheckContext& context,
                                                               const CheckedSide& side, int orders);
-/// Rounding of the forces of each massless row, or of their first derivatives (order 1); length n. Errors by the
-/// tolerances of the engine are not included.
+/// Rounding of the forces in each massless row, or of their first derivatives (order 1); length n. Errors by
+/// the engine's tolerances are not included.
 [[nodiscard]] Vector massless_noise(const CheckContext& context, const CheckedSide& side, int order);
 
 /// Checks the laws at one instant.

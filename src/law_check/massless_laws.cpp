@@ -218,14 +218,13 @@ namespace {
 constexpr double of_rates = 1e-9;
 constexpr const char* names[] = {"massless equilibrium", "massless velocity", "massless acceleration"};
 
-/// N and T of a contact, or their first or second derivative, and the size of their terms. known: they follow from the
-/// motion.
+/// N and T of a contact or their derivatives, and the sizes of the terms. known: they follow from the motion.
 struct Push {
   double N = 0.0, T = 0.0, size = 0.0;
   bool known = true;
 };
 
-/// Derivatives of order 1 or 2.
+/// Derivatives of N and T of order 1 or 2.
 Push push_of(const Contact& c, const ContactState& state, const ContactKinematics& m, int order) {
   Push push;
   if (is_open(state.state) && !c.normal_force_given()) return push;
@@ -310,7 +309,8 @@ class Balance {
     }
   }
   /// Sizes reached by displacements (order 0), velocities and accelerations. Rounding of displacements produces
-  /// velocities w times, and accelerations w^2 times as large, w: the highest frequency. At rest there is nothing else.
+  /// velocities w times, and accelerations w^2 times as large, w: the highest frequency. At rest there are no
+  /// others.
   [[nodiscard]] std::array<double, 2> reached(int order) const {
     if (order == 0) return side_.max_u;
     std::array<double, 2> reach = side_.max_u;

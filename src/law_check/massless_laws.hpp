@@ -17,8 +17,9 @@
 
 namespace signorini::law_check {
 
-/// Uncertainty of the slip rate of contact k in its state on this side. 0: the contact acts on mass, or the rows of its
-/// massless parts do not determine their velocities (one sticks rigidly, or dampers couple more than 300 rows).
+/// Uncertainty of the slip rate of contact k in its state on this side. 0: the contact acts on mass, or the
+/// rows of its massless parts do not determine their velocities. This is so if a contact sticks rigidly, or
+/// if dampers couple more than 300 rows.
 [[nodiscard]] double slip_rate_noise(const CheckContext& context, const CheckedSide& side, std::size_t k);
 
 }  // namespace signorini::law_check

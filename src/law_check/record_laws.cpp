@@ -25,7 +25,7 @@ void InstantLawChecker::releases() {
         tolerance_factor * (context_.limits.rtol * after.displacement_size + context_.limits.displacement);
     if (now.state == State::open && after.g < -rest)
       add(contact, "release", -after.g, rest, seen::length, true);
-    if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // driven there by the jump
+    if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // the forcing has moved it
     const RecordedEvent* event = event_of(k);
     double least = std::numeric_limits<double>::infinity(), limit = 0.0;
     for (const GuardValue& guard : guards_of(c, old, before, context_.limits)) {
@@ -85,7 +85,8 @@ void InstantLawChecker::event_rows() {
   for (const RecordedEvent& event : record_.events) event_row(event);
 }
 
-/// Rates of the surfaces in contact: for a compliance split, event rows exclude the deformation of its springs.
+/// Motion of the surfaces in contact, as in event rows: a compliance split leaves out the deformation of its
+/// springs.
 ContactKinematics InstantLawChecker::touching(std::size_t k, const CheckedSide& side) const {
   const Contact& c = model_.contacts[k];
   const State state = (*side.mode)[k].state;
@@ -170,7 +171,7 @@ void InstantLawChecker::row_before(const RecordedEvent& event, const ContactKine
   row_check(event, off, limit, seen::force);
 }
 
-/// Checks the gap, which is that of the side after; for a compliance split it is that of the surfaces.
+/// Checks the gap of an event row: the gap just after, for a compliance split that of the surfaces.
 void InstantLawChecker::row_gap(const RecordedEvent& event, const ContactKinematics& after) {
   const Contact& c = model_.contacts[event.contact];
   if (!event.gap) return;

@@ -17,7 +17,8 @@ struct ConstraintRows {
   std::vector<const Combination*> rows;
   std::vector<double> asked, noise;  // noise: of the accelerations along the rows
 
-  /// removed_accelerations: those that were present when a guard was located and have been removed since; empty: none.
+  /// removed_accelerations: accelerations that were present when a guard was located but have been removed by
+  /// captures; empty: none.
   void add(const Contact& c, const ContactState& state, const ContactResponse& response,
            const ContactKinematics& m, const Vector& removed_accelerations, bool hold) {
     const bool tangent = c.holds_tangent(state.state);
@@ -258,7 +259,7 @@ std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_ol
   return result;
 }
 
-/// True if its own g', ut', N or T jumps: the motion before does not determine its guard after the jump.
+/// True if g', ut', N or T of contact k jumps: the motion before does not determine its guard after the jump.
 bool InstantLawChecker::jumps(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
@@ -310,8 +311,8 @@ bool InstantLawChecker::is_pushed_off(std::size_t k, const ContactState& old,
 
 namespace {
 
-/// True if N jumps. With a dashpot its part of the jump is tested alone, since u is continuous: N is known to the
-/// rounding of kn u, cn (g'+ - g'-) to that of velocities.
+/// True if N jumps. Beside a dashpot only cn (g'+ - g'-) is tested, since u is continuous: it is known to the
+/// rounding of velocities, N only to that of kn u.
 bool force_jumps(const Contact& c, const ContactKinematics& before, const ContactKinematics& after) {
   const double of_N =
       rounding::many_operations * (std::abs(before.N) + std::abs(after.N) + normal_force_size(c, after));
@@ -329,15 +330,15 @@ void InstantLawChecker::necessity(std::size_t k) {
   if (!c.forces_follow_motion() || (moves_instantaneously(k) && record_.breakpoint)) return;
   const ContactKinematics before = kinematics(c, k, record_.before), after = kinematics(c, k, record_.after);
   if (c.normal_force_given() && (is_open(old.state) || is_open(now.state)))
-    return;  // the compression decides
+    return;  // the sign of the given normal force decides
   const double rest = rounding::elimination * after.velocity_size;
   if (is_pushed_off(k, old, after)) return;
   // A contact thrown off in a hit, however slowly.
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
     return;
-  // T stays if N jumps: a contact that slid sticks with this T until its limit is reached again. A distant jump makes N
-  // jump as well, however little reaches the contact.
+  // T is unchanged if N jumps: a contact that slid sticks with this T until its limit is reached again. Even
+  // a distant jump makes N jump, by however little.
   if (c.tangential_stiffness && slip_direction(old.state) != 0 && force_jumps(c, before, after)) return;
   if (own_guard_crosses(k, old, before)) return;
   const std::optional<OldStateMotion> before_it = motion_in_old_state(k);
@@ -364,7 +365,8 @@ void InstantLawChecker::necessity(std::size_t k) {
       nearest->value > grave_fraction * nearest->size);
 }
 
-/// True if a guard of its own was zero before, although changes of other contacts at this instant would have lifted it.
+/// True if a guard of contact k was zero before, although other contacts that change now would have raised
+/// it.
 bool InstantLawChecker::own_guard_crosses(std::size_t k, const ContactState& old,
                                           const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];

@@ -71,7 +71,8 @@ class CompanionWatch final : public run::RunListener, public run::EventShift {
  public:
   CompanionWatch(const certify::CompanionRun& run, certify::CompanionTracker& tracker)
       : tracker_(tracker), seed_(run.seed), moved_(run.event_shift) {}
-  /// A shift of this event by the companion itself is not a difference between the runs: it affects later events only.
+  /// Passes to the tracker by how much this event was shifted: only the effect on later events is a
+  /// difference of the runs.
   void instant(const run::RunInstant& instant) override {
     tracker_.event_shift = instant.triggered.empty() ? 0.0 : by_ / instant.t;
   }
@@ -151,7 +152,7 @@ class CompanionTask {
 };
 
 /// All companions of a run: they run beside it, limited by the number of processors; when the run has ended, they may
-/// use its processor, too.
+/// also use its processor.
 class Companions {
  public:
   Companions(std::vector<certify::CompanionRun> runs, double most_steps, bool forces) {

@@ -1,15 +1,17 @@
-// companion.hpp: choice of the companion run that certifies a run, and its expected cost.
+// companion.hpp: choice of the companion runs that certify a run, their expected cost, and their recorded
+// data.
 //
 //   run       companion  setting                          c    reason
 //   not exact exact      unchanged                        1.5  the difference is the error
-//   ida       finer      rtol / 100, atol / 100           2    at rtol / 10 errors may be alike
+//   ida       finer      rtol / 100, atol / 100           2    at rtol / 10 the errors may be similar
 //   with dt   ida        rtol 1e-9 at most                1.5  the difference is the error
 //   with dt   finer      dt / 2                           3    4/3 at order two, 2 at order one
 //   exact     finer      twice, data off by one rounding  5    two samples of a random error
 //
 // With exact as companion, the difference contains ida's own local error: a tenth of t_uncertainty is added for the
-// part that grazing guards hide; with rtol / 100 half of it, since in chatter the companion has similar errors. In all
-// other cases all of it is added, since the companion's own error is as large.
+// part that grazing guards hide. With rtol / 100 half of t_uncertainty is added, since in chatter the
+// companion has similar errors. In all other cases all of it is added, since the companion's own error is as
+// large.
 //
 // A run in series makes the same rounding errors in each step of the same length (exact_engine.cpp, share_of_step):
 // after N steps they add up to N roundings. Perturbed data do not show this, because they rotate a motion but neither
@@ -20,9 +22,9 @@
 // motion. The event's own row has the unshifted time; the later effect of the shift is part of D, and c D bounds the
 // effect of tau.
 //
-// A motion that a step does not resolve is not resolved by half of it either: stiff dashpots oscillate with both, and
-// so do contacts with them. So dt / 2 is used on request only, and then certifies nothing unless dt max(omega_max,
-// fastest decay) <= 1.
+// If a step does not resolve a motion, half the step does not resolve it either: stiff dashpots, and contacts
+// with such dashpots, oscillate with both. So dt / 2 is used on request only, and certifies a run only if dt
+// max(omega_max, fastest decay) <= 1.
 //
 // Decisions that depend on a tolerance use the run's tolerance in all companions: velocities below which rebounds come
 // to rest, and heights below which ida leaves flights to the series. A finer run that integrated flights which the run
@@ -47,8 +49,8 @@ struct CompanionRun {
   Model model;
   RunSpec run;
   std::uint64_t seed = 0;
-  /// Fraction of the rounding error of an event's time in modes (Step::resolution beyond the time resolution) by which
-  /// its events are shifted, in either direction.
+  /// Events of a companion in modes are shifted by this fraction of the rounding error of their times
+  /// (Step::resolution beyond the time resolution), in either direction.
   double event_shift = 0.0;
 };
 
@@ -56,19 +58,20 @@ struct CompanionPlan {
   std::vector<CompanionRun> runs;
   std::string name;        ///< "exact", "ida, rtol 1e-10"
   std::string choice;      ///< "as given", or "auto: ..."
-  std::string limitation;  ///< reason why it cannot certify anything; empty: none
+  std::string limitation;  ///< reason why the companion cannot certify anything; empty: it can
   double factor = 1.0;
-  double local = 1.0;    ///< fraction of t_uncertainty that is added: the part that the difference does not
-                         ///< contain
+  /// Fraction of t_uncertainty that is added: the part that the difference does not contain.
+  double local = 1.0;
   double cost = 0.0;     ///< expected, relative to the run; 0: unknown
   double seconds = 0.0;  ///< expected duration of the companion itself
   double steps = 0.0;    ///< expected number, for one companion; 0: unknown
 };
 
-/// Gives all contacts of `model` without a capture velocity that of this run.
+/// Sets this capture velocity for all contacts of `model` that have none.
 void set_capture_velocities(Model& model, double capture_velocity);
 
-/// run.engine must not be automatic. Errors: SceneError if a requested companion refuses the model.
+/// Companion runs that certify `run`. run.engine must not be automatic. Errors: SceneError if a requested
+/// companion refuses the model.
 [[nodiscard]] CompanionPlan plan_companion(const Model& model, const RunSpec& run);
 
 // Data recorded from a run and from its companions.
@@ -95,7 +98,7 @@ class CompanionLimit {
   std::atomic<double> end_{std::numeric_limits<double>::infinity()};
 };
 
-/// N and T: columns of a row that each contact has.
+/// Each contact has two columns in a row: N and T.
 inline constexpr std::size_t forces_per_contact = 2;
 
 class CompanionTracker : public run::ForwardingRecorder {
@@ -116,7 +119,7 @@ class CompanionTracker : public run::ForwardingRecorder {
   RecordedRows rows;
   const CompanionLimit* limit = nullptr;                       ///< only for a companion
   double max_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
-  bool too_long = false;                                       ///< it was ended by most_steps
+  bool too_long = false;                                       ///< max_steps ended it
   double event_shift =
       0.0;  ///< for a companion: part of the time of the next events that it has added itself
 

@@ -2,11 +2,12 @@
 //
 //   x -> x (1 + delta r),   delta = 1e-15,  |r| in [1/2, 1], the same r for M_ij and M_ji
 //
-// For a reduced model the perturbed data are those of the structure: x^T K y of two shapes changes by the rounding of
-// its terms, which may cancel, so stiffnesses and shapes change (data_perturbation.hpp). A static start follows its data,
-// with friction as long as it stays below its limit (data_perturbation.hpp). Unchanged are: times of breakpoints, the initial
-// state of touching contacts, displacements of other static starts, closed gaps, and zeros. So laws, states at the
-// start and symmetry of the matrices are those of the model. The same seed gives the same model.
+// For a reduced model the perturbed data are those of the structure. The product x^T K y of two shapes
+// changes by the rounding of its terms, which may cancel, so stiffnesses and shapes change (perturb_shapes).
+// A static start follows its data if friction is below its limit (perturbed_start). Unchanged are: times of
+// breakpoints, the initial state of touching contacts, displacements of other static starts, closed gaps, and
+// zeros. So laws, states at the start and symmetry of the matrices are those of the model. The same seed
+// gives the same model.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,7 @@ namespace signorini::certify {
 /// Pseudo-random 1 or -1, the same for the same numbers.
 [[nodiscard]] double random_sign(std::uint64_t seed, std::uint64_t number);
 
+/// The model with all data changed by about one rounding.
 [[nodiscard]] Model perturbed(const Model& model, std::uint64_t seed);
 
 // Perturbation of a reduced model's shapes by roundings of K.
@@ -38,10 +40,12 @@ void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& cou
 
 // Change of a static start by a perturbation of its data.
 //
-//   r = P - K u0 - sum_closed n N - sum_stuck t T,   N = kn g of springs, for rigid contacts from the
-//   start;  T: initial_shear
-//   (K' + sum_closed kn' n' n'^T + sum_stuck kt' t' t'^T) w = r' - r,   n' . w = 0 for closed rigid contacts, and for
-//   touching contacts without force;   T' = T kt'/kt + kt' t' . w: the sliding point is unchanged
+//   r = P - K u0 - sum_closed n N - sum_stuck t T
+//   (K' + sum_closed kn' n' n'^T + sum_stuck kt' t' t'^T) w = r' - r
+//   n' . w = 0                   for closed rigid contacts, and for touching contacts without force
+//   T' = T kt'/kt + kt' t' . w   so that the sliding point is unchanged
+//
+// N = kn g for springs; for rigid contacts N is that of the start. T is initial_shear.
 //
 // The error of u0 is the condition of K times a rounding: ten million roundings if a frame stands on springs that are
 // ten million times softer. Companions with the same initial state would not show this. The contact states of the start
@@ -51,8 +55,9 @@ struct PerturbedStart {
   Vector w;                    ///< change of near.u0
   std::vector<double> shears;  ///< T' of each contact
 };
-/// near: the model with perturbed data and the same closed gaps. nullopt: the start is not static, or friction in it is
-/// at its limit or holds rigidly, or its matrix is singular, or a contact's state would change.
+/// Change of the static start of `model` if its data become those of `near`, which has the same closed gaps.
+/// nullopt if the start is not static, friction is at its limit or holds rigidly, the matrix is singular, or
+/// a contact's state would change.
 [[nodiscard]] std::optional<PerturbedStart> perturbed_start(const Model& model, const Model& near);
 
 }  // namespace signorini::certify

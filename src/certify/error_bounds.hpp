@@ -1,9 +1,10 @@
-// error_bounds.hpp: error bounds of displacements, velocities, peaks and landings from the differences of run and companions.
+// error_bounds.hpp: error bounds of displacements, velocities, peaks and landings, from the differences
+// between a run and its companions.
 //
 //   bound = c max over the last five rows of |x - x'| + tol(x)
 //
-// tol(x): one local tolerance if the engine has one, else rounding. Within the error of an event a velocity may be the
-// one on its other side: there the change to the neighbouring rows is added.
+// tol(x): one local tolerance if the engine has one, else rounding. Within the error of an event's time a
+// velocity may be that of the event's other side: in these rows the change to the neighbouring rows is added.
 #pragma once
 
 #include "certify/companion.hpp"
@@ -25,12 +26,13 @@ struct BoundSettings {
   engine::Tolerance tolerance;  ///< tolerance of the run; rtol 0: rounding only
 };
 
+/// Error bounds of the rows of history.csv.
 [[nodiscard]] HistoryErrors bound_history(const Model& model, const RecordedRun& run,
                                           const std::vector<RecordedRun>& companions,
                                           const BoundSettings& settings,
                                           const std::vector<TimedEvent>& events, const MatchResult& verdict);
 
-/// Bounds peaks and landings of the whole run; only landings that have ended before verdict.until.
+/// Adds error bounds of the peaks of the whole run, and of landings that have ended in its certain part.
 void bound_extremes(Certificate& certificate, const RecordedRun& run,
                     const std::vector<RecordedRun>& companions, const BoundSettings& settings);
 
@@ -47,6 +49,7 @@ void bound_extremes(Certificate& certificate, const RecordedRun& run,
 // errors of forces are kn times those of displacements). These are estimates: a change of force may shift an event,
 // which they do not include.
 
+/// The estimates above for a reduced model. peaks: those of the run.
 [[nodiscard]] Truncation truncation_of(const Model& model, const Reduction& reduction,
                                        const std::vector<Peak>& peaks);
 
@@ -58,7 +61,7 @@ void bound_extremes(Certificate& certificate, const RecordedRun& run,
 // A run with accumulated step errors may miss a grazing impact, and so may its companion if its own error is no
 // smaller.
 
-/// The first of these near impacts that is open. factor: c.
+/// The first of these near impacts that is undecided (open). factor: c.
 [[nodiscard]] std::optional<EventSequence::FirstViolation> first_undecided_impact(
     const Model& model, const RecordedRun& run, const RecordedRun& companion,
     const std::vector<events::NearHit>& near, double factor);

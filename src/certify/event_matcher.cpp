@@ -101,7 +101,7 @@ class EventMatcher {
     if (a == nullptr || b == nullptr) {
       const TimedEvent& alone = a != nullptr ? *a : *b;
       if (alone.t <= std::min(run_.reached, companion.reached))
-        // It may be earlier by its own uncertainty, which is large where a guard grazes.
+        // The event may be earlier by its own uncertainty, which is large if a guard grazes.
         certified_until_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
                             a != nullptr ? describe(*a) + " has no matching event in the companion"
                                          : "the companion has one more event, " + describe(*b));

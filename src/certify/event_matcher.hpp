@@ -1,4 +1,5 @@
-// event_matcher.hpp: determines the certain part of a run from its events and those of its companions (signorini/certify.hpp).
+// event_matcher.hpp: determines the certain part of a run from its events and those of its companions
+// (signorini/certify.hpp).
 //
 //   D_k = largest |t - t'| over the last five events, all contacts and companions
 //   t_error = c D_k + uncertainty + 2 eps t        uncertainty: the event's own, or its partner's if larger; the
@@ -9,13 +10,16 @@
 //   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| + u_i + u_i-1 > (t_i - t_i-1) / 2        u: uncertainties that are roundings,
 //                                                                   of the run or, where it has none, of the companion
 //
-// or where a contact that touched either rests or rebounds within the error of its speed, r being that speed over the
-// smallest speed of a rebound (Event::departure), R_k the largest of the contact's last five differences:
+// or where the error of its speed leaves open whether a contact that touched rests or rebounds:
 //
-//   c R_k max(r, 1) >= |r - 1|        R: |r - r'| / max(r, r', 1)
+//   c R_k max(r, 1) >= |r - 1|        R = |r - r'| / max(r, r', 1)
 //
-// Both runs may make such a decision alike, and wrongly. It also ends where a guard entered the companion's tolerance
-// and left it without an event (engine/events/graze_detector.hpp), or where rounding left several states open.
+// r: speed of the contact / smallest speed of a rebound (Event::departure); R_k: the largest R of the
+// contact's last five differences.
+//
+// Both runs may make the same wrong decision there. The certain sequence also ends where a guard entered the
+// companion's tolerance and left it without an event (engine/events/graze_detector.hpp), or where rounding
+// left several states open.
 //
 // An event with t + t_error beyond that end minus c D is not certain; `until` is the smallest t - t_error of these.
 //
@@ -40,7 +44,7 @@ inline constexpr std::size_t difference_window = 5;
 /// Columns of a row of events that are needed for the comparison.
 struct TimedEvent {
   double t = 0.0;
-  float uncertainty = 0.0F;  ///< to be added for its own instant; 0: none
+  float uncertainty = 0.0F;  ///< part of its t_error that belongs to its own instant; 0: none
   int contact = -1;          ///< -1: a jump of a load
   EventType type = EventType::time;
   State from = State::open, to = State::open;
@@ -50,6 +54,7 @@ struct TimedEvent {
   /// True for a change of a contact's state; false for a jump of a load.
   [[nodiscard]] bool is_change() const { return contact >= 0 && type != EventType::time; }
 };
+/// The columns of an event that the comparison needs.
 [[nodiscard]] TimedEvent timed_event(const Event& event);
 
 /// Events in order, and the time that the run reached.
@@ -65,7 +70,7 @@ struct EventSequence {
   std::string stop;  ///< reason why it stopped earlier; empty at t_end
   /// Time at which rounding first left several states open (Report::forgiven_at).
   std::optional<double> forgiven_at = {};
-  /// For a companion: a decision that it leaves open, and thus cannot confirm for the run.
+  /// For a companion: a decision that the companion leaves open and so cannot confirm for the run.
   std::optional<events::Graze> graze = {};
   std::optional<FirstViolation> first_violation = {};
   bool rounded = false;  ///< for a companion: its uncertainties are roundings

@@ -12,17 +12,17 @@
 
 namespace signorini::run {
 
-/// True if there are degrees of freedom with neither mass nor damping.
+/// True if there are degrees of freedom with neither mass nor damping; they respond instantaneously.
 [[nodiscard]] bool has_instantaneous_parts(const Model& model);
 
 class Auditor {
  public:
   Auditor(const Model& model, const linear::SystemMatrices& structure);
 
-  /// Adds the works and losses of a stretch of the motion.
+  /// Adds works and losses since the last call.
   void add(const motion::WorkIntegrals& works);
 
-  /// Starts the audit. first: the states that were guessed before the decision; point: its motion.
+  /// Starts the audit. first: the states guessed before the decision; point: the motion after the decision.
   void begin(const decide::Decision& decision, const contact::ContactStates& first,
              const motion::Forcing& forcing, const motion::Point& point);
   /// Checks contacts at the end of a step or after an event.
@@ -32,14 +32,14 @@ class Auditor {
   void observe(std::size_t contact, const motion::Forcing& forcing, double t,
                const contact::ContactStates& states, const motion::Point& point);
   void equilibrium(double t, double residual);
-  /// Adds the dissipation of an instant: friction forces that drop, loads that jump on massless parts.
+  /// Adds the dissipation of an instant, where friction forces drop or loads on massless parts jump.
   void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states,
                const motion::Point& before, const motion::Forcing& forcing, bool load_jumps);
-  /// Energies at t; also audits the balance. ahead: works that have been added and belong to times after t.
+  /// Returns the energies at t, and audits their balance. ahead: works already added, for times after t.
   Energy energy(double t, const contact::ContactStates& states, const motion::Point& point);
   Energy energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& states,
                 const motion::Point& point);
-  /// Energies at a point before these works, which have been added; without an audit.
+  /// Energies at a point before these works, which have been added already; the balance is not audited.
   [[nodiscard]] Energy energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& states,
                                      const motion::Point& point) const;
   [[nodiscard]] ContactSample sample(std::size_t contact, const motion::Forcing& forcing, double t,
@@ -58,7 +58,7 @@ class Auditor {
 
   /// Updates the extreme forces of a contact at t.
   void update_peak_forces(std::size_t contact, double t, double N, double T);
-  /// Slip p; for rigid stick the anchor.
+  /// Position p of the sliding point; for rigid stick the anchor.
   [[nodiscard]] double slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const;
 
   /// Work P . (u+ - u-) of constant loads on massless parts that jump.
@@ -84,7 +84,7 @@ class Auditor {
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
   LandingTracker landings_;
-  bool massless_;  // there are degrees of freedom that move instantaneously
+  bool massless_;  // has_instantaneous_parts()
   bool begun_ = false;
 };
 

@@ -40,7 +40,7 @@ constexpr int max_unknowns = 4000;  // shapes and their inverse take 16 n^2 byte
 constexpr int min_unknowns =
     16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
-constexpr int min_damped_unknowns = 40;   // complex modes gain from here on (validation/exact); chosen
+constexpr int min_damped_unknowns = 40;   // complex modes cost less from here on (validation/exact); chosen
 constexpr double worth = 2.0;             // required cost ratio of the series and the states' modes
 constexpr int max_damped_unknowns = 500;  // a state's complex modes take 120 n^2 bytes and about 5 s there
 

@@ -1,4 +1,4 @@
-// choose_engine.hpp: chooses the engine of a scene with engine = "auto".
+// choose_engine.hpp: chooses the engine of a scene with engine = "auto", and the flow of engine exact.
 //
 //   exact   if the laws are linear and every decay is slow relative to the fastest oscillation:
 //           alpha + beta omega_max^2, C_ii / M_ii and, without mass, K_ii / C_ii are at most
@@ -22,7 +22,7 @@ struct EngineChoice {
   std::string reason;  ///< one sentence
 };
 
-/// Returns run.engine with the reason "as given" unless it is automatic; never Engine::automatic.
+/// Returns run.engine with the reason "as given", or a choice if it is automatic; never Engine::automatic.
 [[nodiscard]] EngineChoice choose_engine(const Model& model, const RunSpec& run);
 
 // Chooses the method of engine `exact` for the motion between events.
@@ -33,20 +33,22 @@ struct EngineChoice {
 // run.flow = "auto" takes modes if they can compute all of the scene at lower cost (docs/theory.md):
 //   real      from 16 unknowns on
 //   complex   from 40 on, without rigid constraints, if the states cost at most half as much as the series
-// and never in a scene whose contact states have too many springs for modes.
+//
+// Modes are never taken in a scene whose contact states have too many springs for modes.
 
 struct FlowChoice {
   bool modal = false;
   std::string reason;  ///< "as given" or "auto: ..."
 };
 
-/// Kind of modes that a scene needs, and the reason if modes cannot compute it.
+/// Kind of modes that a scene needs, and the reason if its motion cannot be computed with modes.
 struct ModalKind {
   bool damped = false;  ///< complex modes are needed
   bool too_many_springs =
       false;              ///< states may have too many springs for modes, and are then left to the series
   std::string objection;  ///< empty: modes can compute the scene
 };
+/// Kind of modes for this model.
 [[nodiscard]] ModalKind modal_kind(const Model& model);
 /// True if complex modes, once they are computed, cost less than the series: there are enough unknowns, and no rigid
 /// contact, whose hits excite the whole mesh.

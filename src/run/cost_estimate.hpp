@@ -1,6 +1,7 @@
-// cost_estimate.hpp: estimated cost of a run, and of engine exact in its place, before either runs.
+// cost_estimate.hpp: estimated cost of a run, and of engine exact in its place: by rules, or by trials of a
+// few steps.
 //
-// Costs are orders of magnitude (cost_estimate.hpp); loads that vary faster than the structure are included.
+// Loads that vary faster than the structure are included.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@ namespace signorini::run {
 // Estimated cost of a time loop, as an order of magnitude, before it runs.
 //
 //   series        t_end * max(omega_max, fastest decay) / 5.3 steps
-//   modes         a step follows the excited modes: 0.002 n^2 steps of the series; and the modes of about 16 states
+//   modes         a step follows the excited modes: 0.002 n^2 steps of the series; plus modes of 16 states
 //   BDF, order 5  max(12, 3.1 rtol^(-1/6)) steps in the shortest period
 //   fixed steps   t_end / dt
 
@@ -37,25 +38,25 @@ struct CostInputs {
   long unknowns;
 };
 
+/// Costs by the rules above, for the engine exact, for BDF, and for fixed steps.
 [[nodiscard]] CostEstimate cost_of_exact(const CostInputs& parts);
 [[nodiscard]] CostEstimate cost_of_bdf(const CostInputs& parts);
 [[nodiscard]] CostEstimate cost_of_fixed_steps(const CostInputs& parts);
 
-/// Duration of the whole run with the series; and of the complex modes of all states that its contacts may enter.
+/// Seconds of the whole run with the series; and for the complex modes of all states that contacts may enter.
 [[nodiscard]] double seconds_of_series(const Model& model, const RunSpec& run);
 [[nodiscard]] double seconds_of_damped_states(const Model& model);
-/// Duration of an event of `exact` with its series: the decision, and a series that restarts.
+/// Seconds that an event takes in `exact` with its series: the decision, and the restart of the series.
 [[nodiscard]] double seconds_of_event(const Model& model);
 
 // Estimates the duration of a run from its first steps.
 //
 //   seconds = s + (t_end - t) (s - s_1) / (t - t_1)       s: wall time when t is reached
-//
-// (t, s) is the end of the trial, or of the run; (t_1, s_1) is a quarter of the trial's time, so that assembly,
-// factorisation and the small steps of a start are counted once. The estimate holds if the motion continues as it
-// begins: a rest before a load acts makes it too short, and so do later events. If t - t_1 is less than ten steps by
-// the rule of cost_estimate.hpp, as on a busy machine after a start at the limits of friction, the seconds of the rule are
-// used.
+// (t, s) is the end of the trial, or of the run. (t_1, s_1) is reached after a quarter of the trial's time,
+// so that assembly, factorisation and the small steps of a start are counted once. The estimate holds if the
+// motion continues as it begins: it is too short if the structure is at rest before a load acts, or if events
+// come later. If t - t_1 is less than ten estimated steps, as on a busy machine after a start at friction
+// limits, CostEstimate::seconds is used.
 
 struct Trial {
   Engine engine = Engine::automatic;
@@ -68,16 +69,17 @@ struct TrialTime {
   double t = 0.0, seconds = 0.0;
 };
 
-/// The equation above for (t_1, s_1) and (t, s); proportional to t if they are equal; 0 if t is 0.
+/// The equation above for early = (t_1, s_1) and late = (t, s); proportional to t if they are equal; 0 if t
+/// is 0.
 [[nodiscard]] double extrapolated_seconds(double t_end, const TrialTime& early, const TrialTime& late);
 
-/// Expected seconds of the run with this engine; 0: it does not accept the scene, or stops within the trial.
-/// `patience`: limit for the seconds of the trial, and for a step; the rule of cost_estimate.hpp is used if the first one
-/// takes too long.
+/// Expected seconds of the run with this engine; 0 if the engine does not accept the scene or stops within
+/// the trial. seconds_limit: limit for the trial. If the first step is expected to take too long, no trial is
+/// run and CostEstimate::seconds is returned.
 [[nodiscard]] double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double seconds_limit);
 
-/// Trials of exact, ida and the run's own engine, each without reduction and with each cutoff. `model`: of the scene
-/// without [reduction]; a scene that has one is tried without other cutoffs.
+/// Trials of exact, ida and the run's own engine, each with `model` and with each cutoff. A scene that has a
+/// [reduction] already is tried without other cutoffs.
 [[nodiscard]] std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
                                         const std::vector<double>& cutoffs, double seconds_limit);
 
@@ -98,13 +100,13 @@ struct ExpectedCost {
   CostEstimate estimate;
 };
 
-/// Cost with `method`, that of run.engine, which is not automatic.
+/// Cost of the run with run.engine, which must not be automatic, and its `method`.
 [[nodiscard]] ExpectedCost expected_cost(const Model& model, const RunSpec& run, const Method& method);
 /// Cost with the engine's own method. Errors: SceneError if a step is required and not given.
 [[nodiscard]] ExpectedCost expected_cost(const Model& model, const RunSpec& run);
 
-/// True if engine `exact` accepts this model, and may be chosen for it without being named: laws made of data run in its
-/// series only where a scene asks for it.
+/// True if engine `exact` accepts this model and may be chosen automatically. Laws made of data run in its
+/// series only if a scene names this engine.
 [[nodiscard]] bool exact_accepts(const Model& model, const RunSpec& run);
 
 /// Seconds with exact instead of ida; nullopt: another engine, a scene that exact does not accept, or an unknown cost.

@@ -88,7 +88,7 @@ constexpr std::size_t max_of_a_kind = 24;  // limit of named curves in displacem
 constexpr std::size_t most_values = 100000, most_points = 8000, min_points = 2500;
 // Fraction of the range so far: a parabola's vertex is kept only if it exceeds the middle row by more.
 constexpr double least_rise = 1e-3;
-constexpr double turn = 1e-3;  // rad; smallest scale of rotations: those of 1e-15 count as rounding
+constexpr double turn = 1e-3;  // smallest scale of rotations, rad: rotations of 1e-15 count as rounding
 
 /// Vertex of the parabola through three rows whose middle one is a peak; nullopt: no peak, or an instant.
 std::optional<CurvePoint> vertex(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {

@@ -3,9 +3,10 @@
 //   a curve: a displacement of a named node (of each kind as many as a picture shows), an energy, or the balance
 //   rows y_k at t_k;   where y_1 is a peak of three:   the vertex of the parabola through them is also a row
 //
-// Rows are both sides of every instant, and ends and interior points of steps as needed for a line, at the times of the
-// contact rows (motion_record.hpp). Each curve is thinned separately (base/curves.hpp). No parabola extends across an
-// instant, whose two sides have the same time. Energies of a part are passed on immediately (part_rows.hpp).
+// Rows are both sides of every instant, and as many ends and interior points of steps as a line needs. Their
+// times are those of the contact rows (motion_record.hpp). Each curve is thinned separately
+// (base/curves.hpp). No parabola extends across an instant, whose two sides have the same time. Energies of a
+// part are passed on immediately (part_rows.hpp).
 #pragma once
 
 #include <array>
@@ -25,15 +26,16 @@ namespace signorini::run {
 // Distance of rows such that straight lines between them represent the curve.
 //
 //   rows at a, b, c:   y_b is off the line from y_a to y_c by   d = |y''| (b - a) (c - b) / 2
-//   rows h apart:      h^2 = (b - a) (c - b) bend R / d   rows are off by bend R, lines between them by a quarter of it
+//   rows h apart:      h^2 = (b - a) (c - b) e R / d      rows are off by e R, lines between by e R / 4
 //
-// R: the range of y. A curve with amplitude A = R / 2 has 47 rows per period at its turning points. The existing rows
-// determine h, and need not have equal distances.
+// R: the range of y; e: max_deviation. A curve with amplitude A = R / 2 has 47 rows per period at its turning
+// points. The existing rows determine h; their distances need not be equal.
 
-/// Fraction of the range. Half of a curve's first bend passes before rows detect it, and thinned rows are off by 0.3 %
-/// (base/curves.hpp). Chosen value; the test "what pictures draw of contacts is the motion" depends on it.
+/// Fraction of the range by which rows may be off. Half of a curve's first bend passes before rows detect it,
+/// and thinned rows are off by 0.3 % (base/curves.hpp). Chosen value; the test "what pictures draw of
+/// contacts is the motion" depends on it.
 inline constexpr double max_deviation = 0.0045;
-/// Fraction of the run: 26 rows per pixel of the widest picture.
+/// Smallest spacing of rows, as a fraction of the run: 26 rows per pixel of the widest picture.
 inline constexpr double min_row_spacing = 1.0 / 32000.0;
 
 /// Spacing h of one curve; left, right: b - a and c - b, off: d. Infinite for a straight line.
@@ -55,8 +57,9 @@ struct Chebyshev {
   static constexpr std::size_t count = 17;
   using Values = std::array<double, count>;
 
-  /// The 17 points.
+  /// The 17 points x_i.
   [[nodiscard]] static const Values& nodes();
+  /// Value p(x) of the polynomial through the points of the stride.
   [[nodiscard]] static double interpolate(const Values& values, std::size_t stride, double x);
   /// Derivative p' at the points of the stride.
   [[nodiscard]] static Values slopes(const Values& values, std::size_t stride);
@@ -64,13 +67,13 @@ struct Chebyshev {
   [[nodiscard]] static double extremum_between(const Values& slope, std::size_t stride, double a, double b);
 };
 
-/// Displacements shown in pictures.
+/// Columns of the displacements that pictures show.
 [[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
 
-/// Entries of u that these displacements need, for a physical u.
+/// Entries of a physical u that drawn_columns() needs.
 [[nodiscard]] std::vector<int> drawn_entries(const Model& model);
 
-/// Limit for the points of a curve, for this number of displacements.
+/// Limit for the points of a curve, if pictures show this number of displacements.
 [[nodiscard]] std::size_t max_curve_points(std::size_t columns);
 
 class CurveRecord {
@@ -79,9 +82,9 @@ class CurveRecord {
   CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
   [[nodiscard]] bool enabled() const { return enabled_; }
-  /// True if a line needs a row at t, without an event there.
+  /// True if a line needs a row at t although no event occurs at t.
   [[nodiscard]] bool needs_row(double t) const;
-  /// Row spacing required by the last three rows (curve_record.hpp).
+  /// Row spacing required by the last three rows.
   [[nodiscard]] double requested_spacing() const { return requested_spacing_; }
   /// Time of the last row; infinite if no rows are wanted.
   [[nodiscard]] double last() const { return last_; }

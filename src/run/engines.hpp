@@ -37,7 +37,7 @@ struct EngineParts {
   std::optional<std::vector<int>> watched = {};
 };
 
-/// Error of an engine that does not accept the scene: the reason, without a recommendation.
+/// Error of an engine that does not accept the scene. reason: the message without the recommendation.
 class UnsupportedSceneError : public SceneError {
  public:
   UnsupportedSceneError(const RunSpec& run, const std::string& what, const std::string& instead);
@@ -47,15 +47,16 @@ class UnsupportedSceneError : public SceneError {
 /// Roles of engines; at most one engine has each role.
 enum class EngineRole : unsigned char {
   none,
-  closed_form,  ///< the flow is exact to rounding: automatic for accepted scenes of low cost, companion of all other
-                ///< engines
+  /// The flow is exact to rounding. Chosen automatically for accepted scenes of low cost; companion of all
+  /// other engines.
+  closed_form,
   integrator,   ///< accepts every scene: automatic for other scenes, companion of fixed steps
   fixed_steps,  ///< independent method for verifications, which halve its steps
 };
 
 struct EngineCapabilities {
   bool closed_form_flow = false;      ///< the motion between events is exact; run.flow chooses its method
-  bool supports_orbits = false;       ///< its motion or its tangents can close an orbit
+  bool supports_orbits = false;       ///< orbits can be closed with its motion or its tangents
   bool discrete_derivatives = false;  ///< sensitivity/discrete_run.hpp differentiates its steps
   bool laws_at_step_ends = false;     ///< the laws of contacts hold at the ends of its steps
   /// True if the engine locates the zeros of guards.
@@ -77,9 +78,9 @@ struct EngineRow {
   CostEstimate (*estimate_cost)(const CostInputs& parts);
 };
 
-/// Row of an engine, which is not automatic.
+/// Row of this engine, which must not be Engine::automatic.
 [[nodiscard]] const EngineRow& engine_row(Engine engine);
-/// The engine with that role, which is not none.
+/// The engine with this role, which must not be EngineRole::none.
 [[nodiscard]] Engine engine_for(EngineRole role);
 /// Names of the engines with an ability, as in "\"exact\" or \"ida\"".
 [[nodiscard]] std::string engines_that(bool EngineCapabilities::*can);

@@ -1,18 +1,18 @@
-// event_log.hpp: converts decisions to rows of events.csv.
+// event_log.hpp: converts decisions to rows of events.csv, and detects events whose order is unknown.
 //
 //   from -> to               event            a contact
 //   any -> open              separation       has at most one row per instant, with the values just before
 //   open -> any              contact          and just after all changes of this instant
 //   slip s -> slip -s        reversal
-//   stick -> slip            slip             also stick -> stick if friction let go and caught again
+//   stick -> slip            slip             also stick -> stick after slip within the instant
 //   slip -> stick            stick
 //   any, with a hit          impact
 //   forces jump with a load  time
 //
 // Uncertainty of a time: the guard changes by |g'| dt, so an error delta of the guard moves the event by the smallest
-// of (m! delta / |g^(m)|)^(1/m). The order of events closer than their uncertainties is unknown, and a warning reports
-// it. The same holds for hits of coupled contacts within the accuracy of the data: accumulated errors are not part of
-// delta, and successive hits have other results than simultaneous ones.
+// of (m! delta / |g^(m)|)^(1/m). The order of events closer than their uncertainties is unknown, and a
+// warning reports it. A warning also reports hits of coupled contacts within the accuracy of the data: delta
+// excludes accumulated errors, and successive hits have other results than simultaneous ones.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ namespace signorini::run {
 //
 //   t_2 - t_1 < e_1 + e_2      e: uncertainty of an event's time;   events of one instant are not compared
 //
-// Each event is compared with the last one before it in the log whose guard was zero.
+// Each event is compared with the last earlier event whose guard reached zero.
 
 class EventOrder {
  public:
@@ -50,18 +50,19 @@ class EventOrder {
   int unordered_ = 0;
 };
 
-/// let_go: friction let the contact go within the instant, although it sticks before and after.
+/// Event type of a change of state; nullopt if the change is no event. let_go: the contact slipped within the
+/// instant, although it sticks before and after.
 [[nodiscard]] std::optional<EventType> classify(State from, State to, bool let_go);
 
 /// Uncertainty of the time at which a guard is zero, for an error of its value; nullopt: no derivative is known.
 [[nodiscard]] std::optional<double> time_uncertainty(const decide::Crossing& crossing, double error);
 
-/// The rate guard_rate, whose unit depends on the guard, is in the scene's units; all other values are in those of the
-/// model.
+/// Writes the events of a run. guard_rate, whose unit depends on the guard, is in the scene's units; all
+/// other values are in the units of the model.
 class EventLog {
  public:
-  /// Counts by type and warnings go to the report. whole: false for the events of a part, whose order among those of
-  /// other parts is unknown.
+  /// Counts by type and warnings go to the report. whole: false for the events of a part, whose order among
+  /// events of other parts is unknown.
   EventLog(const Model& model, Recorder& recorder, Report& report, bool whole)
       : model_(model), recorder_(recorder), report_(report), order_(model, report), whole_(whole) {}
 
@@ -70,7 +71,8 @@ class EventLog {
     const decide::Decision* decision = nullptr;
     const contact::ContactStates* before = nullptr;  ///< states just before
     bool load_jumps = false;
-    /// Time for which the triggered guard had been zero up to rounding, one entry per contact; empty: none had.
+    /// Durations for which the triggered guards had been zero up to rounding (ZeroTracker), one entry per
+    /// contact; empty if no guard had.
     std::vector<double> unseen = {};
   };
   /// Logs hits of rigid contacts; there are no other events at the start.

@@ -13,13 +13,14 @@ namespace signorini::run {
 class FaultInjector {
  public:
   virtual ~FaultInjector() = default;
-  /// Restores the correct model, rescaled like the one that the run computes; the law checker receives the result.
+  /// Restores the correct data in a copy of the computed model; the law checker receives this copy.
   virtual void correct(Model& /*model*/) {}
-  /// Delay of a located event.
+  /// Delay that is added to the time of a located event.
   virtual double late(const engine::Step& /*step*/, const decide::Decision& /*before*/) { return 0.0; }
   /// Sets guards that the engine is to miss to Guard::none.
   virtual void watch(std::vector<decide::GuardStart>& /*guards*/) {}
-  /// Replaces the decided states, velocities and impulses. True: the motion continues from the replacement.
+  /// Replaces the decided states, velocities and impulses. Returns true if the motion continues from the
+  /// replacement.
   virtual bool change(const contact::ContactStates& /*mode_before*/, const Vector& /*v_before*/,
                       decide::Decision& /*decided*/) {
     return false;

@@ -1,5 +1,5 @@
-// forwarding_recorder.hpp: a recorder in front of another one. It forwards everything, and knows the time reached;
-// derived classes examine the data they need, or request a stop.
+// forwarding_recorder.hpp: a recorder in front of another one. It forwards everything, and stores the time
+// reached; derived classes examine the data they need, or request a stop.
 //
 //   run -> this -> next,   reached = t of the last event, row or step that `next` has taken
 #pragma once

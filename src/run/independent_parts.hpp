@@ -2,11 +2,12 @@
 //
 //   for s = s_1 < s_2 < ... t_end:   every part to s;   rows up to the time reached by all are merged and passed on
 //
-// A stage is t_end / 32 at most, and shorter if many events would wait. The ends of stages do not influence results.
-// The steps and events of a part need its own data only: n equal parts take n times as long as one, while together each
-// event of one part would need a pass over all of them. Data for decisions (scales, velocities below which rebounds
-// rest) are those of the whole model. If a part stops, the others end at the same time. Listeners, steering, and
-// records of both sides of instants need one motion of the whole model: parts then run together (parts_to_run).
+// A stage is t_end / 32 at most, and shorter if many events would wait. The ends of stages do not influence
+// results. The steps and events of a part need the data of this part only, so n equal parts take n times as
+// long as one. In a common run each event of one part would need a pass over all parts. Data for decisions
+// (scales, velocities below which rebounds come to rest) are those of the whole model. If a part stops, the
+// others end at the same time. Listeners, steering, and records of both sides of instants need one motion of
+// the whole model: parts then run together (parts_to_run).
 #pragma once
 
 #include "model/assembly/parts.hpp"
@@ -27,7 +28,7 @@ namespace signorini::run {
 double merge_results(const Model& whole, const std::vector<assembly::PartModel>& parts,
                      const std::vector<RunEnd>& endings, Report& report);
 
-/// Runs the parts of `whole`, in its units. spec.engine is not automatic.
+/// Runs the parts of `whole`, in the units of `whole`. spec.engine must not be automatic.
 [[nodiscard]] RunEnd run_independent_parts(const Model& whole, std::vector<assembly::PartModel> parts,
                                            const RunSpec& spec, const EngineRow& engine, Method method,
                                            Recorder& recorder);

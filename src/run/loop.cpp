@@ -87,7 +87,7 @@ bool Loop::refuse(const Refusal& refusal) {
   return stop(refusal.reason);
 }
 
-/// False: the record of the motion up to here breaks a law without an explanation.
+/// False if the record of the motion up to here violates a law without an explanation.
 bool Loop::laws_hold() { return record_.law_violated().empty() || stop(record_.law_violated()); }
 
 motion::Point Loop::decided_point(const decide::Decision& decision) const {
@@ -133,7 +133,8 @@ bool Loop::start() {
   return laws_hold();
 }
 
-/// Makes a step of the engine, and decides the instant at its end if there is one. False: the run ends.
+/// Makes a step of the engine, and decides the instant at its end if there is one. Returns false if the run
+/// ends.
 bool Loop::step() {
   State& s = state_;
   if (!stretch_.open) {
@@ -172,7 +173,7 @@ void Loop::finish_step(const engine::Step& step) {
   hooks_.listeners.reached(made, current_point());
 }
 
-/// Passes the state at t to the steering recorder. False: the run ends.
+/// Passes the state at t to the steering recorder. Returns false if the run ends.
 bool Loop::steer() {
   if (!recorder_.steers()) return true;
   changes_.set_time(state_.t);
@@ -211,8 +212,8 @@ decide::Instant Loop::instant_now(std::vector<decide::TriggeredGuard> fired) con
 /// Decides the states at t, applies them and notifies listeners.
 bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<contact::ContactStates> adopted) {
   State& s = state_;
-  // Computed under the forcing before. Without an open stretch the point is the decision's, and the engine may have
-  // none.
+  // The motion before is computed under the forcing before. Without an open stretch it is the decision's
+  // point, since the engine may have none.
   if (std::exchange(stretch_.open, false) && record_.needs_accelerations())
     engine_->dense_output().accelerate(s.t, s.point);
   decide::Instant now = instant_now(std::move(fired));

@@ -1,4 +1,4 @@
-// loop.hpp: the loop of signorini/simulate.hpp, in the units of its model, which may be a part of one.
+// loop.hpp: the time loop of signorini/simulate.hpp, in the units of its model, which may be a part.
 //
 //   Loop loop(model, spec, engine, method, recorder, hooks);
 //   loop.begin();   loop.advance_to(t_1);   loop.advance_to(t_2); ...   loop.end()

@@ -14,7 +14,7 @@ namespace {
 
 // Limits that give a file of about five megabytes if motions are slow.
 constexpr std::size_t max_in_all = 40000, max_of_one = 8000, min_of_one = 400;
-constexpr double min_intervals = 250.0;  // so that a contact at rest has rows, too
+constexpr double min_intervals = 250.0;  // per run, so that a contact at rest also has rows
 constexpr std::size_t max_drawn = 24;    // contacts with a picture of their own
 // A pixel of the widest picture is 1/1250 of the run: fewer than two rows per pixel for straight lines.
 constexpr double pieces_of_run = 2000.0;
@@ -43,8 +43,8 @@ void MotionRecord::step(double begin, double end, std::span<const double> turnin
   end_ = std::min(end, t_end_);  // an overflowing motion may end anywhere
   turn_ = 0;
   turns_.clear();
-  // Bodies with the same motion have the same turning points except for rounding: a thousand of them are one moment. A
-  // motion that overflows may have turning points that are not numbers.
+  // Bodies with the same motion have the same turning points except for rounding: a thousand of them become
+  // one row. A motion that overflows may have turning points that are not numbers.
   for (const double t : turning_points)
     if (std::isfinite(t) && (turns_.empty() || t - turns_.back() > rounding::time_resolution * std::abs(t)))
       turns_.push_back(t);

@@ -3,12 +3,13 @@
 //   rows of a contact: both sides of every instant that reaches it, turning points, and ends and interior points of
 //   steps as needed for a line; thinned (base/curves.hpp) by N, T, gap and ut
 //
-// The distance of rows follows from the bends of the last three, of contacts and curves together; without bends it
-// grows by a fifth of the time passed.
+// The spacing of rows follows from the bends of the last three rows, of contacts and curves together; without
+// bends it grows by a fifth of the time passed.
 //
-// So a short run is drawn completely, and a long one with the rows that a picture can show; contacts without a picture
-// of their own have fewer rows. An instant reaches the contacts that M, C, K or contacts couple with one that has
-// changed; a jump of the forcing reaches all. In a model of a thousand bodies no body has rows of another one's events.
+// So a short run is drawn completely, and a long one with the rows that a picture can show; contacts without
+// a picture of their own have fewer rows. An instant reaches the contacts that have changed, and those that
+// M, C, K or other contacts couple with them; a jump of the forcing reaches all. In a model of a thousand
+// uncoupled bodies no body has rows of another body's events.
 #pragma once
 
 #include <array>
@@ -32,13 +33,13 @@ class MotionRecord {
   /// A time inside a step.
   struct RowTime {
     double t = 0.0;
-    bool is_turning_point = false;  ///< a turning point
+    bool is_turning_point = false;
   };
-  /// Sets a step. Its moments are its turning points, ascending, and the times between that a line needs.
+  /// Sets a step. Its rows are at its turning points, which ascend, and at times between that a line needs.
   void step(double begin, double end, std::span<const double> turning_points);
-  /// The next moment, in ascending order; nullopt: there is no other.
+  /// The next row time of the step, in ascending order; nullopt after the last one.
   [[nodiscard]] std::optional<RowTime> next();
-  /// Sets the row spacing after the last row, at t, from that which curves need (`asked`) and that which contacts need.
+  /// Sets the row spacing after the last row, at t, from those that curves (`asked`) and contacts need.
   void adapt(double t, double asked);
   /// True if the motion is drawn.
   [[nodiscard]] bool enabled() const { return enabled_; }
@@ -50,7 +51,7 @@ class MotionRecord {
   /// Keeps the side before an instant; `after` adds it for the contacts that the instant reaches.
   void before(double t, const Auditor& auditor, const motion::Forcing& forcing,
               const contact::ContactStates& states, const motion::Point& point);
-  /// Adds the rows after an instant. changed: contacts; absent: all.
+  /// Adds the rows after an instant. changed: the contacts that have changed; absent: all.
   void after(double t, const Auditor& auditor, const motion::Forcing& forcing,
              const contact::ContactStates& states, const motion::Point& point,
              const std::optional<std::vector<std::size_t>>& changed);
@@ -86,7 +87,7 @@ class MotionRecord {
   double force_ = 0.0, length_ = 0.0;                                   // largest of all drawn contacts
   double at_ = 0.0, end_ = 0.0;                                         // of the step
   std::vector<double> turns_;
-  std::size_t turn_ = 0;  // index of the next one
+  std::size_t turn_ = 0;  // index of the next turning point
   std::vector<Track> tracks_;
   std::vector<bool> reached_;  // by part
 };

@@ -253,8 +253,8 @@ double OutputMonitor::turning(engine::DenseOutput& motion, const Part& step) {
   return std::min(omega, most);
 }
 
-/// True if the contribution of `ripple` to any output, at any position of its stretches, is rounding of the terms or of
-/// the sums over modes, or less than the allowed error of p.
+/// True if the contribution of `ripple` is negligible for every output, at every position of its
+/// segments. It is then rounding of the terms or of the sums over modes, or less than the allowed error of p.
 bool OutputMonitor::is_rounding(const engine::FastModeBound& ripple,
                                 const engine::FastModeBound& whole) const {
   for (const Watched& watched : watched_) {
@@ -273,7 +273,7 @@ bool OutputMonitor::is_rounding(const engine::FastModeBound& ripple,
   return true;
 }
 
-/// Updates extremes at the points of a part, along a stretch.
+/// Updates the extremes of an output, or of a segment, at the points of a part.
 void OutputMonitor::update_from_samples(const Watched& watched, const Part& part, std::size_t stride) {
   const std::span<const Chebyshev::Values> all = samples_of(watched);
   const Output& output = model_.outputs[watched.output];
@@ -302,7 +302,7 @@ void OutputMonitor::sample(engine::DenseOutput& motion, const Part& part, double
     const Watched& watched = watched_[k];
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
       samples_[i][point] = value_of(*forms_[i], t, side, point_, model_.layout, none_);
-      if (watched.stretch < 0 || point == 0)  // for the many points of stretches the first time is enough
+      if (watched.stretch < 0 || point == 0)  // for the many points of segments the first time is enough
         magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_, model_.layout));
     }
     const double value = samples_[watched.first][point];

@@ -6,15 +6,17 @@
 //             e = |r - the polynomial of every other point| at the new ones
 //             done if p, also between its points, +- 2 e stays within the known extremes;
 //             if e is below a fraction of |r|: p' = 0 gives the times, r its values there;
-//             otherwise more points, then both halves, until no motion turns by more than a radian in a part
+//             otherwise more points, then both halves, until no phase advances by over a radian in a part
 //
-// An output with stretches (an envelope, the extremes of a stress) is evaluated stretch by stretch, at the points of
-// each: output_resolution.hpp replaces p and p'. The fastest motion is that shown by outputs: modes whose oscillations are
-// rounding of every output are left out (output_resolution.hpp).
+// An output with segments (an envelope, the extremes of a stress) is evaluated segment by segment, at the
+// points of each; the peaks of output_resolution.hpp then replace those of p. The fastest motion is the
+// fastest one that outputs show: modes whose oscillations are rounding of every output are left out
+// (output_resolution.hpp).
 //
-// The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average acceleration in
-// `newmark`, which is in equilibrium at the ends of its steps only: extremes of forces and accelerations are taken
-// there. Losses never decrease, so their extremes are rows.
+// The motion is the engine's own: a closed form in `exact`, the polynomial of the step in `ida`, average
+// acceleration in `newmark`. The latter is in equilibrium at the ends of its steps only, so extremes of
+// forces and accelerations are taken there. Losses never decrease, so their extremes are at the first and the
+// last row.
 #pragma once
 
 #include <optional>
@@ -34,7 +36,7 @@ namespace signorini::run {
 //
 //   linear       r = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant
 //                    + sum_k c_k ( |N| - N_0 ) t.u
-//   stretches    r = largest |p(x)|, p through the linear outputs at their points (base/curves.hpp);
+//   segments     r = largest |p(x)|, p through the linear outputs at their points (base/curves.hpp);
 //                with the largest p, the smallest p, and their positions
 
 struct OutputReading {
@@ -45,10 +47,11 @@ struct OutputReading {
 /// Value of a linear output; losses: of all contacts.
 [[nodiscard]] double value_of(const Output& output, double t, motion::Side side, const motion::Point& point,
                               const ForceLayout& layout, const std::vector<double>& losses);
+/// Value of any output; for one with segments also its extremes and their positions.
 [[nodiscard]] OutputReading reading_of(const Output& output, double t, motion::Side side,
                                        const motion::Point& point, const ForceLayout& layout,
                                        const std::vector<double>& losses);
-/// Extremes along the i-th stretch, with their positions.
+/// Extremes along the i-th segment, with their positions.
 [[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i,
                                           const base::PolynomialInterpolation::Values& values);
 
@@ -58,8 +61,8 @@ struct OutputReading {
 
 class OutputMonitor {
  public:
-  /// Model and recorder must outlive the object, which is inactive if the model has no outputs. dense: forces and
-  /// accelerations are in equilibrium with the motion between the ends of a step, too.
+  /// Model and recorder must outlive the object, which is inactive if the model has no outputs. dense: forces
+  /// and accelerations are in equilibrium with the motion inside a step, not only at its ends.
   OutputMonitor(const Model& model, double t_end, Recorder& recorder, bool dense);
 
   /// Updates the frequencies after a change of the model's loads.
@@ -78,7 +81,7 @@ class OutputMonitor {
   [[nodiscard]] const std::optional<std::string>& coarse_warning() const { return coarse_warning_; }
 
  private:
-  /// A function of time with sample points: a linear output, or a stretch of another output.
+  /// A function of time with sample points: a linear output, or a segment of another output.
   struct Watched {
     std::size_t output = 0;
     int stretch = -1;                  ///< -1: a linear output

@@ -1,7 +1,8 @@
 // output_resolution.hpp: frequency of the motion in a step that outputs show.
 //
-//   omega   the lowest rate, to a factor of 2, above which all motion together is rounding of every output:
-//             reach_u U + reach_v V + reach_a A + sum |N_k| n_k + |T_k| t_k  <=  threshold        (engine/dense_output.hpp)
+//   omega   the lowest rate, to a factor of 2, above which all motion together is rounding of every output
+//           (engine/dense_output.hpp):
+//             reach_u U + reach_v V + reach_a A + sum |N_k| n_k + |T_k| t_k  <=  threshold
 //
 // A stiff structure at rest has modes whose oscillations are the rounding of its displacements. Their frequencies are
 // thousands of times higher than those of the motion, and their peaks have no meaning. Loads and other histories count
@@ -18,10 +19,11 @@
 
 namespace signorini::run {
 
-/// Norms of the parts of a linear output.
+/// Norms of the parts of a linear output on u, v and a: reach_u, reach_v, reach_a.
 struct FormNorm {
   double u = 0.0, v = 0.0, a = 0.0;
 };
+/// Norms of a linear output, from the engine's modes.
 [[nodiscard]] FormNorm form_norm_of(const engine::FastModes& modes, const Output& linear);
 /// Upper bound of the contribution of a ripple to a linear output.
 [[nodiscard]] double fast_mode_contribution(const engine::FastModeBound& ripple, const FormNorm& reach,
@@ -35,9 +37,11 @@ class FastModeCutoff {
 
   /// Updates the frequencies after a change of the model's loads.
   void loads_changed();
-  /// Rate of structure and loads, in a step whose motion turns by so many radians (StepFacts::radians).
+  /// Rate of structure and loads in a step whose motion advances by this phase angle, in rad
+  /// (StepFacts::phase_angle).
   [[nodiscard]] double max_rate(double radians, double begin, double end);
-  /// Rate that outputs show, in the step of the last of_all(): at most `all`, and at least that of loads.
+  /// Rate of the motion that outputs show in the step of the last max_rate(): at least that of loads, at most
+  /// `all`.
   [[nodiscard]] double output_rate(
       const engine::FastModes& modes, double all,
       const std::function<bool(const engine::FastModeBound&)>& is_rounding) const;
@@ -52,9 +56,9 @@ class FastModeCutoff {
   double load_rate_ = 0.0;       // fastest load in the step, at least 1/t_end
 };
 
-// Peaks in time of the largest value of p(x, t), a polynomial along a stretch at each time.
+// Peaks in time of the largest value of p(x, t): at each time a polynomial in x along a segment of an output.
 //
-//   f_i(t)   the values at the points of the stretch, each at the Chebyshev points of the part (curve_record.hpp)
+//   f_i(t)   values at the points of the segment, each at the Chebyshev points of the part (curve_record.hpp)
 //   bound    of the ends f_0, f_m, plus twice the bound of the distances of the others from the line between them
 //   peak     x*(t) is the position of the largest p(., t); p_t(x*(t), t) = 0 with a change from + to -: the largest of
 //            several smooth branches has kinks, but none of them is a peak
@@ -65,12 +69,13 @@ struct ValueBounds {
   double least = 0.0, greatest = 0.0;
 };
 
-/// Bounds of one function at its points.
+/// Least and greatest value of one function at its points.
 [[nodiscard]] ValueBounds at_points(const Chebyshev::Values& values, std::size_t stride);
-/// Bounds between the points, too: if p rises at one and falls at the next, it stays below both tangents.
+/// Bounds that also hold between the points: if p rises at one point and decreases at the next, it is below
+/// both tangents.
 [[nodiscard]] ValueBounds between_points(const Chebyshev::Values& values, std::size_t stride);
 
-/// Bounds of p on the stretch; `between`: including the values between the times.
+/// Bounds of p on the segment. `between`: the bounds also hold between the Chebyshev points in time.
 [[nodiscard]] ValueBounds bounds_along(std::span<const Chebyshev::Values> f, std::size_t stride,
                                        bool between);
 
@@ -79,7 +84,7 @@ struct ValueBounds {
 [[nodiscard]] std::vector<double> peaks_along(std::span<const Chebyshev::Values> f, std::size_t stride,
                                               double sign, double known);
 
-/// Values along the stretch at time x.
+/// Values at the points of the segment at time x.
 [[nodiscard]] base::PolynomialInterpolation::Values values_along(std::span<const Chebyshev::Values> f,
                                                                  std::size_t stride, double x);
 

@@ -1,7 +1,7 @@
-// part_rows.hpp: merges rows of parts that run separately into rows of the whole model.
+// part_rows.hpp: merges rows and energies of parts that run separately into those of the whole model.
 //
-//   events:  ascending in t; at the same time, that of a load first, then in the order of the parts
-//   rows:    at a time of the grid u, v and contacts of all parts, energies summed (part_rows.hpp)
+//   events:  ascending in t; at equal times jumps of loads come first, then events in the order of the parts
+//   rows:    at each time of the grid u, v and contacts of all parts; energies are summed
 //
 //   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.forward(t); ...
 //
@@ -28,9 +28,9 @@ namespace signorini::run {
 
 // Data that a run of a part has in common with the runs of the other parts.
 //
-//   rows per contact, points per curve:   as if all parts were one
+//   rows per contact, points per curve:   as if all parts ran together
 
-/// Share of a part; the default is the whole model.
+/// Share of a part in the data of the whole model; the default is the whole model.
 struct PartShare {
   std::size_t parts = 1;
   std::size_t contacts = 0, columns = 0;  ///< counts in the whole model; columns: drawn ones
@@ -51,8 +51,9 @@ struct PartShare {
 // peak of a sum need not be a peak of a term. Sums restart with every piece, so that rounding of steep slopes does not
 // accumulate.
 
-/// All energies, then the balance.
+/// All energies in the order of energy_columns, then the balance.
 using EnergyValues = std::array<double, energy_columns.size() + 1>;
+/// The energies as an array.
 [[nodiscard]] EnergyValues values_of(const Energy& energy);
 
 /// Energies at one time, in any units; times of one part ascend.
@@ -132,12 +133,13 @@ class PartRows {
     recorders_.push_back(&recorder);
     energy_lines_.push_back(&recorder.energy_rows);
   }
-  /// Passes on rows up to t, and events before it; with `last` also events at t. Returns the number of these events,
-  /// including those left out as the same jump of a load.
+  /// Passes on rows up to t and events before t, with `last` also events at t. Returns the number of these
+  /// events, including those left out because another part has recorded the same jump of a load.
   std::size_t forward(double t, bool last = false);
   /// Ends the merge, after the last event.
   void finish() { order_.finish(); }
-  /// Passes on the data of pictures for a run to t, once, from these recorders in the order of the parts.
+  /// Passes on the picture data of a run that ended at t. Called once; `from`: recorders in the order of the
+  /// parts.
   void forward_motion(double t, const std::vector<PartRecorder*>& from);
 
  private:

@@ -32,11 +32,12 @@ struct CheckedEngine {
   bool laws_at_step_ends = true;  ///< laws hold at ends of steps
   bool sums_over_modes = false;
 };
-/// flow: "modal" or not. low_flights: the engine computes flights lower than the rounding of their gaps.
+/// Limits and abilities of run.engine. flow: "modal" or another name; low_flights: the engine computes
+/// flights lower than the rounding of their gaps.
 [[nodiscard]] CheckedEngine checked_engine(const RunSpec& run, const engine::Tolerance& tolerance,
                                            const std::string& flow, bool low_flights);
 
-/// Event row of a contact, without guard_rate.
+/// The event as recorded for the law checker, without guard_rate.
 [[nodiscard]] law_check::RecordedEvent recorded_event(const Event& event);
 
 /// Final states and forces of the run that is continued (Model::continues); guessed: states for user-defined laws.
@@ -48,7 +49,8 @@ class CheckedMotion {
  public:
   CheckedMotion(const Model& model, const CheckedEngine& engine);
 
-  /// Called at instants only: values between two instants are hardly larger, or of the scene's own scale.
+  /// Updates the largest displacements and velocities. Called at instants only: values between two instants
+  /// are hardly larger, or of the scene's own scale.
   void update_maxima(const law_check::LawChecker& witness, const Vector& u, const Vector& v);
   /// Value of CheckedSide::acceleration_terms.
   [[nodiscard]] std::array<double, 2> acceleration_terms(const law_check::LawChecker& witness,
@@ -56,8 +58,8 @@ class CheckedMotion {
   /// dependence: StepFacts::eigenvector_condition of the motion up to t.
   [[nodiscard]] law_check::CheckedSide side(const motion::Forcing& forcing, double t,
                                             double dependence) const;
-  /// The same for an existing side, whose memory is reused. It must come from this motion, since constant `driven`
-  /// entries are kept, or be without `driven`.
+  /// Same as side() for an existing side, whose memory is reused. Its `driven` must be empty or come from
+  /// this object, since constant entries are kept.
   void fill(const motion::Forcing& forcing, double t, double dependence, law_check::CheckedSide& side) const;
   /// Ends an instant, with the forcing after it.
   void finish_instant(const motion::Forcing& forcing, double t);
@@ -99,7 +101,7 @@ class RunLawChecker {
     const std::vector<Event>* events = nullptr;
     bool start = false, breakpoint = false, load_jumps = false;
     bool adopted = false;                ///< the engine found states, and no time
-    double eigenvector_condition = 1.0;  ///< Stepper::dependence()
+    double eigenvector_condition = 1.0;  ///< StepFacts::eigenvector_condition
   };
   void instant(const Instant& now);
   /// Checks a point inside a stretch.

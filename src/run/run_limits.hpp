@@ -1,4 +1,4 @@
-// run_limits.hpp: detects many events without progress in time; many events alone are no error.
+// run_limits.hpp: detects events without progress in time, and large motions. Many events alone are no error.
 //
 //   at one instant   at most max_events_at_once, an instant being ten resolutions of the clock
 //   altogether       10 000 events take at least 1e-5 of the run
@@ -19,8 +19,8 @@ class StallDetector {
   StallDetector(double t_end, int most_at_once, double unit = 1.0)
       : t_end_(t_end), max_at_once_(most_at_once), unit_(unit) {}
 
-  /// Counts an instant; times do not decrease. Returns the reason for ending the run; nullopt: it continues. contacts:
-  /// those whose guards were triggered, or whose states an engine has changed.
+  /// Counts an instant; times must not decrease. Returns the reason for ending the run; nullopt if it
+  /// continues. contacts: those whose guards were triggered, or whose states an engine has changed.
   [[nodiscard]] std::optional<std::string> count(double t, double resolution,
                                                  const std::vector<std::size_t>& contacts = {});
   /// Contacts of the instants that exceeded a limit, ascending.

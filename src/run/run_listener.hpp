@@ -4,7 +4,8 @@
 //   { step(dense output) reached(its end)   before(an instant) instant(decision before, after) } ...
 //   end
 //
-// All values are in the units of the computed model. Arguments are valid during the call. A listener changes nothing.
+// All values are in the units of the computed model. Arguments are valid during the call. A listener does not
+// influence the run.
 // The two objects that influence a run have interfaces of their own: EventShift here, and FaultInjector
 // (run/fault_injector.hpp); loads are steered by a Recorder (signorini/result.hpp).
 #pragma once
@@ -75,7 +76,7 @@ class RunListener {
   /// Receives the motion just before an instant whose states are not decided yet.
   virtual void before(const RunPoint& /*point*/) {}
   virtual void instant(const RunInstant& /*instant*/) {}
-  /// Receives the end of the run; near hits and the graze of the engine are in the units of the scene.
+  /// Receives the end of the run; the near hits and the graze of `engine` are in the units of the scene.
   virtual void end(const RunPoint& /*last*/, const engine::StepperReport& /*engine*/) {}
 };
 
@@ -109,10 +110,12 @@ class RunListeners final : public RunListener {
   std::vector<RunListener*> list_;
 };
 
-/// Shift of a located event: a companion run represents the uncertainty that rounding hides in its time.
+/// Shifts located events, so that a companion run represents the uncertainty that rounding hides in their
+/// times.
 class EventShift {
  public:
   virtual ~EventShift() = default;
+  /// Time by which the event at the end of the step is shifted.
   virtual double shift(const engine::Step& step) = 0;
 };
 

@@ -119,7 +119,7 @@ void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
   residual_due_ = true;
 }
 
-/// Checks each contact at its own turning points, for a motion that is not drawn.
+/// Audits each contact at its own turning points, for a motion that is not drawn.
 void RunRecord::turns(const RunStep& step) {
   for (const events::TurningPointDetector::TurningPoint& turn : *step.facts.contact_turning_points) {
     if (!std::isfinite(turn.time)) continue;

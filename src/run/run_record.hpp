@@ -1,8 +1,8 @@
 // run_record.hpp: listener that records rows, events, extremes, pictures, audit and law-check data of a run.
 //
-//   a step     works of the whole step, so that rows change no digit of the results; rows inside; extremes of outputs;
-//              times for pictures and peaks; its end
-//   an instant outputs before it, audit, event log, law check; then a row requested at its time shows the side after it
+//   a step       works of the whole step, so that rows change no digit of the results; rows inside the step;
+//                extremes of outputs; times for pictures and peaks; the end of the step
+//   an instant   outputs before it, audit, event log, law check; a row at its time shows the side after it
 //
 // This is the only list of recorders and their order: each point inside a step is evaluated once for all of them.
 #pragma once
@@ -42,7 +42,7 @@ class RunRecord final : public RunListener {
 
   /// Records a point at which no states could be decided.
   void refused(const RunPoint& point) { last_energy_ = auditor_.energy(point.t, point.states, point.point); }
-  /// Updates outputs after a change of the model's loads.
+  /// Updates the frequencies of outputs after a change of the model's loads.
   void loads_changed() { response_.loads_changed(); }
   /// Sample for a steering recorder, valid until the next row.
   [[nodiscard]] Sample sample(const RunPoint& point);

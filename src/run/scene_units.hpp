@@ -1,6 +1,6 @@
 // scene_units.hpp: converts results from the units of the computation to those of the scene.
 //
-//   value in the scene's units = value * of            of: Model::unit of the model that was computed
+//   value in the scene's units = value * factor        factors: Model::unit of the computed model
 //
 // Factors are powers of two: the conversion is exact.
 #pragma once
@@ -11,17 +11,18 @@
 
 namespace signorini::run {
 
-/// Converts all but guard_rate, whose unit only the guard knows (event_log.hpp).
+/// Converts all values except guard_rate, which is in the scene's units already (event_log.hpp).
 [[nodiscard]] Event to_scene_units(Event event, const Factors& of);
 /// Converts a sample, without u and v.
 [[nodiscard]] Sample to_scene_units(Sample sample, const Factors& of);
+/// Converts a report, except the extremes of outputs.
 [[nodiscard]] Report to_scene_units(Report report, const Factors& of);
 /// Converts a report, with the extremes of the outputs of the computed model.
 [[nodiscard]] Report to_scene_units(Report report, const Model& computed);
 /// Converts displacements, velocities (order 1) or accelerations (order 2) of these degrees of freedom.
 [[nodiscard]] Vector to_scene_units(Vector motion, const std::vector<Dof>& dofs, int order,
                                     const Factors& of);
-/// dofs: of the computed model; amplitudes for a reduced one.
+/// Converts both sides of an instant. dofs: of the computed model; for a reduced model they are amplitudes.
 [[nodiscard]] InstantRow to_scene_units(InstantRow row, const std::vector<Dof>& dofs, const Factors& of);
 
 /// Forwards all data in the scene's units.

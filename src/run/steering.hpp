@@ -1,4 +1,4 @@
-// steering.hpp: changes of loads during a run.
+// steering.hpp: changes of loads during a run, and breakpoints of the forcing.
 //
 //   f(t) <- f before now, the new history from now on;   breakpoints are updated
 //
@@ -42,9 +42,10 @@ class LoadChanges final : public Steering {
 
 // Times at which the forcing of a model is not smooth; integrators stop there.
 
-/// Breakpoints of all forcing in (0, t_end), ascending; `jump` if a value jumps. Breakpoints closer than the resolution
-/// of the clock are merged into one at the last of their times, where every history is on its next piece. If one
-/// history has several of them, `jump` is set if its values before and after differ.
+/// Breakpoints of all forcing in (0, t_end), ascending; `jump` is set if a value jumps. Breakpoints closer
+/// than the resolution of the clock are merged into one at the last of their times, where every history is on
+/// its next piece. If one history has several breakpoints there, `jump` is set if its values before and after
+/// differ.
 [[nodiscard]] std::vector<Breakpoint> breakpoints(const Model& model, double t_end);
 
 /// Breakpoints of a run, in order.
@@ -54,10 +55,11 @@ class BreakpointQueue {
 
   /// Time up to which the forcing is smooth: the next breakpoint, or t_end.
   [[nodiscard]] double next() const { return next_ < list_.size() ? list_[next_].time : t_end_; }
-  /// Moves t to the last breakpoint that is within the resolution of t, if there is one.
+  /// Flags: a breakpoint was passed; a value jumps there.
   struct Passed {
     bool any = false, jump = false;
   };
+  /// Moves t to the last breakpoint that is within the resolution of t, if there is one.
   Passed pass(double& t, double resolution);
   /// Updates the breakpoints after t for changed loads.
   void loads_changed(const Model& model, double t);

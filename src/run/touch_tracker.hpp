@@ -1,4 +1,6 @@
-// touch_tracker.hpp: last time at which each contact had exactly g = 0; rounding has accumulated in its gap since then.
+// touch_tracker.hpp: last touches of contacts, times since when guards are zero, and landings.
+//
+// At its last touch a contact has exactly g = 0; from then on rounding accumulates in its gap.
 //
 //   touched_k = the last instant at which k was closed, before or after, or took an impulse; 0: never
 #pragma once
@@ -12,6 +14,7 @@
 
 namespace signorini::run {
 
+/// Stores the last touch of each contact.
 class TouchTracker {
  public:
   explicit TouchTracker(std::size_t contacts) : times_(contacts, 0.0) {}
@@ -37,7 +40,7 @@ class TouchTracker {
 
 class ZeroTracker {
  public:
-  /// Updates the times after a decision at t. changed: the forcing has another formula from here on.
+  /// Updates the times after a decision at t. changed: the forcing has another formula from t on.
   void update(double t, const decide::Decision& decision, bool changed) {
     layout_ = decision.layout;
     since_.resize(decision.guards.size(), none);
@@ -52,7 +55,8 @@ class ZeroTracker {
     for (std::size_t slot = 0; slot < kinds_.size(); ++slot) kinds_[slot] = decision.guards[slot].kind;
   }
 
-  /// Time for which the guards triggered at t had been zero, one entry per contact; empty: none had.
+  /// Durations for which the guards triggered at t had been zero, one entry per contact; empty if no guard
+  /// had.
   [[nodiscard]] std::vector<double> zero_durations(double t,
                                                    const std::vector<decide::TriggeredGuard>& fired) const {
     std::vector<double> result;

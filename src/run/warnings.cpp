@@ -16,11 +16,13 @@
 namespace signorini::run {
 namespace {
 
-// rad of a load's oscillation in a step: the impulse of a half wave is off by the square divided by 12, a twelfth.
+// Limit of a load's oscillation in a step, in rad: the impulse of a half wave is off by its square / 12, a
+// twelfth.
 constexpr double max_turned = 1.0;
-constexpr double much_energy = 1e-3;       // fraction of the exchanged energy: a larger error is reported
-constexpr double least_energy = 1e-9;      // of the scene's scales, or of the stored energy: at rest only
-                                           // rounding is exchanged
+constexpr double much_energy = 1e-3;  // fraction of the exchanged energy: a larger error is reported
+// Fraction of the scene's scales, or of the stored energy, below which no energy is exchanged: at rest there
+// is only rounding.
+constexpr double least_energy = 1e-9;
 constexpr int max_warnings_of_a_kind = 5;  // limit for the warnings of one kind in a run
 
 }  // namespace

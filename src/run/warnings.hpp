@@ -12,12 +12,13 @@ namespace signorini::run {
 [[nodiscard]] std::vector<std::string> shear_limit_warnings(const Model& model,
                                                             const decide::Decision& start);
 
-/// Warnings about loads that oscillate by more than a radian in a step of given length. Short pulses have steps of
-/// their own.
+/// Warnings about loads that oscillate by more than a radian in a step of given length. Short pulses cause
+/// none: they have steps of their own.
 [[nodiscard]] std::vector<std::string> fast_load_warnings(const Model& model, const RunSpec& run);
 
-/// Warnings about the decisions of a run, some of each kind: impacts that gain energy, contacts that massless parts
-/// leave instantaneously, contacts that hold one motion together, rest at a limit of friction within rounding.
+/// Warnings about the decisions of a run, a few of each kind: impacts that gain energy, contacts that
+/// massless parts leave instantaneously, several contacts that hold one motion, rest at a friction limit
+/// within rounding.
 class DecisionWarnings {
  public:
   /// The model must outlive this.

@@ -15,10 +15,10 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr double shortest_step = 1e-7;  // in the norm
+constexpr double shortest_step = 1e-7;  // limit of ds, in the norm
 constexpr int quick = 4;                // number of corrections up to which the next step may be longer
-constexpr double longest_way = 10.0;    // relative to a step: longer ones change branch. Chosen.
-constexpr double shifted_to = 1e-3;     // residual over amplitude: effect of noise on a shift. Chosen value.
+constexpr double longest_way = 10.0;    // distance / ds of a step to another branch. Chosen value.
+constexpr double shifted_to = 1e-3;     // residual / amplitude: effect of noise on a shift. Chosen value.
 constexpr double restart_step = 2e-3;   // relative to the range
 // For amplitudes from the rows of a period, and multipliers between two points: difference up to which two orbits are
 // one. Chosen value.
@@ -26,8 +26,8 @@ constexpr double same_amplitude = 0.05;
 
 }  // namespace
 
-/// Finds an orbit a little further on: by damped steps of Newton's method from here, which also find unstable orbits
-/// and other sequences of events; otherwise after a transient.
+/// Finds an orbit at a slightly further value of the key. Damped steps of Newton's method also find unstable
+/// orbits and other sequences of events; if they fail, a transient is computed.
 bool BranchContinuation::restart(CorrectedPoint& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
   if (next.s < 0.0 || next.s > 1.0) return false;
@@ -52,7 +52,7 @@ bool BranchContinuation::restart(CorrectedPoint& here, double sign) {
   return transient.done() && close(orbit_state(transient.end));
 }
 
-/// Moves to the middle of the family that contains the orbit.
+/// Moves `here` to the middle of the family that contains the orbit.
 bool BranchContinuation::move_to_representative(CorrectedPoint& here, const Vector& t) {
   std::optional<CorrectedPoint> middle = representative_member(map_, newton_, here, t);
   if (!middle || sequence_of(middle->pass) != sequence_of(here.pass)) return false;
@@ -117,7 +117,7 @@ Vector BranchContinuation::direction(const std::optional<SecantPoint>& place, Co
   return (turning_ ? way : tangent) + drift;
 }
 
-/// Starts with its alphabetically least rotation, because the section may move.
+/// Text of the sequence of events, rotated to the alphabetically least start, because the section may move.
 std::string BranchContinuation::sequence_of(const OrbitPass& pass) const {
   std::vector<std::string> list;
   for (const Event& e : pass.events)
@@ -185,7 +185,7 @@ bool BranchContinuation::add(const CorrectedPoint& here, const std::string& spec
   return !branch_.interrupted;
 }
 
-/// Adds the first point. False: the branch ends there.
+/// Adds the first point. Returns false if the branch ends there.
 bool BranchContinuation::begin(CorrectedPoint& here) {
   here.state = map_.start();
   here.pass = map_.pass(here.state);
@@ -257,8 +257,8 @@ bool BranchContinuation::has_passed(const CorrectedPoint& at) {
   return false;
 }
 
-/// A step to another sequence may have switched to the second of two merging orbits; that one is kept. False: the walk
-/// has turned back, and repeats its points.
+/// A step to another sequence may have switched to the second of two merging orbits; found_beyond_ keeps this
+/// orbit. Returns false if the continuation has reversed its direction and repeats earlier points.
 bool BranchContinuation::may_continue(const CorrectedPoint& here, const CorrectedPoint& next, double along) {
   if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
   if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
@@ -268,9 +268,10 @@ bool BranchContinuation::may_continue(const CorrectedPoint& here, const Correcte
   return false;
 }
 
-/// Continues where the walk ends at `here`: next becomes a point beyond or, if the branch has been there, the last one
-/// found beyond, from which t then leads in the opposite direction: where two orbits meet and vanish, the second one is
-/// on this side only. False: none.
+/// Searches for a next point if no step from `here` is short enough: an orbit beyond `here`. If the branch
+/// has passed this orbit already, next becomes the last orbit found beyond, and t leads back from there:
+/// where two orbits meet and vanish, the second one exists on this side only. Returns false if no orbit is
+/// found.
 bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, CorrectedPoint& next, Vector& t) {
   const double sign = t[t.size() - 1] < 0.0 ? -1.0 : 1.0;
   const std::string why = next.reason;
@@ -298,7 +299,7 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
   return false;
 }
 
-/// end_ stays empty if it ends at the caller's request.
+/// Follows the branch point by point; end_ stays empty if the caller ends it.
 void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
   double ds = 0.25 * options_.step;
   while (points_ < options_.most_points) {
@@ -339,7 +340,7 @@ void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
     here = std::move(next);
     t = before;
     newton_.measure(here.pass, &t);
-    here.family = {};  // it was in the norm of the previous point
+    here.family = {};  // its directions were in the norm of the previous point
     t = direction(place, here, t);
     if (move_to_representative(here, t)) t = direction(place, here, t);
     keep_mark(here, t);
@@ -360,8 +361,8 @@ void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
   }
 }
 
-/// Describes an end of the range. A branch that returns to its beginning behind a gap is one of two pieces, and not
-/// complete.
+/// Sets end_ at an end of the range. A branch that returns to its beginning after a gap is one of two pieces,
+/// and not complete.
 void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
   end_ = fmt::format("{} {} = {:.9g}", along > 0.0 ? "reached" : "returned to", options_.path, value(here));
   if (along > 0.0 || number_ != 1) return;

@@ -3,13 +3,13 @@
 //   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
 //   (special_points.hpp)
 //
-// In a family of orbits the walk follows the middle one (branch_newton.hpp).
+// In a family of orbits the continuation follows the middle one (branch_newton.hpp).
 //
-// If no step is short enough, for instance where a guard grazes, a transient searches for the orbit a little further
-// on. Where another branch begins, the walk stores a junction:
+// If no step is short enough, for instance where a guard grazes, a transient searches for the orbit at a
+// slightly further value of the key. Where another branch begins, the continuation stores a junction:
 //
-//   flip            (Phi + I) v = 0: the orbit of twice the period leaves along v
-//   branch point    two directions t, w with dG/dy t = dG/dy w = 0: the other branch leaves along w and -w
+//   flip            (Phi + I) v = 0: the branch of orbits with twice the period begins along v
+//   branch point    two directions t, w with dG/dy t = dG/dy w = 0: the other branch begins along w and -w
 #pragma once
 
 #include "orbit/branch_newton.hpp"
@@ -20,7 +20,7 @@ namespace signorini::orbit {
 struct Junction {
   BranchMap map;      ///< map of the other branch
   CorrectedPoint at;  ///< point of the branch that it leaves
-  Vector away;        ///< coordinates at the section, dT/T if T is unknown, s
+  Vector away;        ///< direction of the other branch: coordinates at the section, dT/T if T is unknown, s
   std::string kind;
   int from = 1;        ///< number of the branch that it leaves
   int generation = 1;  ///< number of switches that led there
@@ -47,7 +47,7 @@ class BranchContinuation {
 
   [[nodiscard]] const std::string& end() const { return end_; }
   [[nodiscard]] bool complete() const { return complete_; }
-  /// Mark of the last point.
+  /// Checkpoint of the last point, from which the branch can be resumed.
   [[nodiscard]] std::optional<BranchCheckpoint> mark();
   [[nodiscard]] std::vector<Junction>& junctions() { return junctions_; }
 
@@ -105,7 +105,7 @@ class BranchContinuation {
   [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
   [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
   [[nodiscard]] double value(const CorrectedPoint& at) const { return map_.parameter(at.state.s); }
-  /// Runs a walk; a refused scene ends it.
+  /// Runs the continuation; a refused scene ends it.
   void guarded(const std::function<void()>& walk);
 
   const BranchOptions& options_;
@@ -117,29 +117,31 @@ class BranchContinuation {
   std::vector<Junction> junctions_;
   std::string end_;
   bool complete_ = false;
-  /// The last orbit found behind a gap or a change of the sequence, and the place the walk came from.
+  /// The last orbit found beyond a gap or a change of the sequence. section: of the map there; sign: of the
+  /// direction along the key in which it was found.
   struct FoundBeyond {
     CorrectedPoint at;
     double section, sign;
   };
   std::optional<FoundBeyond> found_beyond_;
-  // Limit of successive steps that ended at another branch, as beside a graze where an unbounded multiplier leaves
-  // Newton's method no room; then the branch is searched further on. Chosen value.
+  // Limit of successive steps that ended at another branch, as near a graze, where an unbounded multiplier
+  // prevents convergence of Newton's method. Beyond the limit the branch is searched at further values.
+  // Chosen value.
   static constexpr int max_jumps = 4;
   int jumps_ = 0;
-  bool crossed_gap_ = false;  // it was found again at least once
-  bool turned_back_ = false;  // it walks from found_beyond_ in the opposite direction
+  bool crossed_gap_ = false;  // the branch was found again beyond a gap at least once
+  bool turned_back_ = false;  // the continuation has restarted from found_beyond_ in the opposite direction
   std::optional<BranchState> last_;
   double last_section_ = 0.0;
   std::size_t last_points_ = 0;
   bool towards_to_ = true;
   int points_ = 0;
   bool located_ = false;  // the last point is a located one
-  bool folds_ = false;    // the parameter turns between the last two points, without a located fold
-  bool turning_ = false;  // the tangent differs from the way of the branch (direction())
+  bool folds_ = false;    // the parameter reverses between the last two points, without a located fold
+  bool turning_ = false;  // the tangent differs from the branch's last step (direction())
   double ahead_ =
       0.0;  // t_s of the tangent at the last point, in the section of the step that led there; 0: unknown
-  bool doubled_ = false;  // it began at a flip
+  bool doubled_ = false;  // the branch began at a flip
   double half_section_ = 0.0;
   Vector half_;  // for a doubled branch: z(T/2) - z at the last point
 };

@@ -15,12 +15,12 @@
 namespace signorini::orbit {
 namespace {
 
-// Step of finite differences relative to the range: the error is the second derivative times the step, plus noise over
-// the step, which the residual of an orbit shows; its square root balances both. Chosen bounds for `exact`, and the
-// step for `ida`.
+// Step of finite differences relative to the range. The error is the second derivative times the step, plus
+// noise/step. The residual of an orbit shows the noise, and its square root balances both terms. Chosen:
+// bounds of the step for `exact`, and the step for `ida`.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-constexpr std::size_t max_kept = 4;  // maps: for a point, its difference, and the next point
-constexpr double max_periods = restart_periods + 4.0;  // transient, and the orbit itself
+constexpr std::size_t max_kept = 4;  // number of maps: for a point, its finite difference, and the next point
+constexpr double max_periods = restart_periods + 4.0;  // a transient, and passes through the orbit
 constexpr double same_time = 1e-9;  // relative to a period: rounding of times written as text
 
 }  // namespace

@@ -1,6 +1,7 @@
 // branch_map.hpp: the period map of a scene for any value of one of its keys.
 //
-//   y = (x, dT, s)       x: directions at the section; dT for self-excited motions; s: (p - from)/(to - from)
+//   y = (x, dT, s)       x: coordinates at the section; dT: for self-excited motions
+//                        s = (p - from)/(to - from)
 //   G(y) = B^T (z(T; z, s) - z),    dG/ds by a finite difference of the map, dG/dx from Phi
 //   conservative motions have one more row: (E(x, s) - E*(s))/E1 = 0
 //     over the energy:            E*(s) = from + s (to - from), E1 = to - from, and dG/ds = 0
@@ -16,7 +17,7 @@
 
 namespace signorini::orbit {
 
-/// Length of a transient that searches for the orbit behind a gap of the branch.
+/// Length, in periods, of a transient that searches for the orbit beyond a gap of the branch.
 inline constexpr int restart_periods = 40;
 
 /// An orbit, or an initial guess of one.
@@ -48,7 +49,8 @@ class BranchMap {
   }
   [[nodiscard]] double range() const { return options_.to - options_.from; }
   [[nodiscard]] double parameter(double s) const;
-  /// The loads' period at s, times `times`; machine units.
+  /// Period of an orbit at s, in machine units: a multiple of the loads' period, or for self-excited motions
+  /// that of the first orbit.
   [[nodiscard]] double period(double s) const;
   [[nodiscard]] const BranchState& start() const { return start_; }
   [[nodiscard]] const Model& model() const { return first_; }
@@ -58,11 +60,12 @@ class BranchMap {
 
   /// The map at s; maps for the last values of s are kept.
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
-  /// The state at s that satisfies the rigid constraints of these states: n . u = -g0 and n . v = 0 for closed contacts, t
-  /// . v equal to that of the surface for sticking ones. A key may change all three.
+  /// The state at s, corrected to satisfy the rigid constraints of these contact states: n . u = -g0 and n .
+  /// v = 0 for closed contacts, t . v = s' for sticking ones. A key may change all three.
   [[nodiscard]] OrbitState projected(OrbitState state, const contact::ContactStates& states, double s) const;
+  /// One pass through the period from this state.
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
-  /// A pass with margins only, from many rows.
+  /// A pass for its margins, with more rows and without tangents.
   [[nodiscard]] OrbitPass margins(const BranchState& state) const;
   /// dG/ds by a one-sided difference, in coordinates at the section, not yet times B^T, and the row of the energy if
   /// there is one. Its accuracy is sufficient for a matrix of Newton's method and a direction.

@@ -15,21 +15,23 @@ namespace {
 constexpr int max_corrections = 10;
 constexpr double longest_correction = 0.1;  // limit in the norm; steps are shorter. Chosen value.
 constexpr double slow = 0.02;  // reduction of the residual; beyond it dG/ds is recomputed at this point
-constexpr double corrected_at_last = 1e-9;  // residual over amplitude, as in shooting.cpp
+constexpr double corrected_at_last = 1e-9;  // residual / amplitude, as in shooting.cpp
 // The residual cannot decrease below a few times the noise of the map. Chosen value.
 constexpr double of_noise = 4.0;
-constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is near. Chosen value.
+constexpr double worth_damping = 1e-3;  // residual / amplitude: an orbit is near. Chosen value.
 constexpr double least_left = 1e-6;     // remainder of a direction outside all families. Chosen value.
 constexpr double held_from = 0.7;       // |t_s| from which corrections hold the parameter. Chosen value.
 constexpr double least_size = 1e-3;     // lower limit for a coordinate in the norm; chosen value
-// Same values as in shooting.cpp; the finer one is used if a correction left most of the residual.
+// Limits of zero singular values, as in shooting.cpp; the finer one is used if a correction left most of the
+// residual.
 constexpr double singular = 1e-9, finer_singular = 1e-12;
 constexpr double amplitudes_a_range =
     5.0;  // weight of a change of the state relative to that of the parameter in its range
 // Relative to the largest amplitude of the branch: below it steps no longer shrink with the amplitude, so that it can
 // reach zero. Chosen value.
 constexpr double vanishing = 0.05;
-// Remainder of dz/ds beside the motion: above the noise of dG/ds. Chosen value; the caller verifies the result.
+// Limit for the part of dz/ds that is not along the motion: above the noise of dG/ds. Chosen value; the
+// caller verifies the result.
 constexpr double shifts_by = 1e-3;
 
 /// sqrt(m_i/m) for coordinates at a section, in scales; 1 where there is no mass.
@@ -146,7 +148,7 @@ CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction,
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
     Vector dy = base::min_norm_solution(A, b, least);
-    if (held) dy[dy.size() - 1] = 0.0;  // it is zero to rounding
+    if (held) dy[dy.size() - 1] = 0.0;  // the parameter's step is zero up to rounding
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
       return c;
@@ -159,7 +161,8 @@ CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction,
   return c;
 }
 
-/// Damped steps. Where events appear and vanish between steps, as beside a graze, Phi jumps, and full steps alternate.
+/// Corrects by damped steps. Near a graze events appear and vanish between steps, so Phi jumps, and full
+/// steps alternate.
 void BranchNewton::close_damped(CorrectedPoint& c, Eigen::Index unknowns) const {
   const ShootingStart start{c.state.state, c.state.duration, false, accepted_residual(), {}};
   ShootingResult shot = shoot(*map_.at(c.state.s), start, correction_tolerance);
@@ -200,7 +203,7 @@ BranchNewton::StepDirection BranchNewton::split(CorrectedPoint& at, const Vector
   return {rest / rest.norm(), part / std::max(rest.norm(), part.norm())};
 }
 
-/// Removes from t its part along families, where Phi - I is zero, too: t must not drift along them.
+/// Removes from t its part along families, where Phi - I is also zero: t must not drift along them.
 Vector BranchNewton::without_families(CorrectedPoint& at, const Vector& t) const {
   return families(at).cols() == 0 ? t : split(at, t).across;
 }
@@ -302,7 +305,8 @@ std::optional<double> BranchNewton::shift(const CorrectedPoint& at, const Vector
 
 namespace {
 
-// Difference of equal margins: relative to the smaller one, within these fractions of the amplitude of T. Chosen value.
+// Difference up to which margins count as equal: relative to the smaller one, between these fractions of the
+// amplitude of T. Chosen values.
 constexpr double balanced = 1e-3, finest = 1e-8, coarsest = 1e-5;
 constexpr double along_family = 1e-5;  // step of finite differences, in the norm; chosen value
 constexpr double singular_family =
@@ -325,7 +329,7 @@ Vector imbalances(const std::vector<std::size_t>& contacts, const OrbitPass& pas
   return d;
 }
 
-/// True if the differences count as zero.
+/// True if all differences of margins count as zero.
 bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass, const Vector& d) {
   double least = pass.T_amplitude;
   for (const std::size_t c : contacts) least = std::min({least, pass.margins[c][0], pass.margins[c][1]});
@@ -333,7 +337,8 @@ bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass
   return d.cwiseAbs().maxCoeff() <= std::clamp(balanced * least, finest * T, coarsest * T);
 }
 
-/// Their derivatives along directions of the family; empty: unknown. here: differences at the point.
+/// Derivatives of these differences along directions of the family; empty if unknown. here: differences at
+/// the point.
 Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const CorrectedPoint& at,
                        const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& directions,
                        const Vector& here) {

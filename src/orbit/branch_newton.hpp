@@ -1,14 +1,17 @@
-// branch_newton.hpp: Newton's method orthogonal to a branch of orbits.
+// branch_newton.hpp: Newton's method orthogonal to a branch of orbits, and the choice of a member of a
+// family.
 //
 //   y = y0 + ds t,   t: the direction of the branch, |t| = 1
 //   [ dG/dy ]        [ -G ]
 //   [  t^T  ] dy  =  [  0 ]         regular at folds
 //
-// Norm: the range of the parameter counts as 1, and so does a change of a state by a few amplitudes of each kind. A
-// coordinate with little mass, such as in the fast mode shapes of a fine mesh, counts less, by sqrt(m_i/m).
+// Norm: the range of the parameter counts as 1, and so does a change of a state by a few amplitudes of each
+// kind. A coordinate with little mass, such as in the fast mode shapes of a fine mesh, counts less, by
+// sqrt(m_i/m).
 //
-// Far from folds the parameter is fixed while Newton's method corrects the state: a key that changes the period rotates
-// the phases of fast mode shapes by omega dT, so dG/ds is outdated a step further.
+// Far from folds the parameter is fixed while Newton's method corrects the state. A key that changes the
+// period rotates the phases of fast mode shapes by omega dT, so dG/ds of the last point is no longer valid at
+// the next one.
 #pragma once
 
 #include "orbit/branch_map.hpp"
@@ -16,7 +19,7 @@
 
 namespace signorini::orbit {
 
-/// Target for the residual over amplitude, unless the noise of the map is larger.
+/// Target for residual / amplitude, unless the noise of the map is larger.
 inline constexpr double correction_tolerance = 1e-11;
 
 /// Cosine of two directions that count as equal. Chosen value.
@@ -51,7 +54,7 @@ class BranchNewton {
   /// map must outlive the object.
   explicit BranchNewton(BranchMap& map) : map_(map) {}
 
-  /// Sets the units of the norm from this pass. t: a direction to be converted to the new norm.
+  /// Sets the units of the norm from this pass. t: null, or a direction that is converted to the new norm.
   void measure(const OrbitPass& pass, Vector* t = nullptr);
   /// Number of unknowns of y at the section of a pass.
   [[nodiscard]] Eigen::Index size(const OrbitPass& pass) const {
@@ -64,18 +67,19 @@ class BranchNewton {
     return t;
   }
   [[nodiscard]] BranchState moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const;
-  /// by_s: value at the previous point, used as long as Newton's method converges; empty: none.
+  /// Corrects `guess` across t. by_s: dG/ds at the previous point, used as long as Newton's method converges;
+  /// empty: it is computed.
   [[nodiscard]] CorrectedPoint correct(BranchState guess, const Vector& t, const Vector& by_s) const;
-  /// Returns the direction of the branch, oriented like `before`; computes multipliers and test functions. ones: number
-  /// of structural multipliers 1, as at the point before; absent: counted, where no special point is near. known:
-  /// `before` is the direction.
+  /// Returns the direction of the branch, oriented like `before`, and computes multipliers and test
+  /// functions. ones: number of structural multipliers 1 at the previous point; absent: they are counted,
+  /// which requires that no special point is near. known: `before` is the direction.
   Vector examine(CorrectedPoint& at, const Vector& before, std::optional<std::size_t> ones = {},
                  bool known = false) const;
   /// True if corrections fix the parameter for this direction.
   [[nodiscard]] static bool fixes_parameter(const Vector& t);
   /// Directions of families: one column for each structural multiplier 1, in y, of length 1.
   [[nodiscard]] const Eigen::MatrixXd& families(CorrectedPoint& at) const;
-  /// A way along the branch; its part along families does not count in the length of a step.
+  /// A direction along the branch; its part along families does not count in the length of a step.
   struct StepDirection {
     Vector across;  ///< without families, length 1
     Vector drift;   ///< along families, per unit of `across`; at most 1
@@ -85,7 +89,7 @@ class BranchNewton {
   [[nodiscard]] Vector flip_direction(const CorrectedPoint& at) const;
   /// Direction of the branch that crosses the one along t at a branch point.
   [[nodiscard]] Vector other_direction(CorrectedPoint at, const Vector& t) const;
-  /// Such coordinates scaled to length 1 in the norm.
+  /// Coordinates as in flip_direction(), scaled to length 1 in the norm.
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
   /// Component of v along t, as corrections preserve it: 1 for t itself.
   [[nodiscard]] static double along(const Vector& v, const Vector& t) {
@@ -125,15 +129,15 @@ class BranchNewton {
 //   z = z_0 + W a,   W: (Phi - I) W = 0                   the family
 //   m+ = m-                                               its middle
 //
-// A contact that never slips may have any mean force between its limits. Members of the family with a zero margin
-// graze: a step of the branch from there makes the contact slip once, the orbit settles at its limit again, and each
-// point grazes. In the middle nothing grazes until both margins are zero, where the contact begins to slip in both
-// directions.
+// A contact that never slips may have any mean force between its limits. A member of the family with a zero
+// margin grazes. A step of the branch from there makes the contact slip once; the orbit settles at the limit
+// again, and each point grazes. In the middle no guard grazes until both margins are zero; there the contact
+// begins to slip in both directions.
 //
 // Margins are linear in a if all forces are; d(margins)/da is a difference of runs.
 
-/// The orbit in the middle, with its multipliers along t. nullopt: `here` is in the middle or in no such family, or
-/// Newton's method finds no better one.
+/// The orbit in the middle of the family of `here`, examined along t. nullopt if `here` is in the middle or
+/// in no such family, or if Newton's method finds no better orbit.
 [[nodiscard]] std::optional<CorrectedPoint> representative_member(const BranchMap& map,
                                                                   const BranchNewton& newton,
                                                                   const CorrectedPoint& here,

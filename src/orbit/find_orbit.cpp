@@ -21,18 +21,18 @@
 namespace signorini {
 namespace {
 
-constexpr int max_transients = 3;     // each twice as long as the previous one
-constexpr double beside = 1e-6;       // relative to the amplitude: distance of neighbouring members of a
-                                      // family. Chosen value.
-constexpr double seen_periods = 1.1;  // duration of the recorded events: an event at the beginning of a run
-                                      // is not recorded
-constexpr int max_repeats = 6;        // number of periods after which a transient is checked for repetition
-constexpr double comes_back = 1e-3;   // relative to the amplitude; chosen value
+constexpr int max_transients = 3;  // each twice as long as the previous one
+// Distance of neighbouring members of a family, relative to the amplitude. Chosen value.
+constexpr double beside = 1e-6;
+// Recorded duration in periods: an event at the beginning of a run is not recorded.
+constexpr double seen_periods = 1.1;
+constexpr int max_repeats = 6;       // number of periods after which a transient is checked for repetition
+constexpr double comes_back = 1e-3;  // distance / amplitude of a repetition; chosen value
 // Divisors of a period for which a self-excited motion may have closed already, because a search with an initial guess
 // finds any multiple. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};
-// Residual over amplitude after a fraction of the period up to which Newton's method restarts with that fraction, and
-// limit of its change: what remains of an orbit that closed to 1e-9 (shooting.cpp). Chosen value.
+// Residual / amplitude after a fraction of the period up to which Newton's method restarts with that fraction, and
+// limit of its change: the remaining error of an orbit that closed to 1e-9 (shooting.cpp). Chosen value.
 constexpr double nearly_closed = 1e-7;
 
 /// One search for an orbit.
@@ -68,7 +68,7 @@ class Search {
   std::optional<orbit::PeriodMap> map_;
   double unit_ = 1.0;    // unit of time
   double before_ = 0.0;  // machine time of the scene from which the loads are periodic
-  double period_ = 0.0;  // of the loads times `times`, machine units
+  double period_ = 0.0;  // period of the loads times OrbitOptions::times, machine units
   double tolerance_, closed_ = 0.0;
   Orbit orbit_;
   orbit::ShootingResult shot_;
@@ -100,7 +100,7 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
   set_period(scene);
 }
 
-/// Energy is conserved if nothing drives, damps or rubs.
+/// True if energy is conserved: there is no excitation, no damping and no friction.
 void check_conservative(const Scene& scene, const orbit::LoadPeriod& loads) {
   if (!scene.loads.empty() || loads.period || loads.surfaces_move)
     throw UsageError("--energy: expected a scene without loads and belts");
@@ -199,7 +199,7 @@ std::string Search::repeated(const orbit::OrbitState& state) const {
     now = orbit::orbit_state(pass.end);
     if (!first) first = pass;
     if (k == 1 && orbit::orbit_residual(map_->model(), pass) <= comes_back)
-      return {};  // it is nearly an orbit
+      return {};  // the motion is nearly an orbit
     const orbit::OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
     if (k > 1 && orbit::residual_of(section, *first, gap) <= comes_back)
@@ -243,7 +243,7 @@ bool Search::close(const orbit::OrbitState& state, double section, double period
   return true;
 }
 
-/// The period found may be a multiple of the smallest one: the same orbit then closes after T/n, too.
+/// The period found may be a multiple of the smallest one: the same orbit then also closes after T/n.
 void Search::shorten() {
   if (!orbit_.autonomous || options_.times > 1 || !(shot_.pass.u_amplitude > 0.0)) return;
   for (const int n : shorter_by)
@@ -313,8 +313,8 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
 
 /// With these intervals an extreme is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.
 constexpr int places_recorded = 720;
-/// Relative to the period: an event this near to the orbit's time 0 is at it. Chosen: the remainder of an orbit that
-/// closed to 1e-9.
+/// Fraction of the period within which an event is at the orbit's time 0. Chosen: the remaining error of an
+/// orbit that closed to 1e-9.
 constexpr double same_instant = 1e-9;
 
 /// Events of a period from the section on, reordered to start at the orbit's time 0. A run that begins there does not

@@ -178,11 +178,11 @@ std::vector<Override> shifted_excitation(const Scene& scene, double time) {
 
 namespace {
 
-constexpr double near_enough = 0.02;  // relative to the range: the first return within this distance is used.
-                                      // Chosen value.
+// The first return within this distance is used; relative to the range. Chosen value.
+constexpr double near_enough = 0.02;
 constexpr double too_far = 0.5;
-constexpr double least_distance = 0.02;  // relative to the period, from the section to an event. Chosen
-                                         // value.
+// Smallest distance from the section to an event, relative to the period. Chosen value.
+constexpr double least_distance = 0.02;
 
 bool same_states(const OrbitPoint& a, const OrbitPoint& b) {
   return std::equal(a.states.begin(), a.states.end(), b.states.begin(), b.states.end(),

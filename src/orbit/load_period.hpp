@@ -1,9 +1,11 @@
-// load_period.hpp: common period of all excitations of a scene.
+// load_period.hpp: common period of all excitations of a scene, and a guess of a self-excited motion's
+// period.
+//   f(t + T) = f(t) for all t >= periodic_from
 //
-//   f(t + T) = f(t) for all t >= settled        loads, motions of supports and of the base, compressions, surfaces
+// f: loads, motions of supports and of the base, normal forces, surface motions.
 //
-// A load of amplitude zero drives nothing and is ignored, unless it is declared to drive elsewhere: a branch over the
-// amplitude keeps its period where the load vanishes.
+// A load of amplitude zero is ignored unless `count` includes it: a branch over the amplitude keeps its
+// period where the load vanishes.
 //
 // Several periods have a smallest common multiple if there is one up to a hundred times the longest.
 #pragma once
@@ -18,7 +20,7 @@
 namespace signorini::orbit {
 
 struct LoadPeriod {
-  std::optional<double> period;  ///< nullopt: everything is constant from `settled` on
+  std::optional<double> period;  ///< nullopt: everything is constant from periodic_from on
   double periodic_from = 0.0;    ///< end of the part that is not periodic
   bool surfaces_move = false;    ///< there is a belt
 };
@@ -29,10 +31,11 @@ using CountedLoads = std::vector<bool>;
 /// Loads with nonzero amplitude; all of them if there are none.
 [[nodiscard]] CountedLoads driving_loads(const Scene& scene);
 
-/// Errors: SceneError at a history that has no period in common with the others.
+/// Common period of the excitations. Errors: SceneError at a history that has no period in common with the
+/// others.
 [[nodiscard]] LoadPeriod load_period(const Scene& scene, const CountedLoads& count = {});
 
-/// Errors: SceneError at a history without this period.
+/// Same with a given period. Errors: SceneError at a history without this period.
 [[nodiscard]] LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& count = {});
 
 /// Overrides by which all excitations act earlier by `time`. Histories made in code are ignored.

@@ -1,15 +1,17 @@
 // multipliers.hpp: Floquet multipliers of an orbit, and the type of its loss of stability.
 //
-//   Phi x = mu x;    stable if |mu| < 1 for all except those of families, and of time for self-excited orbits
+//   Phi x = mu x;    stable if |mu| < 1, except for structural multipliers 1
+//                    (of families, and of time for self-excited orbits)
 //   fold: mu > 1,  flip: mu < -1,  Neimark-Sacker: a pair outside the unit circle
 //
 // error: distance between the multipliers of two matrices computed from two states of one orbit, plus the error of Phi:
 // rounding of its entries, errors of the steps of its tangents (common to both evaluations), and the effect of errors
 // of the orbit's states. A multiplier is undecided if its distance from the unit circle is below this error.
 //
-// If energy is conserved, multipliers occur in pairs mu, 1/mu: none dies out, so such an orbit is unstable or
-// undecided. Two equal multipliers, such as 1 along the motion and from energy to energy, separate by the square root
-// of an error of Phi: this is the error of their distance from the circle.
+// If energy is conserved, multipliers occur in pairs mu, 1/mu: no disturbance dies out, so such an orbit is
+// unstable or undecided. Two multipliers that are equal, such as the two that are 1 along the motion and from
+// energy to energy, separate by the square root of an error of Phi. This is the error of their distance from
+// the unit circle.
 #pragma once
 
 #include "signorini/orbit.hpp"
@@ -31,7 +33,8 @@ using Multipliers = std::vector<std::complex<double>>;
 /// Multipliers without the `count` nearest to 1.
 [[nodiscard]] Multipliers without_ones(Multipliers all, std::size_t count);
 
-/// Error of Phi, and thus of its simple multipliers; states: error of the orbit's states over the amplitude.
+/// Error of Phi, and thus of its simple multipliers. rates_error: OrbitPass::rates_error; states: error of
+/// the orbit's states / amplitude.
 [[nodiscard]] double error_of(const Eigen::MatrixXd& phi, double rates_error, double states);
 
 /// Error of the distance from the unit circle. error: error of multipliers; keeps: energy is conserved.

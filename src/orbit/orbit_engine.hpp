@@ -1,11 +1,11 @@
-// orbit_engine.hpp: choice of the engine for orbits, and its accuracy.
+// orbit_engine.hpp: choice of the engine for orbits, its accuracy, and readers of a scene with a varied key.
 //
 //   auto:   exact, unless it refuses the scene or a period has more than 2000 decay times of the fastest decay
 //   flow:   auto uses complex modes if they can follow the scene: modes of contact states are kept over all periods
-//   error:  exact 0, ida 100 rtol: error of a state over the amplitude, the limit for closing an orbit
+//   error:  exact 0, ida 100 rtol: error of a state / amplitude, the limit for closing an orbit
 //
-// A run of one period is short, and many of them are compared: the closed form is worth a few more steps than in one
-// long run (run/choose_engine.hpp).
+// Runs of one period are short, and many of them are compared: the closed form pays at a higher cost than in
+// one long run (run/choose_engine.hpp).
 #pragma once
 
 #include <string>
@@ -18,12 +18,13 @@
 
 namespace signorini::orbit {
 
-/// duration: length of a period, or an estimate of it; in the units of model and run.
+/// The engine for orbits; duration: length of a period, or an estimate of it, in the units of model and run.
 [[nodiscard]] Engine orbit_engine(const Model& model, const RunSpec& run, double duration);
 
-/// run.engine must be the result of orbit_engine().
+/// The flow for orbits; run.engine must be the result of orbit_engine().
 [[nodiscard]] Flow orbit_flow(const Model& model, const RunSpec& run);
 
+/// Error of a state / amplitude, in a run with these tolerances.
 [[nodiscard]] double orbit_state_error(const RunSpec& run);
 
 // A reader of a scene with one key set to a value.
@@ -31,7 +32,7 @@ namespace signorini::orbit {
 //   reader_at(read, path, x)(changes) = read([path = x, changes...])
 //   branch_reader: the same; for a branch over the energy of conservative motions no key is changed
 
-/// value: in the unit of the key. Errors: those of `read`.
+/// Reads the scene with this value of the key, in the unit of the key. Errors: those of `read`.
 [[nodiscard]] inline SceneReader reader_at(SceneReader read, std::string path, double value) {
   return [read = std::move(read), path = std::move(path), value](const std::vector<Override>& changes) {
     std::vector<Override> all{{path, base::format_number(value)}};
@@ -43,6 +44,7 @@ namespace signorini::orbit {
 /// Path that stands for the energy of conservative motions instead of a key.
 inline constexpr const char* over_energy = "energy";
 
+/// Reads the scene at a value of the branch's parameter.
 [[nodiscard]] inline SceneReader branch_reader(SceneReader read, const std::string& path, double value) {
   return path == over_energy ? std::move(read) : reader_at(std::move(read), path, value);
 }

@@ -1,6 +1,6 @@
 // orbit_state.hpp: state of a motion at an instant, and its coordinates at a section.
 //
-//   z = (u, v, T)      u, v with mass, u with a damper only, T = kt (ut - p) of sticking contacts
+//   z = (u, v, T)      u and v with mass, u with a damper only, T = kt (ut - p) of sticking contacts
 //   z_i / scale_i      model scales: displacement, velocity, force
 //   z = z0 + B x       tangent space of the contact state, B orthonormal:
 //     n . du = 0, n . dv = 0        closed rigid contacts
@@ -19,7 +19,7 @@ namespace signorini::orbit {
 struct OrbitState {
   Vector u, v;
   std::vector<double> shears;  ///< T, one per contact
-  std::vector<int> slips;      ///< -1, 0, 1, one per contact
+  std::vector<int> slips;      ///< direction of slip: -1, 0, 1, one per contact
 };
 
 /// The motion just after an instant.
@@ -30,13 +30,15 @@ struct OrbitPoint {
   std::vector<linear::DofKind> kinds;   ///< in these contact states
   ForceLayout layout;
 };
+/// The motion just after a decision.
 [[nodiscard]] OrbitPoint orbit_point(double t, const decide::Decision& after);
+/// The state at a point: its u and v, and shears and slips of all contacts.
 [[nodiscard]] OrbitState orbit_state(const OrbitPoint& point);
 
 /// The model with this state at t = 0.
 [[nodiscard]] Model with_initial_state(Model model, const OrbitState& state);
 
-/// The model with loads, normal forces and surfaces shifted by `time`: those of t = time act at t = 0.
+/// The model with loads, normal forces and surfaces shifted by `time`: their values at t = time act at t = 0.
 [[nodiscard]] Model with_shifted_excitation(Model model, double time);
 
 /// Coordinates at a section.
@@ -56,7 +58,7 @@ class OrbitSection {
   [[nodiscard]] Vector spread(const Vector& of_dofs) const;
   /// state + B x
   [[nodiscard]] OrbitState moved(OrbitState state, const Vector& x) const;
-  /// dz in coordinates, converted to displacements, velocities and shears.
+  /// Converts dz, in scales, to displacements, velocities and shears.
   [[nodiscard]] OrbitState unscaled(const Vector& dz) const;
   /// Coordinates are ordered: [0, u), [u, u + v), the rest are shears.
   [[nodiscard]] std::size_t displacements() const { return u_.size(); }

@@ -170,14 +170,14 @@ class Bundle {
   std::optional<sensitivity::TangentRun> tangents_;
 };
 
-/// Keeps what a pass is made of, and leads the tangents along.
+/// Records the data of a pass, and forwards the run to the tangents.
 class Follower final : public run::RunListener {
  public:
   Follower(const Model& model, const RunSpec& run, const PassOptions& leg, OrbitPass& pass,
            sensitivity::StateFlow* flow, modal::ModalCache& kept)
       : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), share_{&kept, nullptr} {}
 
-  /// No peaks: extremes of outputs are sought for themselves.
+  /// Peaks inside steps are not needed: extremes of outputs are searched separately.
   [[nodiscard]] run::ListenerNeeds needs() { return {&share_, false}; }
 
   void begin(const run::RunInstant& start) override {
@@ -231,7 +231,7 @@ Energy change(const Energy& from, const Energy& to) {
 
 PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder)
     : model_(std::move(model)), run_(run), recorder_(recorder) {
-  model_.internal_units = {};  // it is in machine units already
+  model_.internal_units = {};  // the model is in machine units already
   model_.reaction_sums.clear();
   model_.warnings.clear();
   run_.certify = Certify::no;

@@ -27,9 +27,9 @@ struct OrbitPass {
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   double amplitude = 0.0;     ///< of displacements alone, without rotations; the scene's unit
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not requested, or unknown
-  double rates_error = 0.0;   ///< relative to the largest entry of end_rates: rounding and truncation of
-                              ///< series
-  std::string reason;         ///< reason why they are unknown
+  /// Error of end_rates by rounding and truncation of series, relative to their largest entry.
+  double rates_error = 0.0;
+  std::string reason;  ///< reason why end_rates are unknown
   std::vector<OutputExtremes> response;
   /// Minimum over the rows of f_s |N| - T and of f_s |N| + T, one per contact, in scales of the model.
   std::vector<std::array<double, 2>> margins;
@@ -58,12 +58,13 @@ class PeriodMap {
   PeriodMap(Model model, const RunSpec& run, Recorder* recorder);
 
   [[nodiscard]] const Model& model() const { return model_; }
+  /// One pass through the period.
   [[nodiscard]] OrbitPass pass(const PassOptions& leg) const;
-  /// The row at the end, with all previous rows: for last_state().
+  /// Rows of a run from this state; the last one is at the end, for last_state().
   [[nodiscard]] Result rows(const OrbitState& start, double duration) const;
   [[nodiscard]] const RunSpec& run() const { return run_; }
-  /// Closed form with which tangents cross stretches, if modes can: for this structure, kept and passed from map to
-  /// map. Null: not created yet, or not available.
+  /// Closed form with which tangents cross stretches. It belongs to the structure, and is passed from map to
+  /// map. Null: not created yet, or modes cannot follow the motion.
   [[nodiscard]] const std::shared_ptr<sensitivity::StateFlow>& flow() const { return flow_; }
   void take_flow(std::shared_ptr<sensitivity::StateFlow> flow) { flow_ = std::move(flow); }
   /// Shares the mode shapes of contact states among all maps of one search.

@@ -14,8 +14,8 @@ namespace {
 constexpr int max_steps = 30, max_halvings = 6;
 // Number of successive steps that do not halve the residual after which Newton's method stagnates. Chosen value.
 constexpr std::size_t patience = 8;
-constexpr double reached = 1e-2;  // relative to the tolerance: no further step below it
-// Residual over amplitude at which an orbit is accepted although the residual no longer decreases: rounding of a long
+constexpr double reached = 1e-2;  // residual / tolerance below which there is no further step
+// Residual / amplitude at which an orbit is accepted although the residual no longer decreases: rounding of a long
 // or stiff period. Chosen value; above it a search has failed.
 constexpr double closed_at_last = 1e-9;
 // Limit of singular values of Phi - I that count as zero, relative to the largest one and to Phi: the rounding of Phi,
@@ -24,7 +24,8 @@ constexpr double least_singular = 1e-9;
 // Used if no step reduces the residual: fast mode shapes may make Phi 1e5 times larger than its effect on slow ones.
 constexpr std::array finer_steps{1e-11, 1e-13};
 
-// In scales: a smaller amplitude is rest, with a state of rounding size. Chosen value: fifty roundings.
+// Amplitude, in scales, below which the structure is at rest, with a state of rounding size. Chosen: fifty
+// roundings.
 constexpr double at_rest = 1e-14;
 
 double over(double value, double amplitude) { return amplitude > at_rest ? value / amplitude : value; }
@@ -63,7 +64,7 @@ Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStar
 }
 
 /// One step, halved until the residual decreases; trials are computed without tangents, which cost far more than a run.
-/// False: it does not decrease, or rounding is reached.
+/// Returns false if the residual does not decrease, or has reached rounding.
 bool damped_step(const PeriodMap& map, const ShootingStart& start, ShootingResult& shot, double least) {
   const Model& model = map.model();
   const OrbitSection section(model, shot.pass.begin);
@@ -181,7 +182,7 @@ bool is_noise(const PeriodMap& map, const ShootingResult& shot) {
 
 namespace {
 
-/// A pass from the final state, with tangents. False: it stops, or is interrupted.
+/// Makes a pass from the final state, with tangents. Returns false if the pass stops or is interrupted.
 bool run_period(const PeriodMap& map, ShootingResult& shot) {
   shot.pass = map.pass({shot.state, shot.duration});
   if (shot.pass.done()) return true;

@@ -21,7 +21,7 @@ struct ShootingStart {
   OrbitState state;
   double duration;
   bool free_period = false;
-  double closed = 0.0;  ///< residual at which an orbit is accepted if it no longer decreases; 0: 1e-9
+  double closed = 0.0;                ///< residual that is accepted if it no longer decreases; 0: 1e-9
   std::optional<double> energy = {};  ///< E* of a conservative motion; the scene's units
 };
 
@@ -37,18 +37,18 @@ struct ShootingResult {
   std::vector<OrbitStep> steps;
 };
 
-/// max |z(T) - z| relative to the amplitude of each kind; relative to the scales if nothing moves.
+/// max |z(T) - z| / amplitude of each kind (u, v, T); at rest the scales replace the amplitudes.
 [[nodiscard]] double orbit_residual(const Model& model, const OrbitPass& pass);
 
-/// Same for another difference of states at the pass's section, in coordinates.
+/// Same for `gap`, another difference of states in coordinates at the pass's section.
 [[nodiscard]] double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
 
-/// Noise of the map: |z2 - z1 - Phi (z1 - z0)| over the amplitude, z1, z2 being the images of z0, z1. nullopt if it is
-/// unknown, or if the two passes have different events.
+/// Noise of the map: |z2 - z1 - Phi (z1 - z0)| / amplitude, where z1 and z2 are the images of z0 and z1.
+/// nullopt if Phi is unknown, or if the two passes have different events.
 [[nodiscard]] std::optional<double> map_noise(const Model& model, const OrbitPass& first,
                                               const OrbitPass& second);
-/// An orbit is accepted if its residual is at most this multiple of the noise, since a residual is a difference of two
-/// states. No larger noise is accepted. Chosen values.
+/// An orbit is accepted if its residual is at most accepted_noise_factor times the noise, since a residual is
+/// a difference of two states. A noise above max_noise is not accepted. Chosen values.
 inline constexpr double accepted_noise_factor = 10.0, max_noise = 1e-6;
 
 /// dE/dz B, in the scene's units.
@@ -57,6 +57,7 @@ inline constexpr double accepted_noise_factor = 10.0, max_noise = 1e-6;
 /// B^T Phi B of a pass with tangents.
 [[nodiscard]] Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass);
 
+/// Newton's method from `start`, until the residual is below the tolerance.
 [[nodiscard]] ShootingResult shoot(const PeriodMap& map, const ShootingStart& start, double tolerance);
 
 }  // namespace signorini::orbit

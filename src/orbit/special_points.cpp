@@ -65,18 +65,19 @@ std::optional<double> root_between(double a, double b,
 
 namespace {
 
-constexpr double beside_section = 1e-4;  // relative to the period, from an event to the section. Chosen
-                                         // value.
-// In the norm: resolution of changes of the sequence, and at least ten times the noise of the map.
+// Distance from an event to the section, relative to the period. Chosen value.
+constexpr double beside_section = 1e-4;
+// Resolution of changes of the sequence, in the norm, and its smallest ratio to the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
 // An orbit at a graze is as continuous as a square root of the key. If the other orbit differs by more than ten times
 // the root of the width, it belongs to another branch. Chosen value.
 constexpr double roots_apart = 10.0;
 constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not checked. Chosen value.
-constexpr double parts_apart = 1e3;        // times that: distance of two places that determine a direction.
-                                           // Chosen value.
+// Smallest distance of two places that determine a direction, in resolutions of changes of the sequence.
+// Chosen value.
+constexpr double parts_apart = 1e3;
 
-constexpr double rounded = 1e-9;  // relative to the largest step: above the rounding of s. Chosen value.
+constexpr double rounded = 1e-9;  // fraction of the largest step, above the rounding of s. Chosen value.
 
 constexpr const char* other_branch = "other branch";
 
@@ -113,7 +114,8 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::zero_of(cons
   });
   if (!part || !(std::abs(point.at.tests.*kind.value) <= location_tolerance)) return std::nullopt;
   point.part = *part;
-  // Where two branches cross, every direction in their plane is a tangent; the way from here to next is this branch's.
+  // Where two branches cross, every direction in their plane is a tangent; the chord from here to next
+  // follows this one.
   if (kind.value == &TestValues::branch)
     if (const auto way = newton_.secant(place_of(here), next)) point.t = newton_.split(point.at, *way).across;
   return point;
@@ -169,9 +171,9 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::end_of_seque
   return point;
 }
 
-/// True if the parameter turns on a step without a located fold, or a multiplier passes 1 without a turn and without a
-/// place where it is 1. Both are continuous as long as the sequence of events does not change, so the next orbit then
-/// belongs to another branch, as behind a fold.
+/// True if the parameter reverses on a step without a located fold, or if a multiplier passes 1 without a
+/// fold and without a place where it is 1. Both are continuous as long as the sequence of events does not
+/// change. So the next orbit then belongs to another branch, as beyond a fold.
 bool BranchContinuation::changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
                                         const std::vector<LocatedPoint>& points) const {
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
@@ -180,7 +182,8 @@ bool BranchContinuation::changes_unseen(const CorrectedPoint& here, const Correc
   return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
 }
 
-/// Where fast mode shapes rotate the tangent, it is no direction of the branch.
+/// If fast mode shapes rotate the tangent at `to`, the chord is not compared with it: it is no direction of
+/// the branch.
 bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint& to, const Vector* direction,
                                         bool at_to) const {
   const std::optional<Vector> secant = newton_.secant(from, to);
@@ -192,14 +195,15 @@ bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint&
   return at_to && !turning_ && differs(newton_.examine(to, *secant));
 }
 
-/// True if the branch turns on the step by more than its points show: another part of it, or another branch, could lie
-/// between. At a change of the sequence it may have a corner.
+/// True if the branch bends on the step by more than its points show: another part of it, or another branch,
+/// could lie between. At a change of the sequence the branch may have a corner.
 bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& next, const Vector& t,
                                   double length, std::vector<LocatedPoint>& points) const {
   if (length <= shortest_doubted) return false;
   if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
   if (sequence_of(here.pass) == sequence_of(next.pass)) {
-    // If it continues at both ends it has not returned: the other point is on another arm, as across a resonance.
+    // If the branch continues at both ends it has not returned: the next point is on another arm, as across a
+    // resonance.
     const double along = t[t.size() - 1];
     if (along * next.tests.fold > 0.0 && along * (next.state.s - here.state.s) < 0.0) return true;
     return chord_deviates(place_of(here), next, &t, true);
@@ -259,7 +263,8 @@ std::vector<BranchContinuation::LocatedPoint> BranchContinuation::located(const 
   return all;
 }
 
-/// Same; next is rejected if the step is too long to know the points between.
+/// Special points of the step, as between() finds them; next is rejected if the step is too long to know
+/// them.
 std::vector<BranchContinuation::LocatedPoint> BranchContinuation::between(const CorrectedPoint& here,
                                                                           CorrectedPoint& next,
                                                                           const Vector& t, double& length) {

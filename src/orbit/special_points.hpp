@@ -33,8 +33,9 @@ inline constexpr std::array special_kinds{SpecialKind{"fold", &TestValues::fold}
 /// function that jumps over zero, as where a pair meets on the real axis, has no zero.
 inline constexpr double location_tolerance = 1e-6;
 
-/// ones: number of structural multipliers 1; along: t_s; error: of a multiplier's distance from the unit circle.
-/// Multipliers within this error count as inside, so that rounding alone changes no sign.
+/// Values of the test functions. ones: number of structural multipliers 1; along: t_s; error: of a
+/// multiplier's distance from the unit circle. Multipliers within this error count as inside, so that
+/// rounding alone changes no sign.
 [[nodiscard]] TestValues test_values(const Multipliers& all, std::size_t ones, double along, double error);
 
 /// Zero of f, with values a at 0 and b at 1 of opposite signs, by the Illinois method (regula falsi). f returns nullopt

@@ -1,4 +1,5 @@
-// contact_rates.hpp: derivatives of a contact's motion by a parameter, at fixed time and along a moving instant.
+// contact_rates.hpp: derivatives of a contact's motion and forces by a parameter, at fixed time and along a
+// moving instant.
 //
 //   g_p = n . w + n_p . u + g0_p,   ut_p = t . w + t_p . u - s_p,   N_p and T_p directly
 //   Dx = x_p + x' dt/dp             of x at a moving instant
@@ -16,7 +17,7 @@ namespace signorini::sensitivity {
 struct DrivenRates {
   double surface[3] = {0.0, 0.0, 0.0}, applied_normal_force[2] = {0.0, 0.0};
 };
-/// Evaluated at x of series with this scale.
+/// Derivatives of a contact's surface motion and normal force at x of a series with this scale.
 [[nodiscard]] DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::size_t contact,
                                        double x);
 
@@ -24,13 +25,13 @@ struct DrivenRates {
 [[nodiscard]] std::vector<Eigen::Index> contact_dofs(const Model& model,
                                                      const std::vector<const ModelDerivative*>& rates);
 
-/// Motion of a contact.
+/// Motion of contact k at t, from the values of a series.
 [[nodiscard]] ContactMotion motion_of(const Contact& contact, std::size_t k, const motion::Forcing& forcing,
                                       double t, const SeriesPoint& point);
-/// Its derivative by time; those of g'' and ut'' are left at zero.
+/// Time derivative of a contact's motion; the derivatives of g'' and ut'' are left at zero.
 [[nodiscard]] ContactMotion time_rate(const ForceLayout& layout, std::size_t k, const ContactMotion& motion,
                                       const SeriesPoint& point);
-/// Its derivative by the parameter at fixed time.
+/// Derivative of a contact's motion by the parameter at fixed time.
 [[nodiscard]] ContactMotion parameter_rate(const Contact& contact, const ContactRates& rates,
                                            const ForceLayout& layout, std::size_t k, const SeriesPoint& point,
                                            const SeriesPoint& tangent, const DrivenRates& driven);
@@ -42,10 +43,13 @@ struct DrivenRates {
 struct WatchedMotion {
   std::array<double, 4> values{}, slopes{}, bends{};
 };
+/// These quantities of contact k at a point. u0: displacements at the start; force_bends: second derivatives
+/// of forces.
 [[nodiscard]] WatchedMotion watched(const Contact& contact, const ForceLayout& layout, std::size_t k,
                                     const Vector& u0, const SeriesPoint& point, const Vector& force_bends);
 
-/// The body's own ut and ut'; equal to those of the motion unless there is a shear element.
+/// Derivatives of the body's own ut and ut'; they are those of parameter_rate() unless there is a shear
+/// element.
 [[nodiscard]] motion::BodySlide slide_rate(const Contact& contact, const ContactRates& rates,
                                            const SeriesPoint& point, const SeriesPoint& tangent,
                                            const DrivenRates& driven);
@@ -70,7 +74,7 @@ struct LawRates {
   double gap = 0.0, gap_rate = 0.0;  ///< g0 and g0_p
   double surface = 0.0, surface_rate = 0.0;
 
-  /// From g, ut and their derivatives by the parameter; likewise for rates from g' and ut'.
+  /// N_p and T_p from g, ut and their derivatives by the parameter; likewise N'_p and T'_p from g' and ut'.
   [[nodiscard]] double N_by(double g, double g_by) const { return law.N_gap * g_by + rates.N(g); }
   [[nodiscard]] double T_by(double g, double g_by, double ut, double ut_by) const {
     return law.T_rate(g_by, ut_by) + rates.T(g, ut);
@@ -83,13 +87,12 @@ struct LawRates {
   }
 };
 
+/// Forces of contact c in this state, and their derivatives by one parameter, from t on.
 [[nodiscard]] LawRates law_rates(const Contact& contact, std::size_t c, const ContactState& state,
                                  const ContactRates& rates, const motion::Forcing& forcing, double t,
                                  const TangentSource& source);
 
-// Contact laws for which tangents are implemented.
-
-/// Errors: SceneError at a law without tangents.
+/// Checks that tangents are implemented for all contact laws. Errors: SceneError at a law without tangents.
 void check_tangent_laws(const Scene& scene, const Model& model);
 
 }  // namespace signorini::sensitivity

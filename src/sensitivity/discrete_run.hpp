@@ -11,9 +11,9 @@
 // an event a0 follows from equilibrium: the same equations with h = 0. The steps are repeated, from the engine's
 // states.
 //
-// Restricted to steps of constant length with events at roots of guards, and to models without massless parts and
-// without rate-dependent friction; `reason` explains a violation. Serves as a check of the derivatives of the motion:
-// both agree to O(h^2).
+// The steps must have a constant length, and events must be at roots of guards. The model must have no
+// massless parts and no rate-dependent friction. TangentState::reason explains a violation. The results check
+// the derivatives of the motion: both agree to O(h^2).
 #pragma once
 
 #include "engine/newmark/newmark_step.hpp"
@@ -27,7 +27,7 @@ class DiscreteRun final : public run::RunListener {
   DiscreteRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
               const std::vector<double>& sizes, TangentListener& listener);
 
-  /// It needs no data from the engine.
+  /// Empty: this listener needs no data from the engine.
   [[nodiscard]] static run::ListenerNeeds needs() { return {}; }
   void begin(const run::RunInstant& start) override;
   void step(const run::RunStep& step) override;

@@ -171,8 +171,8 @@ class Fitter {
     }
     return true;
   }
-  /// Checks both sides of every key, and descends where the sum of squares decreases away from the result. True: it has
-  /// found a lower place.
+  /// Checks both sides of every key, and descends where the sum of squares decreases away from the result.
+  /// Returns true if a lower place was found.
   bool look_beside() {
     level_ = linear_at(place_.keys) && leads_to_place(place_.keys);
     falls_ = kink_ = false;
@@ -192,7 +192,7 @@ class Fitter {
         slopes_.push_back(slope);
         if (leads_to_place(keys)) continue;
         kink_ = true;
-        if (side * slope[p] >= 0.0) continue;  // it increases
+        if (side * slope[p] >= 0.0) continue;  // the sum increases
         const FitPlace other = descend(problem_, keys);
         iterations_ += other.iterations;
         if (other.chi_squared < place_.chi_squared) {
@@ -277,12 +277,12 @@ class Fitter {
   FitPlace place_;
   std::vector<std::vector<double>> slopes_;  // beside the result, in units of key sizes
   int iterations_ = 0;
-  std::vector<std::pair<std::size_t, double>> walls_;  // keys, and their sides without such a run
-  std::vector<bool> at_bound_;                         // keys at whose wall the sum of squares still
-                                                       // decreases
-  bool level_ = false;                                 // the slope is zero at the result
-  bool kink_ = false;                                  // both sides disagree
-  bool falls_ = false;                                 // the sum decreases, but no lower place was found
+  std::vector<std::pair<std::size_t, double>> walls_;  // keys, and their sides at which a run is not complete
+  // Keys at whose bound the sum of squares still decreases.
+  std::vector<bool> at_bound_;
+  bool level_ = false;  // the slope is zero at the result
+  bool kink_ = false;   // the slopes on both sides of the result differ
+  bool falls_ = false;  // the sum decreases, but no lower place was found
 };
 
 }  // namespace

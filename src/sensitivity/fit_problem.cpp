@@ -206,8 +206,9 @@ Scene FitProblem::scene_at(const std::vector<double>& keys, const std::vector<Ov
 
 namespace {
 
-// Derivatives are accurate to 1e-9 or better, since the model's data are differenced with that accuracy (model_derivative.hpp).
-// A change of the measured numbers below this fraction, for a change of a key by its own size, is rounding.
+// Derivatives are accurate to 1e-9 or better, since the model's data are differenced with that accuracy
+// (model_derivative.hpp). If a change of a key by its own size changes the measured numbers by less than this
+// fraction, the change is rounding.
 constexpr double rounding_of_rates = 1e-9;
 // Relative to the largest singular value of J with columns of norm 1. For two keys with the same effect rounding leaves
 // about 1e-9; chosen in the middle between that and 1e-3, where measurements may still distinguish two keys.

@@ -2,9 +2,10 @@
 //
 //   f_i(p) = (x_i(p) - m_i) / sigma_i,   J_ij = df_i/dp_j
 //
-// An event that is missing in a run with other keys, or a refused scene, is a residual of `missing` sigmas. A
-// derivative that does not exist because two events coincide at these keys is replaced by that of the side from which
-// the keys came; if that does not exist either, the derivative is missing: J is never filled with guesses.
+// An event that is missing in a run with other keys, or a refused scene, is a residual of
+// missing_event_residual sigmas. If two events coincide at these keys, a derivative does not exist; it is
+// replaced by that of the side from which the keys came. If that does not exist either, the derivative is
+// missing: J is never filled with guesses.
 #pragma once
 
 #include <gsl/gsl_matrix.h>
@@ -19,7 +20,7 @@ namespace signorini::sensitivity {
 
 class FitProblem {
  public:
-  /// In sigmas, for an event that a trial lacks: such a trial is never an improvement.
+  /// Residual, in sigmas, of an event that a trial lacks: such a trial is never an improvement.
   static constexpr double missing_event_residual = 1e8;
   /// Distance to the other side of a kink, relative to a key's size. Far above the rounding of the derivatives, 1e-9,
   /// and of the keys at the end of a fit; far below the resolution of measurements.
@@ -40,18 +41,18 @@ class FitProblem {
   /// The norm of m_i / sigma_i.
   [[nodiscard]] double measured_norm() const;
 
-  /// Runs at these keys, or at others beside them if derivatives are missing there; the keys are then moved. Errors:
-  /// data that do not fit the run.
+  /// Runs at these keys. If derivatives are missing there, it runs at keys beside them and moves `keys`.
+  /// Errors: data that do not fit the run.
   void start(std::vector<double>& keys);
-  /// Returns false after an exception in the first run, or an interrupt.
+  /// Computes f. Returns false after an exception in the first run, or an interrupt.
   bool residuals(const std::vector<double>& keys, gsl_vector& f);
-  /// Returns false for the same reasons, or without derivatives.
+  /// Computes J. Returns false for the same reasons as residuals(), or if a derivative is missing.
   bool derivatives(const std::vector<double>& keys, gsl_matrix& J);
   /// True if the run at these keys has everything that was measured, with derivatives.
   bool complete(const std::vector<double>& keys);
-  /// x_i - m_i of the last run; NaN: the run lacks it.
+  /// x_i - m_i of the last run; NaN if the run lacks x_i.
   [[nodiscard]] double residual(std::size_t row) const;
-  /// A measured quantity that the last run lacks; empty: none. `row`: its row.
+  /// A measured quantity that the last run lacks, and its row; empty if the run has all.
   [[nodiscard]] std::string missing_quantity(std::size_t& row) const;
   /// Throws an error at a row of the measurements.
   [[noreturn]] void refuse(std::size_t row, const std::string& message) const;
@@ -61,7 +62,7 @@ class FitProblem {
   [[nodiscard]] std::string name_of(const Event& event) const;
   [[nodiscard]] std::pair<std::size_t, std::size_t> place_of(const Measurement& m) const;
   [[nodiscard]] double rate_of(std::size_t row, std::size_t key) const;
-  /// Row and key without a derivative, and the reason; empty: none.
+  /// Sentence about a row and a key without a derivative, with the reason; empty if there are none.
   [[nodiscard]] std::string missing_rate() const;
   bool run(const std::vector<double>& keys);
   [[nodiscard]] Scene scene_at(const std::vector<double>& keys, const std::vector<Override>& changes) const;
@@ -101,8 +102,9 @@ struct LinearFit {
   std::size_t rank = 0;
 };
 
-/// f: residuals over their sigmas; J: their derivatives; size: size of each key; measured: norm of the measured numbers
-/// over their sigmas, to which rounding is relative. rows >= keys.
+/// Solution of the linearised problem. f: residuals over their sigmas; J: their derivatives, with at least as
+/// many rows as keys; size: size of each key; measured: norm of the measured numbers over their sigmas, to
+/// which rounding is relative.
 [[nodiscard]] LinearFit linear_fit(const gsl_vector& f, const gsl_matrix& J, const std::vector<double>& size,
                                    double measured);
 

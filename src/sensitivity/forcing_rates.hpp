@@ -1,7 +1,9 @@
-// forcing_rates.hpp: derivatives of the forcing by a parameter, on one side of an instant.
+// forcing_rates.hpp: derivatives of the forcing, on one side of an instant, and of the static start by a
+// parameter.
 //
-//   P_p = sum_i ( d_i,p f_i + d_i f_i,p ),   q_p, s_p: of normal forces and surface motions, as series in
-//   time tau_p: of the instants at which the forcing is not smooth
+//   P_p = sum_i ( d_i,p f_i + d_i f_i,p )     loads, as series in time
+//   q_p, s_p                                  normal forces and surface motions, as series in time
+//   tau_p                                     instants at which the forcing is not smooth
 #pragma once
 
 #include <optional>
@@ -33,6 +35,7 @@ class ForcingRates {
   /// Uses the pieces in force on the given side of t. Both arguments must outlive the object.
   ForcingRates(const Model& model, const ModelDerivative& derivative, double t, motion::Side side);
 
+  /// Series of `count` coefficients around t, in (time - t)/scale.
   void expand(double t, double scale, std::size_t count, ForcingRatesSeries& out) const;
 
  private:
@@ -58,12 +61,13 @@ struct MovingBreakpoint {
 // Derivative of the static start by a parameter.
 //
 //   (K + sum_closed kn n n^T) w = P_p - K_p u0 - sum_closed ( n_p N + n N_p ),   N_p = kn_p g + kn (g0_p + n_p . u0)
-//   rigid ones: K w + sum n N_p = P_p - K_p u0 - sum n_p N,   n . w = -g0_p - n_p . u0
+//   rigid contacts: K w + sum n N_p = P_p - K_p u0 - sum n_p N,   n . w = -g0_p - n_p . u0
 //   t_h . w = -t_h,p . u0 at contacts that hold a free motion
 //
-// A difference of two equilibria has the rounding of their solves divided by the step; this has that of one solve.
+// A difference of two equilibria has the rounding of their solves divided by the step; this derivative has
+// the rounding of one solve.
 
-/// model: with a frictionless static start. nullopt if its matrix remains singular.
+/// w for a model with a frictionless static start; nullopt if the matrix remains singular.
 [[nodiscard]] std::optional<Vector> static_rate(const Model& model, const ModelDerivative& derivative);
 
 }  // namespace signorini::sensitivity

@@ -1,4 +1,5 @@
-// modal_stretch.hpp: one stretch of modal_tangents.hpp, in the modes of its state.
+// modal_stretch.hpp: motion and tangents on one stretch (modal_tangents.hpp), in the modes of its contact
+// state.
 //
 //   S double: all modes are real;   S Complex: some modes come in conjugate pairs
 #pragma once
@@ -13,7 +14,7 @@ namespace signorini::sensitivity {
 
 /// Limit of alpha t for one part, as in engine/exact/modal/oscillators.hpp.
 inline constexpr double max_part_decay = 4.0;
-/// Limit of the constant part p/l relative to a mode's amplitude: costs three digits.
+/// Limit of the constant part p/l relative to a mode's amplitude. At the limit three digits are lost.
 inline constexpr double max_static_ratio = 4096.0;
 class ModalStretch {
  public:

@@ -9,7 +9,7 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr double nothing_left = 1e-13;  // relative to C_p: rounding of C_p - alpha M_p
+constexpr double nothing_left = 1e-13;  // rounding of C_p - alpha M_p, relative to C_p
 
 bool has_constant_excitation(const ForcingRatesSeries& f) {
   const auto still = [&](const std::vector<double>& rows) {

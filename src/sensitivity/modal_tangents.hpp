@@ -20,14 +20,15 @@
 
 namespace signorini::sensitivity {
 
-/// With more degrees of freedom, n^2 operations per row cost more than the series; chosen value.
+/// Limit for the degrees of freedom n: above it n^2 operations per row cost more than the series. Chosen
+/// value.
 inline constexpr Eigen::Index max_modal_tangent_dofs = 600;
 
 /// Motion and tangents of all parameters at one time.
 struct MotionAndTangents {
   SeriesPoint motion;
   Vector force_bends;                 ///< second derivatives of the contact forces
-  std::vector<SeriesPoint> tangents;  ///< one per parameter; empty vectors: not followed
+  std::vector<SeriesPoint> tangents;  ///< one per parameter; with empty vectors if it is not followed
 };
 
 class ModalStretch;
@@ -35,15 +36,16 @@ struct TangentCache;
 
 class ModalTangents {
  public:
-  /// Both arguments must outlive the object; for models that modes can follow (proportional_refusal). usual: most
-  /// frequent distance of requested times; data that depend on it alone are kept.
+  /// For models whose motion modes can follow (proportional_refusal). Model and derivatives must outlive the
+  /// object. usual: most frequent distance of requested times; data that depend on this distance alone are
+  /// kept.
   ModalTangents(const Model& model, const std::vector<const ModelDerivative*>& derivatives, double usual);
   ~ModalTangents();
   ModalTangents(const ModalTangents&) = delete;
   ModalTangents& operator=(const ModalTangents&) = delete;
 
-  /// Starts after a decision; modes, decision, forcing and the starts must live until the next one. False: modes cannot
-  /// follow this stretch.
+  /// Starts a stretch after a decision. Returns false if modes cannot follow it. Modes, decision, forcing and
+  /// the starts must live until the next stretch.
   [[nodiscard]] bool start(modal::ModalSystem& modes, const decide::Decision& decision,
                            const motion::Forcing& forcing, std::vector<TangentSource> sources);
   /// Values at t, not before the last t. whole: all degrees of freedom, with accelerations of tangents; otherwise only
@@ -61,9 +63,10 @@ class ModalTangents {
   std::unique_ptr<ModalStretch> stretch_;
 };
 
-// Data that modal_tangents.hpp keeps for recurring contact states.
+// Data that ModalTangents keeps for recurring contact states.
 //
-//   per state: B and G of every parameter (state_rates.hpp), displayed rows of its modes, data of the usual step
+//   per state: B and G of every parameter (state_rates.hpp), displayed rows of the state's modes,
+//              data of the usual step
 
 /// Limit of the storage; when it is exceeded, all states are dropped. Chosen value.
 inline constexpr std::size_t max_state_bytes = std::size_t{1} << 28;

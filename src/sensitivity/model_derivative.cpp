@@ -142,7 +142,7 @@ std::vector<double> sizes_of(ModelDerivative data) {
 
 namespace {
 
-constexpr double first_step = 1.0 / 512.0;  // relative to the size of the value
+constexpr double first_step = 1.0 / 512.0;  // h / size of the key
 constexpr double shorter = 1.0 / 16.0;
 constexpr int max_attempts = 3;
 // Relative agreement of both stencils; chosen value: fourth order leaves 1e-10 at the first step for data like 1/p or

@@ -28,11 +28,12 @@ struct Stencil {
   std::vector<double> weights, check;  ///< check: weights of lower order at the same points
 };
 
-/// Exact for linear and quadratic functions.
+/// Central difference, exact for linear and quadratic functions.
 [[nodiscard]] const Stencil& two_points();
-/// Sixth order, checked by fourth order.
+/// Central stencil of sixth order, checked by one of fourth order.
 [[nodiscard]] const Stencil& six_points();
-/// Fifth order, checked by fourth order; for the upper side; h is negative for the lower side.
+/// Stencil of fifth order with points on the upper side, checked by one of fourth order; on the lower side h
+/// < 0.
 [[nodiscard]] const Stencil& one_sided_points();
 
 /// Derivatives of a history's numbers, piece by piece. Empty: no change.
@@ -77,11 +78,13 @@ struct ModelDerivative {
   bool one_sided = false;
 };
 
-/// Gives a model without gravity a zero weight load, copied from one with gravity, as a place for its derivative.
+/// Copies the weight load of a model with gravity into one without, with value zero: a place for its
+/// derivative.
 void add_weight_load(const Model& from, Model& model);
 
-/// model: build_model(read({})), in the machine's units. Errors: SceneError and UsageError if the key cannot be varied,
-/// or if the data do not depend smoothly on it.
+/// Derivative by the key at `path`. model: build_model(read({})), in the machine's units; value, size: of the
+/// key. Errors: SceneError and UsageError if the key cannot be varied, or if the data do not depend smoothly
+/// on it.
 [[nodiscard]] ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path,
                                          double value, double size);
 
@@ -143,7 +146,8 @@ void visit_all(ModelDerivative& d, const Visit& visit) {
   for (double& v : d.v0) visit(v);
 }
 
-/// Zero entries may have no terms in some models: adds the terms of each model to all.
+/// Adds the terms of each model's combinations to those of all others, since some models have no terms for
+/// zeros.
 void align(const std::vector<ModelDerivative*>& all);
 /// The data themselves, in a ModelDerivative.
 [[nodiscard]] ModelDerivative data_of(const Model& model);
@@ -151,7 +155,8 @@ void align(const std::vector<ModelDerivative*>& all);
 [[nodiscard]] std::vector<long> shape_of(const Model& model);
 /// All numbers except the matrices; those of u0 and v0 are last.
 [[nodiscard]] std::vector<double> values_of(ModelDerivative& data);
-/// Magnitudes to which the rounding of each number is relative: itself, in a form its largest factor.
+/// Magnitude to which the rounding of each number is relative: its own, for a number of a form the form's
+/// largest.
 [[nodiscard]] std::vector<double> sizes_of(ModelDerivative data);
 
 }  // namespace signorini::sensitivity

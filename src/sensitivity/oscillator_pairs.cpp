@@ -12,8 +12,8 @@ namespace {
 constexpr double slow_square = 6.0, turning_square = 0.09;
 constexpr int max_time_terms = 64;    // l t^2 <= 1 and alpha t <= 4: 40 are sufficient
 constexpr int max_series_terms = 24;  // 6^24 / 48! = 4e-43
-constexpr double small_angle = 0.25;  // limit for the series of sin(x)/x with seven terms: 0.36^14/15! =
-                                      // 5e-19
+// Limit for the series of sin(x)/x with seven terms: 0.36^14/15! = 5e-19.
+constexpr double small_angle = 0.25;
 
 double sine_of(double a) { return std::sin(a); }
 double cosine_of(double a) { return std::cos(a); }

@@ -9,10 +9,11 @@
 
 namespace signorini::sensitivity {
 
-/// Errors: UsageError if the path leads to no number, or to several different ones.
+/// The number at a path of the scene. Errors: UsageError if there is no number, or if there are different
+/// ones.
 [[nodiscard]] double value_of(const Scene& scene, const std::string& path);
 
-/// Size for steps of a key that is zero: typical size of quantities with its unit in the model.
+/// Size for steps of a key whose value is zero: typical size in the model of quantities with the key's unit.
 [[nodiscard]] double typical_size(const SceneReader& read, const Scene& scene, const Model& model,
                                   const std::string& path);
 

@@ -1,7 +1,8 @@
 // rate_record.hpp: records events, rows and results of contacts with their derivatives, in the scene's units.
 //
-//   peak of q:   at an extreme q_p there, its time -(q'_p)/q'';   at an instant Dq, and the instant's own dt/dp
-//   rest:        value at the last output time
+//   peak of q:        at an extreme its derivative is q_p, and that of its time -(q'_p)/q''
+//                     at an instant these are Dq and dt/dp
+//   residual value:   the value at the last output time
 #pragma once
 
 #include <limits>
@@ -14,7 +15,7 @@ namespace signorini::sensitivity {
 
 class RateRecord final : public TangentListener, public run::ForwardingRecorder {
  public:
-  /// computed: in the machine's units. Both must outlive the object; recorder: may be null.
+  /// computed: in the machine's units; recorder: may be null. All arguments must outlive the object.
   RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,
              Sensitivities& result, bool losses);
 
@@ -27,7 +28,8 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
 
-  /// Adds peaks, rests, and with losses these and landings to the result, whose report must be known.
+  /// Adds peaks and residual values to the result, whose report must be set; if losses are followed, also
+  /// losses and landings.
   void finish();
 
  private:

@@ -9,8 +9,8 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr int max_corrections = 8;  // Newton iterations for an event time; three suffice unless a guard
-                                    // nearly grazes
+// Newton iterations for an event time; three suffice unless a guard nearly grazes.
+constexpr int max_corrections = 8;
 
 bool same_states(const contact::ContactStates& a, const contact::ContactStates& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),

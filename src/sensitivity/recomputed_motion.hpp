@@ -4,9 +4,10 @@
 //   t_k:   g(t_k) = 0 for the first such guard, by Newton's method starting from the engine's time
 //   then   the decision at t_k is repeated
 //
-// If the guard has no zero nearby, or the decided states differ from the engine's, the motion continues from the
-// engine's state (`taken`). So the sequence always is the engine's, and integration errors of the engine do not
-// accumulate in the derivatives; a chain of events would amplify such errors like changes of the parameter.
+// If the guard has no zero nearby, or the decided states differ from the engine's, the motion continues from
+// the engine's state (fallback_count). So the sequence of events always is the engine's. Integration errors
+// of the engine do not accumulate in the derivatives; a chain of events would amplify such errors like
+// changes of the parameter.
 #pragma once
 
 #include <functional>
@@ -31,28 +32,28 @@ class RecomputedMotion {
                    const RunSpec& run);
 
   void begin(const decide::Decision& start);
-  /// Begins a stretch now, with the engine's forcing.
+  /// Begins a stretch at t(), with the engine's forcing.
   void start(const motion::Forcing& forcing);
-  /// Decision of that stretch: without guards, since only the engine ends it.
+  /// Decision of the current stretch, without guards, since only the engine ends the stretch.
   [[nodiscard]] const decide::Decision& stretch() const { return stretch_; }
   [[nodiscard]] const motion::Forcing& forcing() const { return *forcing_; }
   [[nodiscard]] double t() const { return now_.jet.t; }
-  /// Modes of the model; null: modes cannot follow it.
+  /// Modes of the model; null if modes cannot follow its motion.
   [[nodiscard]] modal::ModalSystem* modes();
   [[nodiscard]] engine::Stepper& engine(bool in_modes);
   /// The motion at t, from a separate series.
   [[nodiscard]] SeriesPoint at(double t);
 
-  /// Time of the instant; nullopt: its guard does not reach zero there.
+  /// Time of the instant in the recomputed motion; nullopt if the guard does not reach zero nearby.
   [[nodiscard]] std::optional<double> time_of(const run::RunInstant& instant, const MotionAt& at) const;
-  /// The instant at t, with the motion u and v; the engine's own instant if its state is taken. It lives as long as
-  /// this object.
+  /// The instant at t, decided from the recomputed motion, or the engine's own instant if the decided states
+  /// differ. The result lives as long as this object.
   [[nodiscard]] run::RunInstant pass(const run::RunInstant& instant, double t, const SeriesPoint& before);
-  /// The engine's own instant, and its state.
+  /// Continues from the engine's state, and returns the engine's own instant.
   [[nodiscard]] run::RunInstant adopt_engine_state(const run::RunInstant& instant);
 
   [[nodiscard]] long fallback_count() const { return fallback_count_; }
-  /// Largest |t_k - the engine's time|.
+  /// Largest difference between t_k and the engine's time of an instant.
   [[nodiscard]] double correction() const { return correction_; }
 
  private:

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t most_bytes_of_modes = std::size_t{1}
                                             << 28;  // storage of modes; when it is exceeded, all are dropped.
                                                     // Chosen value.
-constexpr double longest_decay_at_once = 4.0;       // limit of alpha t in one step, as in
-                                                    // Oscillators::advance
+// Limit of alpha t in one step, as in Oscillators::advance.
+constexpr double longest_decay_at_once = 4.0;
 
 /// Matrices with many columns, one for displacements and one for their rates, in flat amplitudes.
 struct ModalBundle {

@@ -4,8 +4,8 @@
 //   w(t) = c w0 + s w0' + h f,   w'(t) = c' w0 + s' w0' + h' f      mode by mode, in closed form (oscillators.hpp)
 //   W = Phi X w,   w = Y Phi^T M W                                  W: n x columns
 //
-// Loads do not appear, because they act on all neighbouring motions alike. So for any excitation a stretch costs four
-// matrix products, independent of its length. Modes of a contact state are kept.
+// Loads do not appear, because they act equally on all neighbouring motions. So for any excitation a stretch
+// costs four matrix products, independent of its length. Modes of a contact state are kept.
 #pragma once
 
 #include <map>
@@ -18,7 +18,8 @@ namespace signorini::sensitivity {
 
 class StateFlow {
  public:
-  /// For a model with modes_uncouple(). The flow keeps a copy of the model; its loads and initial state are not used.
+  /// modes_uncouple(model) must be true. The flow keeps a copy of the model, whose loads and initial state
+  /// are not used.
   explicit StateFlow(const Model& model);
 
   /// True if all data that the flow depends on are equal: matrices, forms and stiffnesses of contacts.
@@ -33,8 +34,8 @@ class StateFlow {
   /// Rows are flat amplitudes: real modes, real and imaginary parts of pairs.
   struct Modes {
     std::shared_ptr<const modal::StateModes> state;
-    Eigen::MatrixXd in, out, seen, from_tangent;  ///< seen: rows of `out` at the degrees of freedom of
-                                                  ///< contacts
+    /// seen: rows of `out` at the degrees of freedom of contacts.
+    Eigen::MatrixXd in, out, seen, from_tangent;
     modal::Oscillators oscillators;
     bool accurate = false;
   };

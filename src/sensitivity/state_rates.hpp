@@ -71,6 +71,7 @@ inline void add_modes(const std::vector<modal::Complex>& x, modal::Amplitudes& a
 template <class S>
 using Square = std::vector<S>;  // rows of N numbers
 
+/// out += factor a b^T
 template <class S>
 void add_outer(const std::vector<S>& a, const std::vector<S>& b, double factor, Square<S>& out) {
   if (factor == 0.0) return;
@@ -93,18 +94,19 @@ S inner(const S* x, const S* y, std::size_t n) {
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
+/// out += factor b x
 template <class S>
 void add_product(const Square<S>& b, const std::vector<S>& x, double factor, std::vector<S>& out) {
   const std::size_t n = x.size();
   for (std::size_t k = 0; k < n; ++k) out[k] += inner(b.data() + k * n, x.data(), n) * factor;
 }
 
-/// Derivatives of one parameter in open modes; empty: none.
+/// Derivatives of the matrices by one parameter in open modes; empty if a matrix does not change.
 struct OpenRates {
-  Eigen::MatrixXd mass, damping, stiffness;  ///< drag: C_p - alpha M_p
+  Eigen::MatrixXd mass, damping, stiffness;  ///< damping: C_p - alpha M_p
 };
 
-/// Derivatives of a state that do not depend on the stretch.
+/// B and G of one parameter in a contact state, the same for all stretches.
 template <class S>
 struct ParameterModes {
   Square<S> b, g;  ///< g: empty if it is zero
@@ -130,7 +132,7 @@ class StateRates {
   /// All arguments must outlive the object; l: eigenvalues of the listed modes.
   StateRates(const StateAt& at, const std::vector<S>& l) : at_(at), spectrum_(at.state.spectrum), l_(l) {}
 
-  /// Rows: the given degrees of freedom; columns: flat modes (flat_modes).
+  /// Mode shapes at the given degrees of freedom (rows); columns: flat modes (flat_modes).
   [[nodiscard]] modal::RowMatrix shown(const std::vector<Eigen::Index>& dofs) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
     modal::RowMatrix out(static_cast<Eigen::Index>(dofs.size()),
@@ -168,7 +170,7 @@ class StateRates {
     return q;
   }
 
-  /// Column k of X as real part and, for pairs, imaginary part, of a mode or its conjugate.
+  /// Column k of X, that of a mode or a conjugate: its real part and, for pairs, its imaginary part.
   [[nodiscard]] std::vector<Vector> shape(std::size_t k) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
     modal::Amplitudes unit = spectrum_.zero();

@@ -58,7 +58,8 @@ namespace {
 // Relative difference up to which two derivatives count as equal: far above rounding, far below actual differences.
 // Chosen value; tests of symmetric frames in tests/unit/sensitivity depend on it.
 constexpr double same = 1e-7;
-constexpr double same_motion = 1e-9;  // relative, for accelerations or velocities that do not jump
+// Relative difference up to which velocities and accelerations do not jump.
+constexpr double same_motion = 1e-9;
 // A guard must reach zero with g'^2 > 2 n |g''| n_g, otherwise its time is not a smooth function: n roundings n_g.
 constexpr double grazes = 1e3;
 
@@ -133,7 +134,7 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
                                  [&](const decide::TriggeredGuard& f) { return f.contact == c; });
   const double value = crossing.form.value(course.m.motion_before[c]);
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
-  if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // pushed by another
+  if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // changed by another
   const double rate =
       fired ? crossing.derivatives[0]
             : crossing.form.parameter_derivative(course.m.motion_before[c], course.m.rate_before[c]);
@@ -260,7 +261,8 @@ bool TangentEvents::vanishes(double rate, double terms, double scale) const {
   return std::abs(rate) <= 10.0 * same * terms + same_motion * scale / size_;
 }
 
-/// Constraints of the contact states must also hold for other values of the parameter; otherwise the derivative is only one-sided.
+/// Checks that the constraints of the contact states also hold for other values of the parameter; otherwise
+/// the derivative is only one-sided.
 void TangentEvents::check_resting_guards(PassState& course) const {
   const InstantMotion& m = course.m;
   const TangentAfter& after = course.after;

@@ -4,13 +4,13 @@
 //   w+ = w- + (u'- - u'+) dt/dp,   w'+ = Dv+ - u''+ dt/dp
 //   p_p = D(ut - T/kt)                    for a new anchor
 //
-// There is no derivative if those from both sides of p differ: two guards that reach zero at one instant and separate
-// when the parameter changes, a guard that grazes, or a guard that is zero afterwards and would be reached for other
-// values.
+// There is no derivative if the one-sided derivatives differ. This is so if two guards reach zero at one
+// instant and separate when the parameter changes, or if a guard grazes. It is also so if a guard is zero
+// afterwards and would be reached for other values of the parameter.
 //
-// For a guard that grazes, dt/dp is unbounded. If the motion is equally smooth before and after it, u'- = u'+ and
-// u''- = u''+, and no new anchor depends on the time, w does not depend on dt/dp: derivatives of states alone (orbits)
-// can cross such a graze with dt/dp = 0.
+// For a guard that grazes, dt/dp is unbounded. But if u'- = u'+ and u''- = u''+, and no new anchor depends on
+// the time, then w does not depend on dt/dp. Derivatives of states alone (orbits) can cross such a graze with
+// dt/dp = 0.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,8 @@ namespace signorini::sensitivity {
 //   n . Dv+ + n_p . v+ = -e (n . Dv- + n_p . v-) - e_p min(vn-, 0)       e = 0 if the contact comes to rest
 //   sticks: t . Dv+ + t_p . v+ = Ds',      slides along s: DPt + s f DPn = -s f_p Pn
 //
-// D: along the moving instant. Touching contacts without impulse are not included, since they have none to first order.
+// D: along the moving instant. Touching contacts without impulse are left out: to first order their impulse
+// stays zero.
 
 struct ImpactRates {
   bool known = false;
@@ -37,7 +38,8 @@ struct ImpactRates {
   std::vector<double> normal, tangent;  ///< DPn, DPt, one per contact
 };
 
-/// v, Dv: just before. surface: Ds' of every contact. states: before the impact.
+/// Derivatives of one impact. v_before, Dv_before: just before it; states: before it; surface: Ds' of every
+/// contact.
 [[nodiscard]] ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& derivative,
                                        contact::ContactStates states, const decide::Decision& after,
                                        const Vector& v_before, const Vector& Dv_before,
@@ -51,13 +53,14 @@ struct InstantMotion {
   std::vector<ContactMotion> motion_before, rate_before, motion_after, rate_after;  ///< one per contact
 };
 
-/// The same data for one parameter.
+/// Tangent of one parameter just before an instant.
 struct TangentBefore {
   Tangent start;  ///< with the anchors before
   SeriesPoint point;
   std::vector<DrivenRates> driven;
 };
 
+/// Tangent of one parameter just after an instant.
 struct TangentAfter {
   Tangent start;
   SeriesPoint point;
@@ -65,8 +68,8 @@ struct TangentAfter {
   double dt = 0.0;                           ///< dt/dp of the instant
   std::vector<EventRates> rates;             ///< one per contact, machine units
   std::vector<double> impulse_n, impulse_t;  ///< derivatives, one per contact; empty: no impact
-  std::string reason;                        ///< not empty: reason why there is no derivative after the
-                                             ///< instant
+  /// Reason why there is no derivative after the instant; empty: there is one.
+  std::string reason;
 };
 
 class TangentEvents {
@@ -82,7 +85,7 @@ class TangentEvents {
 
   [[nodiscard]] TangentAfter pass(const InstantMotion& motion, const TangentBefore& before,
                                   TangentSeries& series) const;
-  /// Also crosses grazes without jumps; the times of their events have no derivative.
+  /// From this call on grazes without jumps are crossed; the times of their events have no derivative.
   void cross_smooth_grazes() { crosses_grazes_ = true; }
 
  private:

@@ -10,8 +10,8 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr Eigen::Index min_modal = 16;  // same reason as in run/choose_engine.hpp: below, the series is as
-                                        // fast
+// Fewer unknowns use the series, which is as fast there (run/choose_engine.hpp).
+constexpr Eigen::Index min_modal = 16;
 constexpr int max_turn_steps = 6;
 constexpr std::size_t forcing_terms = 6;  // for a constant, all but the first are zero
 
@@ -245,7 +245,7 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const r
   return at;
 }
 
-/// Places at which a quantity turns beyond all its earlier values.
+/// Places in a step at which a quantity has a local extreme that exceeds all its earlier values.
 std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
   std::vector<double> turns;
   for (const double t : step.facts.turning_points) {

@@ -1,4 +1,5 @@
-// tangent_run.hpp: tangent motions of several parameters, computed beside a run.
+// tangent_run.hpp: tangent motions of several parameters, computed beside a run, and derivatives of contact
+// phases.
 //
 //   begin:    w = u0_p, w' = v0_p, anchors from the start
 //   step:     every tangent in the modes of the stretch (modal_tangents.hpp), or over the step's series
@@ -29,11 +30,12 @@ class TangentRun final : public run::RunListener {
   /// model, run: in the machine's units. All arguments except sizes must outlive the object.
   TangentRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
              const std::vector<double>& sizes, TangentListener& listener, bool losses = false);
-  /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` has are crossed in closed
-  /// form, for any excitation. Rows are then not reported, instants are. `flow` must outlive this object.
+  /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` has are crossed in
+  /// closed form, for any excitation. The listener then receives instants, and no rows. `flow` must outlive
+  /// this object.
   void use_state_flow(StateFlow& flow) { flow_ = &flow; }
-  /// For an observer that forwards to another one: the modal data that the engine shares with it. Must outlive this
-  /// object.
+  /// Sets the modal data that the engine shares with an outer listener, which forwards to this one. `share`
+  /// must outlive this object.
   void use_shared_modes(const modal::SharedModalData& share) { share_ = &share; }
   /// For derivatives of states alone: crosses grazing events without jumps (tangent_event.hpp).
   void cross_smooth_grazes() {
@@ -51,7 +53,7 @@ class TangentRun final : public run::RunListener {
   [[nodiscard]] Stretches stretches() const;
 
  private:
-  /// Method for the stretch after an instant; the last two once its end is known.
+  /// Method for the stretch after an instant; recomputed_... and closed_form are used once the end is known.
   enum class StretchMethod { unknown, series, modes, recomputed_series, recomputed_modes, closed_form };
   [[nodiscard]] StretchMethod choose_stretch_method(const run::RunStep& step);
   [[nodiscard]] bool starts_in_modes(const run::RunStep& step);
@@ -96,7 +98,7 @@ class TangentRun final : public run::RunListener {
   StateFlow* flow_ = nullptr;
   contact::ContactStates crossed_;  ///< contact states of the stretch that flow_ crosses
   double begin_ = 0.0;              ///< beginning of the stretch
-  bool closed_form_flow_;           ///< EngineCapabilities::closed_flow of the run's engine
+  bool closed_form_flow_;           ///< EngineCapabilities::closed_form_flow of the run's engine
 };
 
 // Derivatives of contact phases (run/touch_tracker.hpp) by the parameters.
@@ -119,7 +121,7 @@ class LandingRecord {
  private:
   struct ContactPhase {
     MovingLanding landing;
-    std::vector<double> from;  ///< W_p at its beginning, one per parameter
+    std::vector<double> from;  ///< W_p at the beginning of the phase, one per parameter
   };
   void begin(std::size_t contact, const std::vector<double>& start, const std::vector<TangentState>& states);
   void update_peak(std::size_t contact, double force, const std::vector<double>& rates);

@@ -5,9 +5,10 @@
 //   row . (motion of the contact)_p,k = - row_p . (motion of the contact)_k          rows of the contact states
 //   wv_k = (k+1)/s w_(k+1),   wa_k = (k+1)(k+2)/s^2 w_(k+2)
 //
-// This is the recurrence of the motion (motion/taylor.hpp), differentiated: each level is one solve with the
-// factors of the contact states. Levels beyond those of the motion have no source, since the motion's omitted terms are below its rounding.
-// The motion may be slow where its tangent is not, so the tangent has its own convergence criterion.
+// This is the derivative of the motion's recurrence (motion/taylor.hpp): each level is one solve with the
+// factors of the contact states. Levels beyond those of the motion have no right-hand side, since the omitted
+// terms of the motion are below its rounding. The motion may be slow where its tangent is fast, so the
+// tangent has its own convergence criterion.
 #pragma once
 
 #include "contact/friction.hpp"
@@ -28,9 +29,11 @@ struct Tangent {
 struct SeriesPoint {
   Vector u, v, a, forces, force_rates;
 };
+/// All quantities at position x of a series with these coefficients of u and of the forces.
 [[nodiscard]] SeriesPoint point_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, double scale,
                                    std::size_t degree, double x);
-/// Same at several positions; only these degrees of freedom of u and a are computed, the others are zero.
+/// point_at() for several positions; only these degrees of freedom of u, v and a are computed, the others are
+/// zero.
 [[nodiscard]] std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces,
                                                  double scale, std::size_t degree,
                                                  const std::vector<double>& x,
@@ -46,19 +49,21 @@ class TangentSeries {
   /// Largest number of levels. A step of six radians leaves 6^40/40! = 2e-17.
   static constexpr int max_tangent_levels = 40;
 
-  /// All arguments except size must outlive the object; size: size of the parameter. A change below eps of a scale's
-  /// displacement for a change of the parameter by its size is zero.
+  /// All arguments except size must outlive the object. size: size of the parameter. If a change of the
+  /// parameter by its size moves the structure by less than eps of the displacement scale, the tangent counts
+  /// as zero.
   TangentSeries(const Model& model, const linear::SystemMatrices& structure,
                 const ModelDerivative& derivative, double size);
 
-  /// Computes the levels needed to reach x, at least `levels` or those of the motion; false: it does not converge
-  /// there.
+  /// Computes the levels needed to reach x, at least `levels` or those of the motion. Returns false if the
+  /// series does not converge at x.
   [[nodiscard]] bool expand(const motion::StateSystem& system, const motion::Series& motion,
                             const ForcingRates& forcing, const Tangent& start, double x, int levels);
   /// Computes exactly `levels` levels.
   void expand_to(const motion::StateSystem& system, const motion::Series& motion, const ForcingRates& forcing,
                  const Tangent& start, int levels);
 
+  /// point_at() of this series.
   [[nodiscard]] SeriesPoint at(double x) const;
   /// points_at() of this series.
   [[nodiscard]] std::vector<SeriesPoint> at(const std::vector<double>& x,

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int max_halvings = 30;
 constexpr int min_tangent_levels = 12;
-constexpr double bolder = 1.5;   // relative to the last part that converged
+constexpr double bolder = 1.5;   // length of the next part / last part that converged
 constexpr int turn_places = 24;  // per step of six radians: a quarter radian each
 // A product of two motions oscillates twice as fast: a step of six radians needs two sets of ten Gauss points, with a
 // relative error of 6^21 (10!)^4 / (21 (20!)^3) = 1e-14.

@@ -1,4 +1,5 @@
-// tangent_state.hpp: state of one parameter's tangent during a run, and listener interface.
+// tangent_state.hpp: state of one parameter's tangent during a run, its advance along series, and listener
+// interface.
 //
 //   TangentState    one parameter: its data, the state just before the next instant, works and losses
 //   TangentSample   the motion and all tangents at one time between events
@@ -19,7 +20,7 @@ struct TangentSample {
   const contact::ContactStates& contact_states;
   SeriesPoint point;
   Vector force_bends;                            ///< second derivatives of the contact forces
-  std::vector<SeriesPoint> tangents;             ///< one per parameter; empty vectors: it no longer exists
+  std::vector<SeriesPoint> tangents;             ///< one per parameter; empty vectors if it no longer exists
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
   std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
   std::vector<WorkRates> works = {};             ///< one per parameter; empty: not followed
@@ -37,10 +38,10 @@ struct TangentState {
   TangentBefore now;                    ///< state just before the next instant
   std::optional<ForcingRates> forcing;  ///< forcing of the current segment
   double reach = 0.0;                   ///< time over which its series converged last; 0: unknown
-  double error = 0.0;  ///< of all stretches so far, relative (TangentSeries::error); for derivatives of
-                       ///< states alone
+  /// Error of all stretches so far, relative (TangentSeries::error); only for derivatives of states alone.
+  double error = 0.0;
   bool valid = true;
-  double valid_until = 0.0;  ///< time from which it does not exist
+  double valid_until = 0.0;  ///< if not valid: time from which the tangent does not exist
   std::string reason;
   std::vector<EventRates> rates;  ///< rates at the last instant, one per contact
   double dt = 0.0;                ///< dt/dp of the last instant
@@ -82,7 +83,7 @@ struct RequestedPlace {
 
 class SeriesTangents {
  public:
-  /// model, systems: must outlive the object.
+  /// Model and systems must outlive the object.
   SeriesTangents(const Model& model, motion::StateSystems& systems,
                  const std::vector<const ModelDerivative*>& data, bool losses);
 

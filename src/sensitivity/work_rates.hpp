@@ -18,6 +18,7 @@
 
 namespace signorini::sensitivity {
 
+/// Derivatives of works and losses by one parameter.
 struct WorkRates {
   motion::WorkIntegrals works;
   double impact = 0.0;
@@ -53,7 +54,7 @@ class WorkTangent {
   [[nodiscard]] WorkRates& now() { return now_; }
   /// Adds factor times the derivatives of all powers.
   void add(const TangentPlace& place, double factor);
-  /// Adds dt times the powers themselves; each contact has its own dt.
+  /// Adds dt times the powers; for the powers of a contact dt_of has the time.
   void shift(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
              const SeriesPoint& motion, const std::vector<ContactMotion>& m, double dt,
              const std::vector<double>& dt_of);
@@ -72,7 +73,7 @@ class WorkTangent {
 /// kn_p and cn_p, from the rows of a closed contact.
 [[nodiscard]] double stiffness_rate(const ContactRates& rates);
 [[nodiscard]] double damping_rate(const ContactRates& rates);
-/// The derivative of ut - T/kt.
+/// Derivative of the sliding point's position ut - T/kt.
 [[nodiscard]] double slip_derivative(const Contact& contact, const ContactRates& rates,
                                      const ContactMotion& m, const ContactMotion& D);
 
@@ -83,14 +84,14 @@ class WorkTangent {
 //   parts without mass, which respond immediately (run/audit.hpp):
 //   friction   L = T+ (slip+ - slip-)               at a jump of a load; L = released energy at a drop of friction;
 //                                                   several contacts: each its own and an equal part of the rest
-//   loads      W += sum of L - released energy      at a jump of a load, else W += P . (u+ - u-),
-//                                                   which is released, too
+//   loads      W += sum of L - released energy      at a jump of a load
+//              W += P . (u+ - u-)                   otherwise; this energy is also released
 //
-// DL: along the moving instant, like everything at it.
+// DL and all other derivatives are along the moving instant.
 
 class LossRates {
  public:
-  /// All arguments must outlive the object. massless: moves_at_once(model).
+  /// All arguments must outlive the object. massless: run::has_instantaneous_parts(model).
   LossRates(const Model& model, const ModelDerivative& derivative, bool massless)
       : model_(model), derivative_(derivative), massless_(massless) {}
 

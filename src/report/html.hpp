@@ -22,9 +22,10 @@ namespace signorini::report {
 /// A number with this number of digits, "1.2e-08"; other texts unchanged.
 [[nodiscard]] std::string short_number(const std::string& cell, int digits = 6);
 
-/// Table of a CSV file: numbers with six digits, times (t) with eleven. `columns`: selected by name; empty: all. Rows
-/// after the first `most` are omitted, with a note. Values of rounding size relative to their column are 0. `units`:
-/// units of columns, for the header. Empty if there is no such file. Errors: FileError.
+/// HTML table of a CSV file: numbers with six digits, times (t) with eleven. columns: names of the columns
+/// shown; empty: all. Rows after the first `most` are omitted, with a note. Values of rounding size relative
+/// to their column are 0. units: units of columns, for the header. Returns an empty text if the file is
+/// missing. Errors: FileError.
 [[nodiscard]] std::string csv_table(const std::filesystem::path& file, std::size_t most,
                                     const std::vector<std::string>& columns = {},
                                     const std::map<std::string, std::string>& units = {});
@@ -32,10 +33,11 @@ namespace signorini::report {
 /// "<section id=...><h2>...</h2>...</section>"; empty for an empty body.
 [[nodiscard]] std::string section(const std::string& id, const std::string& heading, const std::string& body);
 
-/// @NAME@ in the text of a page, replaced once; inserted text is not searched again.
+/// Replacement of @NAME@ in the text of a page. Inserted text is not searched again.
 struct Insertion {
   std::string name, value;
 };
+/// The page with all insertions.
 [[nodiscard]] std::string fill_template(std::string_view page, const std::vector<Insertion>& values);
 
 }  // namespace signorini::report

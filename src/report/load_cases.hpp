@@ -1,8 +1,9 @@
 // load_cases.hpp: loads from summary.json as figures: tables for one run, or several runs side by side.
 //
-//   contacts[].static_reaction, .load    N at rest; least and largest N and T with their times; residual slip;
-//                                        friction loss
-//   response[]                           least and largest value with time, and the place of an envelope; final value
+//   contacts[].static_reaction, .load    N at rest; least and largest N and T with their times;
+//                                        residual slip; friction loss
+//   response[]                           least and largest value with time, and the place of an
+//                                        envelope; final value
 //
 // Signs are those of the summary: N < 0 is compression, so the least N is the largest compression. A number of rounding
 // size relative to the largest of its kind in its run is shown as 0.
@@ -35,9 +36,10 @@ struct LoadCase {
 /// Warnings: cases that did not reach their end, and cases with different structures.
 [[nodiscard]] std::vector<std::string> load_case_warnings(const std::vector<LoadCase>& cases);
 
-/// item,quantity,unit,CASE,CASE t,...,governing: one row per figure; a cell is empty if the case has no such item.
+/// Table item,quantity,unit,CASE,CASE t,...,governing: one row per figure; a cell is empty if the case has no
+/// such item.
 [[nodiscard]] std::string load_cases_csv(const std::vector<LoadCase>& cases);
-/// Sections: cases, support loads, responses, member envelopes.
+/// Sections of the page: cases, support loads, responses, member envelopes.
 [[nodiscard]] std::string load_cases_html(const std::vector<LoadCase>& cases);
 
 }  // namespace signorini::report

@@ -1,12 +1,12 @@
 // page.hpp: a directory of results as one self-contained HTML page.
 //
-//   write_file(dir / "report.html", page_of(dir, check))
+//   write_file(dir / "report.html", run_page(dir, scene, check))
 //
-// Everything is read from the directory: for a run all tables, with an animation; for a comparison, study, sweep or
-// verification its tables, facts and pictures. The texts, style and script of the page are in src/report/page. It uses
-// no library: the animation is one SVG of a few dozen shapes, charts are lines on a canvas, and motion, charts and
-// events share one cursor. That is 300 lines of script; a chart library would add 50 KB and its own cursor, to be
-// connected to the player.
+// Everything is read from the directory: for a run all tables, with an animation; for a comparison, study,
+// sweep or verification its tables, facts and pictures. The texts, style and script of the page are in
+// src/report/page. The page uses no library: the animation is one SVG of a few dozen shapes, charts are lines
+// on a canvas, and motion, charts and events share one cursor. This takes 300 lines of script; a chart
+// library would add 50 KB and a second cursor.
 #pragma once
 
 #include <filesystem>

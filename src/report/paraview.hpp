@@ -3,14 +3,15 @@
 //   DIR/paraview/run.pvd          the frames with their real times
 //   DIR/paraview/frame-0001.vtu   one per time, ASCII:
 //
-//   points      undeformed; `displacement` moves them (Warp By Vector), `force` is the force on the structure at
-//               the point
+//   points      undeformed; `displacement` moves them (Warp By Vector)
+//               `force`: force on the structure at the point
 //   cells       members as polylines of ten parts, springs as lines; nodes, contacts and loads as vertices
-//   cell data   kind: 0 beam, 1 bar, 2 spring, 3 node, 4 contact, 5 load, 6 rigid body; state: 0 stick, 1 slip+, 2 slip-, 3 closed, 4 open,
-//               -1 if there is none; item: number of the contact or load, from 0
+//   cell data   kind: 0 beam, 1 bar, 2 spring, 3 node, 4 contact, 5 load, 6 rigid body
+//               state: 0 stick, 1 slip+, 2 slip-, 3 closed, 4 open, -1 none
+//               item: number of the contact or load, from 0
 //
-// Displacements and forces are those of the page (run_data.hpp): six digits, members cubic between named nodes. The force of a
-// contact is -N n - T t, in the scene's units.
+// Displacements and forces are those of the page (run_data.hpp): six digits, members cubic between named
+// nodes. The force of a contact is -N n - T t, in the scene's units.
 #pragma once
 
 #include <filesystem>
@@ -30,13 +31,13 @@ namespace signorini::report {
 //   vtk_grid(points, cells, point_data + cell_data)           the text of a .vtu file
 //   VtkSeries series(folder, "frame");  series.add(t, text);  return series.finish("run.pvd");
 
-/// values: numbers separated by blanks or line ends.
+/// Text of a data array. values: numbers separated by blanks or line ends.
 [[nodiscard]] std::string vtk_array(std::string_view type, std::string_view name, const std::string& values,
                                     int components = 1);
 
 class VtkCells {
  public:
-  /// type: VTK's cell type; corners: indices of points.
+  /// Adds a cell. type: VTK's cell type; corners: indices of points.
   void add(int type, const std::vector<std::size_t>& corners);
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::string text() const;
@@ -46,7 +47,7 @@ class VtkCells {
   std::size_t count_ = 0, end_ = 0;
 };
 
-/// points: three coordinates per point.
+/// Text of a .vtu file. points: three coordinates per point.
 [[nodiscard]] std::string vtk_grid(const std::string& points, std::size_t point_count, const VtkCells& cells,
                                    const std::string& data);
 
@@ -70,16 +71,17 @@ class VtkSeries {
 //   DIR/paraview/bodies.pvd        the frames with their times
 //   DIR/paraview/body-0001.vtu     one per time, ASCII:
 //
-//   points      undeformed nodes of all bodies; `displacement` moves them (Warp By Vector); `stress`: xx, yy, xy; `mises`;
+//   points      undeformed nodes of all bodies; `displacement` moves them (Warp By Vector)
+//               `stress`: xx, yy, xy; `mises`
 //               `traction`: force per area of a seam on its slave, -p n - tau t at its nodes, zero elsewhere
 //   cells       triangles and quadrilaterals, linear or quadratic; one vertex per node of a seam
-//   cell data   body: from 0, -1 for vertices; seam: from 0, -1 for elements; state, as in paraview.hpp;
-//               pressure, opening
+//   cell data   body: from 0, -1 for vertices; seam: from 0, -1 for elements
+//               state, as above; pressure, opening
 //
 // Data: frame_bodies.csv and frame_seams.csv (result/body_frames.hpp) on the mesh of the scene.
 
-/// Adds frames to the folder of write_paraview(), and returns bodies.pvd; nullopt if the run has no such frames.
-/// Errors: FileError.
+/// Adds frames to the folder of write_paraview(), and returns the path of bodies.pvd; nullopt if the run has
+/// no such frames. Errors: FileError.
 std::optional<std::filesystem::path> write_paraview_bodies(const std::filesystem::path& directory,
                                                            const Scene& scene);
 
@@ -89,7 +91,8 @@ std::optional<std::filesystem::path> write_paraview_bodies(const std::filesystem
 /// The text of a frame. `data`: run_data().
 [[nodiscard]] std::string vtu_frame(const base::Json& data, double t);
 
-/// Replaces the folder, and returns run.pvd. Errors: FileError.
+/// Writes frames at these times into the folder, which is replaced; returns the path of run.pvd. Errors:
+/// FileError.
 std::filesystem::path write_paraview(const std::filesystem::path& directory, const base::Json& data,
                                      const std::vector<double>& times);
 

@@ -1,8 +1,9 @@
 // svg_figures.hpp: gnuplot's pictures as parts of a page.
 //
-// A page contains a picture as <img src="data:image/svg+xml,...">: its content is drawn but never executed, and its
-// names cannot collide with others. gnuplot writes paths as absolute points with a resolution of 0.01 pixel; compress_svg()
-// converts them to relative steps of 0.1 pixel, which is invisible at this size, and drops coinciding points:
+// A page contains a picture as <img src="data:image/svg+xml,...">: its content is drawn but never executed,
+// and its names cannot collide with others. gnuplot writes paths as absolute points with a resolution of 0.01
+// pixel. compress_svg() converts them to relative steps of 0.1 pixel, whose error is invisible at this size,
+// and drops coinciding points:
 //
 //   d='M112.00,61.99 L115.21,60.02 L115.22,60.03'     d='M112 62l3.2-2'
 #pragma once
@@ -12,6 +13,7 @@
 
 namespace signorini::report {
 
+/// The picture with shorter paths.
 [[nodiscard]] std::string compress_svg(const std::string& svg);
 
 /// <figure> with the picture; `caption` is text. Errors: FileError.

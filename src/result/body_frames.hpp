@@ -1,4 +1,5 @@
-// body_frames.hpp: stresses of bodies and tractions of seams at chosen times (docs/output.md).
+// body_frames.hpp: stresses of bodies and tractions of seams at chosen times, and motions of meshes
+// (docs/output.md).
 //
 //   frame_bodies.csv  t,body,node,x,y,ux,uy,xx,yy,xy,mises                          all nodes of all bodies
 //   frame_seams.csv   t,seam,contact,node,s,x,y,pressure,shear,opening,slip,state   along the arc of each seam
@@ -6,8 +7,9 @@
 //   sigma = D (B (u + beta v) - alpha T e) at the nodes (model/element/nodal_stress.hpp)
 //   pressure = -N_k / (D_k t),   shear = T_k / (D_k t),   s_k = s_(k-1) + |x_k - x_(k-1)|
 //
-// Positions are undeformed; stresses and pressures: force/length^2, tension and compression positive. D_k t: the
-// tributary area of a seam's node. opening: the gap. The files are created with the first frame. Errors: FileError.
+// Positions are undeformed. Stresses are positive in tension, pressures in compression; unit: force/length^2.
+// D_k t: the tributary area of a seam's node. opening: the gap. The files are created with the first frame.
+// Errors: FileError.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -30,6 +32,7 @@ struct BodyFrameRow {
   Eigen::Vector3d stress;
   double mises = 0.0;
 };
+/// Columns of frame_bodies.csv.
 [[nodiscard]] const CsvTable<BodyFrameRow>& body_frame_table();
 
 struct SeamFrameRow {
@@ -40,6 +43,7 @@ struct SeamFrameRow {
   double s = 0.0, area = 0.0;
   const ContactSample& sample;
 };
+/// Columns of frame_seams.csv.
 [[nodiscard]] const CsvTable<SeamFrameRow>& seam_frame_table();
 
 /// Rows for the nodes of a seam at an instant, in their order.
@@ -64,21 +68,20 @@ class BodyFrameWriter {
   std::optional<TableFile<SeamFrameRow>> seams_;
 };
 
-// Body_motion.csv, motions of the meshes of bodies, for the page (docs/output.md).
-//
-//   t, NODE.ux, NODE.uy, ...     every k-th output time, the first and the last; drawn nodes only
-//                                (scene/outlines.hpp)
-//
-// k is the smallest value for which the table has at most most_values numbers, but it has at least min_times rows if
-// there are as many output times. Numbers have six digits.
-
+/// Writes body_motion.csv, the motions of the meshes of bodies, for the page (docs/output.md).
+///
+///   t, NODE.ux, NODE.uy, ...     every k-th output time, the first and the last
+///
+/// Nodes are the drawn ones only (scene/outlines.hpp). k is the smallest value for which the table has at
+/// most max_values numbers; but it has at least min_times rows if there are as many output times. Numbers
+/// have six digits.
 class BodyMotionFile {
  public:
   static constexpr std::size_t max_values = 400'000, min_times = 25, max_times = 250;
 
   /// Stores nothing for a scene without bodies.
   BodyMotionFile(const Scene& scene, const Model& model);
-  /// To be called at every output time.
+  /// Stores a row; to be called at every output time.
   void add(const Sample& sample);
   /// Writes no file if nothing was stored. Errors: FileError.
   void write(const std::filesystem::path& directory) const;

@@ -1,9 +1,10 @@
 // certificate_files.hpp: additional files of a certified run (docs/output.md).
 //
 //   events.csv   two additional columns, t_error and certain
-//   errors.csv   the header of history.csv, bounds as values
+//   errors.csv   the columns of history.csv, with error bounds as values
 //
-// events.csv is complete at any time: first without these columns, and with them once they are known.
+// events.csv is complete at any time: first without the additional columns, and with them once they are
+// known.
 #pragma once
 
 #include <array>
@@ -26,18 +27,18 @@ inline constexpr std::array certificate_columns = {
     CertificateColumn{"certain", "", "1: this event and all before it are those of the exact motion; else 0"},
 };
 
-/// Errors: FileError.
+/// Adds the columns to events.csv, and writes errors.csv. Errors: FileError.
 void write_certificate(const std::filesystem::path& directory, const Model& model,
                        const Certificate& certificate);
 
 // The certificate in summary.json (docs/output.md).
 
-/// `certified`; null if there is no certificate.
+/// Value of the key `certified`; null if there is no certificate.
 [[nodiscard]] base::Json certificate_json(const CertifiedReport& run);
 
 /// Error bounds of the peaks of contact k; null if unknown.
 [[nodiscard]] base::Json peak_errors_json(const CertifiedReport& run, std::size_t k);
-/// Error bounds of one of its landings; null if unknown.
+/// Error bounds of one landing of contact k; null if unknown.
 [[nodiscard]] base::Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing);
 
 }  // namespace signorini::result

@@ -1,4 +1,4 @@
-// csv.hpp: a CSV file that is valid at every moment.
+// csv.hpp: writes CSV files that are valid at every moment, and reads them.
 //
 //   one header row, commas, no comments; numbers as shortest() writes them
 //
@@ -44,7 +44,7 @@ class CsvBlock {
   bool row_begun_ = false;
 };
 
-/// The file. Errors of all members: FileError.
+/// A CSV file that is written in blocks. Errors of all members: FileError.
 class CsvFile {
  public:
   explicit CsvFile(const std::filesystem::path& path);
@@ -62,7 +62,8 @@ class CsvFile {
   std::uintmax_t good_ = 0;  // number of bytes known to be written
 };
 
-/// Writes a text file through a temporary neighbour and a rename: readers see the old or the new file, never a part.
+/// Writes a text file to a temporary file beside it and renames that: readers see the old or the new file,
+/// never a part.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 // Reads the tables of a run, for the pictures.
@@ -78,7 +79,7 @@ void write_file(const std::filesystem::path& path, const std::string& text);
 /// Treatment of a last line without its line break.
 enum class LastLine { cut, counts };
 
-/// Errors of all members: FileError; errors in rows have their line.
+/// Reads a CSV file row by row. Errors of all members: FileError; an error in a row names its line.
 class CsvReader {
  public:
   /// Opens the file and reads its header.
@@ -93,9 +94,9 @@ class CsvReader {
 
   /// Moves to the next row; false at the end. Refuses a row whose number of cells differs from the header.
   bool next();
-  /// Same for a row of any length.
+  /// Same as next(), but accepts a row of any length.
   bool next_of_any_length();
-  /// Error message for the row's length; empty: the length is right.
+  /// Error message if the row's number of cells differs from the header; otherwise empty.
   [[nodiscard]] std::string row_length_error() const;
   [[nodiscard]] const std::string& cell(std::size_t index) const { return cells_[index]; }
   [[nodiscard]] double number(std::size_t index) const;

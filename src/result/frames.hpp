@@ -1,4 +1,5 @@
-// frames.hpp: deformed shapes and contact forces at chosen times (docs/output.md).
+// frames.hpp: writes deformed shapes and contact forces at chosen times (docs/output.md), and reads them for
+// pictures.
 //
 //   frames.csv          t,kind,element,node,x,y,ux,uy,rz
 //   frame_contacts.csv  t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T
@@ -22,8 +23,8 @@
 
 namespace signorini::result {
 
-// Displacement of the nodes of a scene: by a degree of freedom, a support, or none.
-
+/// Displacements of the nodes of a scene, each given by a degree of freedom or by the motion of a support, or
+/// zero.
 class NodeDisplacements {
  public:
   NodeDisplacements(const Scene& scene, const Model& model);
@@ -56,9 +57,10 @@ class FrameWriter {
 //
 //   X = x + magnification u,   arrow = force_scale (-N n - T t)
 //
-// magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an eighth of
-// the structure's size; 1 if it is that large already. Frames share one magnification, except those that would use less
-// than a fifth of their range. Arrows have one scale: the longest belongs to the largest force of the run.
+// magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an
+// eighth of the structure's size; 1 if it is that large already. Frames share one magnification, except a
+// frame whose own magnification is at least five times as large. Arrows have one scale: the longest belongs
+// to the largest force of the run.
 
 struct FrameEnd {
   double x = 0.0, y = 0.0, ux = 0.0, uy = 0.0, rz = 0.0;
@@ -81,8 +83,8 @@ struct Frame {
     double N = 0.0, T = 0.0;
   };
   double t = 0.0;
-  double slid_x = 0.0, slid_y = 0.0;  ///< mean translation, subtracted from displacements and added to
-                                      ///< positions
+  /// Mean translation, subtracted from displacements and added to positions.
+  double slid_x = 0.0, slid_y = 0.0;
   std::vector<Element> elements;
   std::vector<Point> points;
   std::vector<Force> forces;
@@ -97,21 +99,24 @@ struct FrameScales {
 
 /// Frames between the two times; empty if frames.csv is missing. Errors: FileError.
 [[nodiscard]] std::vector<Frame> read_frames(const TableFolder& tables, double from, double to);
-/// A structure that slides far would show no deformation: if the shapes differ from a translation by less than half of
-/// their largest displacement, each frame's mean translation is drawn in true scale.
+/// Subtracts each frame's mean translation, which is then drawn in true scale, if the shapes differ from a
+/// translation by less than half of their largest displacement: a structure that slides far would show no
+/// deformation.
 void subtract_translations(std::vector<Frame>& frames);
-/// greatest_force: largest force of the run; at least that of the frames is used.
+/// Common scales of frames. greatest_force: largest force of the run; a larger force of the frames replaces
+/// it.
 [[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force = 0.0);
 /// Scales of one frame among others whose scales are `shared`.
 [[nodiscard]] FrameScales scales_of(const Frame& frame, const FrameScales& shared);
 
-/// 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an eighth of the size; 1 if
-/// nothing moves.
+/// Magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an
+/// eighth of the size; 1 if all displacements are zero.
 [[nodiscard]] double magnification_of(double size, double greatest);
 
 /// Displacement at the fraction s of an element: linear along it, cubic across it (beams).
 [[nodiscard]] FrameEnd between(const Frame::Element& element, double s);
-/// Same with given shape functions across the line (model/element/line_elements.hpp).
+/// Displacement at the fraction s between two ends, with given shape functions across the line
+/// (model/element/line_elements.hpp).
 [[nodiscard]] FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s,
                                const element::LineShapes& across);
 

@@ -1,12 +1,14 @@
-// instants.hpp: states on both sides of every instant of a run, so that it can be checked from files alone
-// (docs/output.md).
+// instants.hpp: states on both sides of every instant of a run, so that the run can be checked from files
+// alone; and the rounds of its decisions (docs/output.md).
 //
-//   instants.csv   t, side ("before", "after"), resolution, start, breakpoint, load_jumps, located, forgiven, dependence;
+//   instants.csv   t, side ("before", "after"), resolution, start, breakpoint, load_jumps, located, forgiven,
+//                  dependence (StepFacts::eigenvector_condition);
 //                  displacements, velocities and accelerations of all degrees of freedom of the model;
 //                  of each contact c: c.state, c.p, c.N, c.T, c.blows, c.capture_n, c.capture_t, c.released
 //
 // Each instant has two rows in one block: a killed run has both or, at the very end, one. Cells without meaning on a
-// side are empty. c.blows: impacts on the contact, "turn:Pn:Pt" separated by blanks. States of user laws are numbers.
+// side are empty. c.blows: impulses on the contact, "turn:Pn:Pt" separated by blanks; turn: number of the
+// impact. States of user laws are numbers.
 // Errors: FileError.
 #pragma once
 
@@ -44,7 +46,7 @@ class InstantReader {
   InstantReader(const std::filesystem::path& directory, const Model& model);
   /// The next instant; nullopt at the end of the file.
   [[nodiscard]] std::optional<InstantRow> next();
-  /// Position of the last row, from 1; at the end, of the row after it.
+  /// Reader whose line() is that of the last row; at the end of the file, that of the row after it.
   [[nodiscard]] const CsvReader& rows() const { return reader_; }
 
  private:

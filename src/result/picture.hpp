@@ -23,7 +23,7 @@ namespace signorini::result {
 /// Pixels of a canvas above the panels, for title and subtitle, and below them, for the axis and its label.
 inline constexpr double margin_above = 62.0, margin_below = 70.0;
 
-/// A curve, marks, bands or an entry of the legend.
+/// A curve, points, bands or an entry of the legend.
 struct Curve {
   std::string rows;     ///< "'marks.csv' skip 1"; or a function of x, or "keyentry"
   std::string columns;  ///< "1:5"; empty: for a function or a legend entry
@@ -43,8 +43,8 @@ struct Panel {
   double weight = 1.0;     ///< relative height of the panel
   std::string after = "";  ///< gnuplot lines that undo permanent settings of `axes`
   bool own_axis = false;   ///< has numbers and a label at its horizontal axis, even if panels follow below
-  std::string margins =
-      "";  ///< gnuplot lines for its position and all of its axes; empty: panels above each other
+  /// gnuplot lines for its position and all of its axes; empty: panels are stacked.
+  std::string margins = "";
 };
 
 struct Picture {
@@ -56,16 +56,19 @@ struct Picture {
   double space = 22.0;     ///< pixels between panels
   std::string setup = "";  ///< gnuplot lines for all panels
 };
+/// Text of the gnuplot script that draws the picture.
 [[nodiscard]] std::string script_of(const PlottedRun& run, const Picture& picture);
 
-/// Width in pixels of a legend with these names, which legend_name() has limited.
+/// Width in pixels of a legend with these names, results of legend_name().
 [[nodiscard]] double legend_width(const std::vector<std::string>& names);
 /// The name with its middle replaced if it is too long for a legend.
 [[nodiscard]] std::string legend_name(const std::string& name);
 
-/// 'text' for gnuplot, without any expansion. A leading apostrophe becomes a typographic one.
+/// The text in single quotes for gnuplot, which expands nothing in it. A leading apostrophe becomes a
+/// typographic one.
 [[nodiscard]] std::string quoted(const std::string& text);
-/// Named tics of the axis "x" or "y": "set xtics ('A' 0, ...)", where gnuplot reads % as the start of a format.
+/// Named tics of the axis "x" or "y": "set xtics ('A' 0, ...)". % is escaped, since gnuplot reads formats in
+/// them.
 [[nodiscard]] std::string named_tics(char axis,
                                      const std::vector<std::pair<std::string, std::size_t>>& names);
 

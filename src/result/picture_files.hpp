@@ -2,7 +2,7 @@
 //
 //   DIR/plots/NAME.gp, TABLE.csv
 //
-// When run in DIR/plots, each script writes pictures with its own name. Nothing here starts gnuplot.
+// When run in DIR/plots, each script writes pictures with its own name. gnuplot is not started by this file.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,12 @@ namespace signorini::result {
 
 class PictureFiles {
  public:
-  /// `ours`: true for files that earlier pictures of this kind left in the folder; they are replaced. Null: no file is.
+  /// ours: true for files of earlier pictures of this kind, which are replaced. Null: no file is replaced.
   explicit PictureFiles(bool (*ours)(const std::filesystem::path&) = nullptr) : ours_(ours) {}
 
   /// Adds a picture; one without panels is ignored.
   void add(const PlottedRun& run, const Picture& picture);
-  /// `text` includes the header.
+  /// Adds a table; `text` includes the header.
   void add_table(const std::string& name, std::string text);
   /// Writes into DIR/plots; returns the scripts, in their order. Without scripts nothing is changed. Errors: FileError.
   std::vector<std::filesystem::path> write(const std::filesystem::path& directory) const;

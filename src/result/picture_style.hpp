@@ -1,10 +1,11 @@
-// picture_style.hpp: size, formats and titles of pictures.
+// picture_style.hpp: size, formats, titles and language of pictures.
 //
 //   signorini plot DIR --size 160x90 --no-title --format pdf --language de
 //
-// Without a size a picture is 1120 pixels wide (PNG: 1680). A given size sets the width; its height applies to pictures
-// over time. Letters scale with the size down to 6 points (8.3 points at 240 mm, 6 at 160 mm and at 85 mm); panels with
-// too little room beside such letters get more of the height. A reduced height makes letters smaller.
+// Without a size a picture is 1120 pixels wide (PNG: 1680). A given size sets the width; its height applies
+// to pictures over time only. Letters scale with the size down to 6 points (8.3 points at 240 mm, 6 at 160 mm
+// and at 85 mm). Panels that have too little room for such letters get more of the height. A reduced height
+// makes letters smaller.
 #pragma once
 
 #include <string>
@@ -23,13 +24,14 @@ struct PictureStyle {
 /// Formats of pictures, in the order of lists.
 [[nodiscard]] const std::vector<std::string>& picture_formats();
 
-/// "160" or "160x90", in mm from 20 to 2000; "svg,pdf". Errors: UsageError.
+/// Reads a size, "160" or "160x90", in mm from 20 to 2000. Errors: UsageError.
 void read_size(const std::string& text, PictureStyle& look);
+/// Reads formats, "svg,pdf". Errors: UsageError.
 void read_formats(const std::string& text, PictureStyle& look);
-/// "en", "de", "ru". Errors: UsageError.
+/// Reads a language: "en", "de" or "ru". Errors: UsageError.
 void read_language(const std::string& text, PictureStyle& look);
 
-/// Layout area of a picture, in pixels of which a letter has 13. On paper such a pixel may be smaller.
+/// Layout area of a picture, in pixels; the usual letter has 13 pixels. On paper a pixel may be smaller.
 ///
 ///   pixel = max(6 points of 13, 1.05 size / 1120),   width = size / pixel,   height = height_1120 sqrt(width / 1120)
 struct Canvas {
@@ -45,18 +47,19 @@ struct Canvas {
   [[nodiscard]] double legend_font() const { return font(narrow() ? 11.0 : 13.0); }
   static constexpr double usual_legend = 185.0;
 };
-/// `height`: for a width of 1120. over_time: the height may differ; otherwise it is not reduced if `fixed`.
+/// Canvas of a picture. height: for a width of 1120; over_time: a height in `look` replaces it; fixed:
+/// otherwise the height does not change with the width.
 [[nodiscard]] Canvas canvas_of(const PictureStyle& look, double height, bool over_time, bool fixed = false);
 
 /// The largest height of a `fixed` canvas. Cairo draws at most 32767 dots per side.
 [[nodiscard]] double max_canvas_height(const PictureStyle& look);
 
-/// gnuplot's terminals, selected by its variable `format`.
+/// gnuplot lines that set the terminal for each value of the variable `format`.
 [[nodiscard]] std::string terminals(const Canvas& canvas, bool sized);
 
 // Translations of the words in pictures.
 //
-//   say("de", "slip") == "Gleiten"
+//   translate("de", "slip") == "Gleiten"
 //
 // One table, with one row per word or phrase; phrases without a row stay English. Names of contacts, symbols and units
 // are not translated. Terms of mechanics follow the textbooks of each language; stick, slip: Haften, Gleiten;

@@ -1,4 +1,4 @@
-// picture_tables.hpp: motion.csv and curves.csv, the data of pictures and of the page.
+// picture_tables.hpp: motion.csv, curves.csv and loads.csv, the data of pictures and of the page.
 #pragma once
 
 #include <filesystem>

@@ -348,7 +348,7 @@ bool occurs(const PlottedRun& run, EventType type) {
          run.event_types.end();
 }
 
-/// Lanes of a row, from the top.
+/// Lines of the event types within a row, from the top.
 std::vector<EventStyle> lanes_of(const PlottedRun& run) {
   std::vector<EventStyle> lanes;
   for (const EventStyle& look : event_styles)

@@ -14,8 +14,8 @@ namespace signorini::result {
 namespace {
 
 constexpr std::size_t max_pictures = 40;  // evenly selected from more
-constexpr std::size_t max_labelled = 6;   // contacts with numbers at their forces; further ones only have
-                                          // names
+// Largest number of contacts for which forces have numbers; with more contacts they only have names.
+constexpr std::size_t max_labelled = 6;
 constexpr std::size_t max_names = 30;
 
 struct ShapePoint {

@@ -12,7 +12,7 @@
 namespace signorini::result {
 namespace {
 
-constexpr std::size_t most_points = 20000;  // per curve; an SVG with more is slow to open and shows no more
+constexpr std::size_t most_points = 20000;  // per curve; more points make an SVG slow and show no more
 
 /// " every ..." for rows of a table with `group` rows per time.
 std::string every(std::size_t times, std::size_t group, std::size_t index) {

@@ -19,12 +19,13 @@ namespace signorini::result {
 //   narrower than 2e-4 m  constant:   axis m (1 +- 0.01)
 //   otherwise             gnuplot's automatic axis
 //
-// 1e3 eps: src/base/rounding.hpp. 2e-4: about ten tic labels with six digits are then all different. 1e-3, 0.01:
-// chosen; the line looks flat beside numbers of a few digits.
+// 1e3 eps: src/base/rounding.hpp. 2e-4: above it about ten tic labels with six digits are all different.
+// 1e-3, 0.01: chosen values; the line looks flat beside numbers of a few digits.
 
 struct ContactScales {
   double length = 0.0, force = 0.0;
 };
+/// Largest magnitudes of lengths and forces of all contacts.
 [[nodiscard]] ContactScales scales_of(const std::vector<ContactRanges>& ranges);
 
 /// "set yrange [a:b]" and a line break, or "" for gnuplot's automatic axis.
@@ -48,11 +49,11 @@ struct TableColumn {
 };
 /// The given rows of one of the tables, for gnuplot.
 [[nodiscard]] std::string table_rows(const std::string& table, const PlottedRun::Rows& rows);
-/// A curve by name, from curves.csv if it is there.
+/// A curve by name: its rows in curves.csv if they exist, `otherwise` if not.
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& name,
                                    const TableColumn& otherwise);
 
-/// Height in pixels of one of `count` stacked rows: less than usual if the picture would be too tall.
+/// Height in pixels of one of `count` stacked rows: `usual`, or less if the picture would be too tall.
 [[nodiscard]] double row_height(double usual, std::size_t count, const PictureStyle& look);
 /// Names of contacts beside rows of this height, without those that would overlap.
 [[nodiscard]] std::string row_tics(const std::vector<RunFacts::Contact>& contacts, double height);
@@ -71,7 +72,8 @@ struct TableColumn {
 /// Legend entries of the states that occur.
 [[nodiscard]] std::vector<Curve> band_legend(const PlottedRun& run, std::size_t k);
 
-/// Event types shown in pictures, from the top of a lane to its bottom, with their colours "#rrggbb".
+/// Event types shown in pictures, from the top of a contact's row to its bottom, with their colours
+/// "#rrggbb".
 struct EventStyle {
   EventType type;
   const char* colour;
@@ -83,15 +85,18 @@ inline constexpr std::array event_styles = {
 };
 static_assert(event_styles.size() + 1 == all_event_types.size(),
               "every type but the jump of a load has a colour");
-/// marks.csv.
+/// Columns of marks.csv.
 [[nodiscard]] const CsvTable<Mark>& mark_table();
 
 // The pictures; one without panels is not written.
+
+/// Displacements of named nodes over time.
 [[nodiscard]] Picture displacement_picture(const PlottedRun& run);
+/// States, forces, gap and tangential motion of contact k over time.
 [[nodiscard]] Picture contact_picture(const PlottedRun& run, std::size_t k);
 /// Paths of contacts in the plane of -N and T, with their friction cones; without panels if there is no friction.
 [[nodiscard]] Picture cone_picture(const PlottedRun& run);
-/// The events of all contacts over time, one row per contact, one lane per type.
+/// The events of all contacts over time: one row per contact, and within it one line per event type.
 [[nodiscard]] Picture raster_picture(const PlottedRun& run);
 /// The states of all contacts over time, one row per contact.
 [[nodiscard]] Picture states_picture(const PlottedRun& run);
@@ -99,6 +104,7 @@ static_assert(event_styles.size() + 1 == all_event_types.size(),
 [[nodiscard]] Picture loads_picture(const PlottedRun& run);
 /// The outputs over time, one panel per unit.
 [[nodiscard]] Picture response_picture(const PlottedRun& run);
+/// Energies, works, losses and the balance over time.
 [[nodiscard]] Picture energy_picture(const PlottedRun& run);
 
 }  // namespace signorini::result

@@ -71,8 +71,8 @@ void remove_plots(const fs::path& directory) { clear_plot_folder(directory / "pl
 
 namespace {
 
-constexpr std::size_t max_curves = 24;  // number of names in a legend beside the panel; curves.csv has all
-                                        // curves
+// Number of names in a legend beside the panel; curves.csv has all curves.
+constexpr std::size_t max_curves = 24;
 
 constexpr double unit_rotation = 1e-3;  // rad; relative to this, rotations of 1e-15 are rounding
 
@@ -100,9 +100,9 @@ constexpr std::size_t max_displacements = 8, chosen_displacements = 6;
 struct PanelOfLines {
   std::string key, label;  ///< key: common name of its lines
   std::vector<PlottedLine> lines;
-  std::string axis = "";      ///< gnuplot lines where its own axis would be poor
-  std::size_t chosen_of = 0;  ///< above 0: number of lines, from which those with the largest motion were
-                              ///< selected
+  std::string axis = "";  ///< gnuplot lines for the axis if the automatic one would be poor
+  /// If above 0: number of lines from which those with the largest motion were selected.
+  std::size_t chosen_of = 0;
 };
 
 /// Keeps the lines with the largest motion, in the order of the nodes: twenty curves would be illegible.

@@ -13,7 +13,8 @@
 //   DIR/plots/states-NAME.csv         from,to,state: the bands of each state, exact to the event
 //   DIR/plots/marks.csv               row,t,event,N,T: the events of raster and cone
 //
-// When run in DIR/plots, each script writes an SVG and a PNG with its own name. Nothing here starts gnuplot.
+// When run in DIR/plots, each script writes an SVG and a PNG with its own name. gnuplot is not started by
+// this file.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +25,7 @@
 namespace signorini::result {
 
 /// Pictures of the run in `directory`; none if there are fewer than two output times. Errors: FileError; UsageError if
-/// the time window contains nothing of the run.
+/// the time window contains no part of the run.
 [[nodiscard]] PictureFiles run_pictures(const std::filesystem::path& directory, const PlotWindow& window = {},
                                         const PictureStyle& look = {});
 /// Writes scripts and bands for the run in `directory`; returns the scripts, none if there are fewer than two output

@@ -16,8 +16,8 @@ namespace signorini::result {
 
 namespace {
 
-constexpr std::size_t max_bands = 5000;      // per contact; shorter ones are below the resolution of a
-                                             // picture
+// Limit per contact; shorter bands are below the resolution of a picture.
+constexpr std::size_t max_bands = 5000;
 constexpr double max_marks = 3000;           // per contact and type, over the picture's width
 constexpr const char* close_up = "-events";  // suffix of pictures from the first event to the last
 
@@ -52,7 +52,7 @@ std::size_t number_of(const ContactNumbers& numbers, const std::string& contact,
 
 bool shows(const PlottedRun& run, double t) { return t >= run.from && t <= run.to; }
 
-/// Counts the next row among the adjacent rows of one name.
+/// Adds the next row to the rows of one name, which must be adjacent.
 void count(PlottedRun::Rows& rows, std::size_t row, const CsvReader& table, const char* of) {
   if (rows.count == 0) rows.first = row;
   if (row != rows.first + rows.count)
@@ -227,7 +227,7 @@ void read_headers(const TableFolder& tables, PlottedRun& run) {
     run.responses.push_back(response.column(column.name) + 1);
 }
 
-/// Checked before anything is removed: gnuplot fails for a window without data.
+/// Refuses a window without data before anything is removed, since gnuplot fails for it.
 void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun& run) {
   const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
     if (!t || (std::isfinite(*t) && shows)) return;

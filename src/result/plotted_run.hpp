@@ -27,6 +27,7 @@ namespace signorini::result {
 struct Range {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
 
+  /// Extends the range to a value, or to another range.
   void take(double value);
   void take(const Range& other);
   [[nodiscard]] bool empty() const { return !(least <= greatest); }
@@ -51,8 +52,8 @@ struct PlottedRun {
   std::vector<std::string> slugs;    ///< one per contact: a unique file name made from its name
   std::vector<std::string> columns;  ///< columns of history.csv
   std::vector<std::string> loads;    ///< columns of loads.csv, if it exists
-  std::vector<std::size_t>
-      responses;          ///< columns of response.csv, if it exists, by number for gnuplot, t first
+  /// Columns of response.csv, if it exists, as numbers for gnuplot, t first.
+  std::vector<std::size_t> responses;
   std::size_t times = 0;  ///< rows of history.csv
   double t_first = 0.0, t_last = 0.0;
   double from = 0.0, to = 0.0;  ///< time window
@@ -75,7 +76,7 @@ struct PlottedRun {
   std::vector<Rows> motion;
   /// Rows of a curve in curves.csv, by its name; empty for runs without that table.
   std::map<std::string, Rows> curves;
-  double legend = Canvas::usual_legend;  ///< width in pixels beside its panels
+  double legend = Canvas::usual_legend;  ///< width in pixels of a legend beside the panels
   std::vector<ContactRanges> ranges;     ///< in the time window, one per contact
   std::map<std::string, Range> moves;    ///< of displacements, by name of the column
   std::vector<Mark> marks;               ///< in the time window; sorted by type, then by contact
@@ -87,12 +88,13 @@ struct PlottedRun {
   std::vector<Frame> frames;  ///< in the time window
 };
 
-/// Marks of this type, and of this row of the pictures if given. gnuplot takes 7 us for an expression (it guards each
-/// by system calls), so a curve gets the row range to draw instead of a condition.
+/// Rows of marks.csv with events of this type and, if given, of this contact (Mark::row). A curve draws this
+/// range of rows: a condition would cost gnuplot 7 us per row, since it guards each expression by system
+/// calls.
 [[nodiscard]] PlottedRun::Rows marks_of(const PlottedRun& run, const std::string& type,
                                         std::optional<int> row = std::nullopt);
 
-/// A run without data from files: the frame for pictures of several runs, or of none.
+/// A run without data from files, for pictures of several runs, or of none.
 [[nodiscard]] PlottedRun empty_plotted_run(const std::string& title, const Units& units,
                                            const PictureStyle& look = {});
 
@@ -101,16 +103,16 @@ struct PlotWindow {
   std::optional<double> from, to;
 };
 
-/// The whole run, with output times limited to those that all tables have; if there are fewer than two, nothing else is
-/// read. Errors: FileError; UsageError if the window contains nothing of the run.
+/// The whole run, with output times limited to those that all tables have; if there are fewer than two, no
+/// other data are read. Errors: FileError; UsageError if the window contains no part of the run.
 [[nodiscard]] PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts,
                                           const PlotWindow& window);
-/// The same run from its first event to its last, with a margin. nullopt if that is not a short part of the run.
+/// The same run from its first event to its last, with a margin; nullopt if this is no short part of the run.
 [[nodiscard]] std::optional<PlottedRun> event_window(const TableFolder& tables, const PlottedRun& run);
 /// Data for overlays of several runs: times, forces and ranges. t_end: of the longest run.
 [[nodiscard]] PlottedRun read_compared(const TableFolder& tables, const RunFacts& facts, double t_end);
 
-/// A word or a phrase of pictures in the run's language.
+/// A word or a phrase of pictures in the language of run.look.
 [[nodiscard]] std::string translate(const PlottedRun& run, std::string_view english);
 /// Same with numbers and names inserted, one for each "{}".
 template <class... Parts>

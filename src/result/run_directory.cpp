@@ -41,7 +41,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The manifest first: without it the others vouch for nothing.
+/// Files of a run in the order of removal. The manifest is first: without it no file counts as complete.
 std::vector<std::string_view> run_files() {
   std::vector<std::string_view> files = {base::manifest_file, "report.html"};
   files.insert(files.end(), base::result_files.begin(), base::result_files.end());
@@ -121,7 +121,8 @@ RunDirectory::Writers& RunDirectory::writers() {
   if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
   try {
     base::remove_manifest(path_);
-    // First, and over an earlier one: a folder without it is no run, which --force would not replace.
+    // Written first, over an earlier one: a folder without summary.json is no run, and --force would not
+    // replace it.
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
     if (options_.force) remove_run(path_, false);
     write_file(path_ / "run.toml", scene_.resolved);

@@ -1,12 +1,13 @@
-// run_directory.hpp: the Recorder that writes a run to disk.
+// run_directory.hpp: the Recorder that writes a run to disk, and the lock of its directory.
 //
 //   RunDirectory directory("pipeline-run", scene, model, {.force = false, .command_line = ...});
 //   directory.finish(simulate(model, scene.run, directory));
 //
 // The constructor writes nothing; the directory is created by the first row, sign of progress or finish(), so a
 // run that never starts leaves no files. Existing files are never overwritten without `force`. With
-// `force` the directory must be a run; only files that Signorini writes are removed, and never the scene itself. No other
-// process can write into it while the object exists. A manifest (base/run_files.hpp) is written last, and removed first.
+// `force` the directory must be a run; only files that Signorini writes are removed, and never the scene
+// itself. No other process can write into the directory while the object exists. A manifest
+// (base/run_files.hpp) is written last, and removed first.
 #pragma once
 
 #include <filesystem>
@@ -33,8 +34,8 @@ class DirectoryLock {
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
-  /// Returns false if another process holds the lock. Some network file systems have no locks; there it is true.
-  /// Errors: FileError if the directory cannot be opened.
+  /// Takes the lock; returns false if another process holds it. On network file systems without locks it
+  /// returns true. Errors: FileError if the directory cannot be opened.
   [[nodiscard]] bool take(const std::filesystem::path& directory);
 
  private:
@@ -72,7 +73,8 @@ class RunDirectory : public Recorder {
   /// certificate.
   std::string finish(const Report& report);
   std::string finish(const CertifiedReport& run);
-  /// After a FileError: summary.json gets the time and the reason of the stop, if it can still be written.
+  /// To be called after a FileError: writes the time and the reason of the stop to summary.json, if this is
+  /// possible.
   void abandon(double t, const std::string& reason);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -85,7 +87,7 @@ class RunDirectory : public Recorder {
   void write_state(const Sample& sample);
   Writers& writers();
   PictureTables& pictures();
-  /// The manifest, after all other files.
+  /// Writes the manifest, after all other files.
   void write_manifest(Outcome::Kind outcome) const;
 
   std::filesystem::path path_;
@@ -96,11 +98,11 @@ class RunDirectory : public Recorder {
   std::unique_ptr<Writers> writers_;
 };
 
-/// Removes the files of a run, optionally its summary too, and nothing else; the directory itself stays. Errors:
-/// FileError.
+/// Removes the files of a run and no others; the directory itself stays. summary: summary.json is also
+/// removed. Errors: FileError.
 void remove_run(const std::filesystem::path& path, bool summary = true);
 
-/// Throws FileError unless a run may be written there.
+/// Throws FileError unless a run may be written to this path.
 void check_run_directory(const std::filesystem::path& path, bool force);
 
 }  // namespace signorini::result

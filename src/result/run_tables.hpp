@@ -9,7 +9,7 @@
 //   curves.csv    curve,t,value
 //   frames.csv, frame_contacts.csv                           deformed shapes, and the contacts in them
 //
-// Writers and pictures use these columns, by name. A model is kept by reference.
+// Writers and pictures use these columns by name. The model of a table must outlive it.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,10 @@
 
 namespace signorini::result {
 
+/// Columns of events.csv.
 [[nodiscard]] CsvTable<Event> event_table(const Model& model);
 
-/// Units: length, length/time, force.
+/// A contact at one time. Units: length, length/time, force.
 struct ContactRow {
   double t;
   const Contact& contact;
@@ -35,23 +36,27 @@ struct ContactRow {
 /// Columns of contacts.csv and motion.csv.
 [[nodiscard]] const CsvTable<ContactRow>& contact_table();
 
+/// Columns of history.csv.
 [[nodiscard]] CsvTable<Sample> history_table(const Model& model);
 
 struct ResponseRow {
   double t;
   const std::vector<double>& values;  ///< one per output
 };
+/// Columns of response.csv.
 [[nodiscard]] CsvTable<ResponseRow> response_table(const Model& model);
 
+/// Columns of energy.csv.
 [[nodiscard]] const CsvTable<Sample>& energy_table();
 
 struct CurveRow {
   const std::string& curve;
   const CurvePoint& point;
 };
+/// Columns of curves.csv.
 [[nodiscard]] const CsvTable<CurveRow>& curve_table();
 
-/// A node of an element (`element` from 1), or a node of its own.
+/// A node of an element (`element` counts from 1), or a named node without element.
 struct FrameRow {
   double t;
   const char* kind;
@@ -59,9 +64,10 @@ struct FrameRow {
   const DrawnNode& node;
   const Vector& u;
 };
+/// Columns of frames.csv.
 [[nodiscard]] const CsvTable<FrameRow>& frame_table();
 
-/// A contact at its node; x, y: drawn position, undeformed.
+/// A contact at its node. Its columns x and y are the drawn position, undeformed.
 struct FrameContactRow {
   double t;
   const Contact& contact;
@@ -70,14 +76,15 @@ struct FrameContactRow {
   const ContactSample& sample;
   const Vector& u;
 };
+/// Columns of frame_contacts.csv.
 [[nodiscard]] const CsvTable<FrameContactRow>& frame_contact_table();
 
-// Seams.csv, the resultants of seams at the output times.
+// seams.csv: the resultants of seams at the output times.
 //
 //   N = sum N_k,   T = sum T_k,   moment = sum (x_k - x_m) x (-N_k n_k - T_k t_k),   x_m = sum D_k x_k / sum D_k
 //   stick, slip, open: sums of D_k
 //
-// Forces act on the slave; units: force, force * length, length. Positions are undeformed.
+// Forces act on the slave. Units: force, force * length, length. Positions are undeformed.
 
 struct SeamRow {
   double t = 0.0;
@@ -86,8 +93,9 @@ struct SeamRow {
   double stick = 0.0, slip = 0.0, open = 0.0;
 };
 
+/// Columns of seams.csv.
 [[nodiscard]] const CsvTable<SeamRow>& seam_table();
-/// contacts: one per contact of the scene.
+/// Resultants of a seam. contacts: one sample per contact of the scene.
 [[nodiscard]] SeamRow seam_row(const SeamSpec& seam, double t, const std::vector<ContactSample>& contacts);
 
 }  // namespace signorini::result

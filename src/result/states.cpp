@@ -15,7 +15,8 @@ StateWriter::StateWriter(const std::filesystem::path& directory, const Model& mo
     if (c.has_friction()) frictional_.push_back(k);
     if (!c.obeys_coulomb()) user_laws_.push_back(k);
   }
-  // Sliding points are the last degrees of freedom. They have separate columns, which reduced models need, too.
+  // Sliding points are the last degrees of freedom. They have separate columns, which reduced models also
+  // need.
   structural_ = model.physical_dofs().size() - (model.reduction ? 0 : sliding_.size());
   for (const Load& load : model.loads)
     if (load.kind == LoadKind::support) supports_.push_back(&load);

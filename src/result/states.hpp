@@ -19,15 +19,15 @@ namespace signorini::result {
 class StateWriter {
  public:
   StateWriter(const std::filesystem::path& directory, const Model& model);
-  /// To be called once for each time.
+  /// Writes a row; to be called once for each time.
   void write(const Sample& sample);
 
  private:
   void write_header();
 
   const Model& model_;
-  std::size_t structural_ = 0;  // number of degrees of freedom without
-                                // sliding points
+  // Number of degrees of freedom without sliding points.
+  std::size_t structural_ = 0;
   std::vector<std::size_t> sliding_, surfaces_, frictional_, user_laws_;  // indices of contacts
   CsvBlock block_;
   CsvFile file_;
@@ -35,8 +35,7 @@ class StateWriter {
   double last_ = -1.0;
 };
 
-// Writes geometric.csv (scene/saved_state.hpp).
-
+/// Text of geometric.csv (scene/saved_state.hpp).
 [[nodiscard]] std::string prestress_csv(const Prestress& forces);
 
 }  // namespace signorini::result

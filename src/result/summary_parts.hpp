@@ -1,4 +1,5 @@
-// summary_parts.hpp: a reduced model in summary.json and check --json.
+// summary_parts.hpp: parts of summary.json that other JSON outputs share: hangers, reduction, units, law
+// check.
 #pragma once
 
 #include <string>
@@ -11,8 +12,7 @@
 
 namespace signorini::result {
 
-// Springs with a preload, in check and summary.json.
-
+/// Springs with a preload, for check and summary.json.
 inline base::Json hangers_json(const Model& model) {
   base::Json list = base::Json::array();
   for (const HangerLoad& hanger : model.hangers) {
@@ -24,8 +24,9 @@ inline base::Json hangers_json(const Model& model) {
   return list;
 }
 
-/// `report`: report of the run, or null. With it every direction of a contact has `followed`, its omitted compliance
-/// times the largest force: the displacement of the contact by the modes left out, without their inertia.
+/// A reduced model, for summary.json and check --json. report: of the run, or null. With a report every
+/// direction of a contact has the key `followed`, the omitted compliance times the largest force. This is the
+/// contact's displacement by the modes left out, without their inertia.
 [[nodiscard]] base::Json reduction_json(const Reduction& reduction, const Report* report);
 
 // The units of a scene as JSON, with the keys of scene files.

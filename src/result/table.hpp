@@ -4,8 +4,8 @@
 //   waves.text(list)              header and rows
 //   waves.number("height")        2: number of this column for gnuplot, which counts from 1
 //
-// A column provides a number, an optional number (empty if absent), or a text. Asking for an unknown name is an error
-// of the program, not of a file.
+// A column provides a number, an optional number (an empty cell if absent), or a text. A request for an
+// unknown name is an error of the program, not of a file.
 #pragma once
 
 #include <concepts>

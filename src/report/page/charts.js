@@ -28,7 +28,7 @@ class Chart {
       return high - low;
     });
     const order = spans.map((_, k) => k).sort((a, b) => spans[b] - spans[a]), most = Math.max(...spans);
-    // If nothing moves beyond rounding, the first ones.
+    // If all motions are rounding, the first curves.
     const sizes = this.series.map((one) => one.y.reduce((size, y) => Math.max(size, Math.abs(y ?? 0)), 0));
     const still = !(most > 1e-9 * Math.max(...sizes));
     if (still) order.sort((a, b) => sizes[b] - sizes[a] || a - b);
@@ -294,7 +294,7 @@ class Charts {
     byId("timesShown").textContent = `${Number(this.from.toPrecision(6))} to ${Number(this.to.toPrecision(6))} ${data.units[2]}`;
     this.read(this.player.t);
   }
-  // `tells`: also update the displayed values; during play ten times per second.
+  // tells: also update the displayed values; during play this happens ten times per second.
   read(t, tells = true) {
     for (const chart of this.list) chart.read(t, tells);
   }

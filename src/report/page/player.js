@@ -49,7 +49,7 @@ class Player {
     this.loads = data.loads.map(() => drawn("path", { class: "load" }, g));
     this.marks = data.contacts.map((contact) => drawn("circle",
       { r: contact.node < 0 ? 0 : Math.max(1.5, Math.min(7, this.stage.mark / 2, 0.5 * this.stage.room(contact))) }, g));
-    this.forces = data.contacts.map((contact) => drawn("path",  // on top: heads are seen
+    this.forces = data.contacts.map((contact) => drawn("path",  // on top, so that arrow heads are visible
       { class: "force", "stroke-width": Math.max(1, Math.min(3, 0.4 * this.stage.room(contact))) }, g));
     this.greatest = 1e-300;
     for (const { motion } of data.contacts)

@@ -162,7 +162,7 @@ class Stage {
     }
     return this.rooms.get(contact);
   }
-  // Range of its node along the tangent; for a mesh from its parts at all times.
+  // Range of a contact's node along the tangent; for a mesh from its parts at all times.
   reach(contact) {
     const [cx, cy] = data.nodes[contact.node].u;
     if (contact.reach === undefined && data.nodes[contact.node].mesh && data.mesh_motion) {
@@ -213,8 +213,8 @@ class Stage {
 }
 
 // Puts each label at the first place around its point where it covers no other label, node or member: eight directions,
-// then farther away. If there is none, it is placed where it covers least; a contact, which is named elsewhere too,
-// then has none.
+// then farther away. If there is no such place, the label is placed where it covers least; a contact then has no label,
+// since it is also named at the bars of states.
 const placeLabels = (stage, g, labels) => {
   const taken = [], still = data.nodes.map(() => [0, 0, 0]);
   for (const node of data.nodes) {
@@ -261,7 +261,7 @@ const placeLabels = (stage, g, labels) => {
       }
       if (best.cost < 1) break;
     }
-    if (pale && best.cost > 30) { label.remove(); continue; }  // contacts are named at the bars of states, too
+    if (pale && best.cost > 30) { label.remove(); continue; }  // contacts are also named at the bars of states
     label.setAttribute("x", best.left.toFixed(1));
     label.setAttribute("y", best.base.toFixed(1));
     taken.push(best.box);

@@ -1,4 +1,4 @@
-// optional_values.hpp: optional figures of a run, in tables and JSON.
+// optional_values.hpp: optional values of a run in tables and JSON, and units of keys.
 #pragma once
 
 #include <optional>
@@ -22,11 +22,11 @@ template <class Value>
   return value ? base::Json(*value) : base::Json();
 }
 
-// The unit of a key of the scene, by its path, with the scene's unit names.
-//
-//   key_unit("contacts.left.normal_stiffness", units) == "kN/m",   key_unit("contacts.*.friction", units) == ""
-
-/// Empty for a plain number, and if the path is not a key.
+/// The unit of a key of the scene, by its path, with the scene's unit names; empty for a plain number, and if
+/// the path is not a key.
+///
+///   key_unit("contacts.left.normal_stiffness", units) == "kN/m"
+///   key_unit("contacts.*.friction", units) == ""
 [[nodiscard]] std::string key_unit(const std::string& path, const Units& units);
 /// "PATH [UNIT]", or the path alone.
 [[nodiscard]] std::string key_with_unit(const std::string& path, const Units& units);

@@ -1,8 +1,9 @@
 // prepared_run.hpp: a scene with overrides, ready to run; and its run, in memory or on disk.
 //
 //   file + overrides -read-> Scene -cutoff of [reduction] tolerance-> Scene -build-> Model
-//   in memory: run.ends(recorder), or simulate(run.model, run.scene.run, recorder)
-//   on disk:   RunDirectory directory(...);  ForwardingRecorder watch(&directory);  run.keep(directory, watch)
+//   in memory: run.run_in_memory(recorder), or simulate(run.model, run.scene.run, recorder)
+//   on disk:   RunDirectory directory(...);  ForwardingRecorder watch(&directory);
+//              run.run_to_disk(directory, watch)
 #pragma once
 
 #include <filesystem>
@@ -26,22 +27,24 @@ struct StoredRun {
 };
 
 struct PreparedRun {
-  Scene scene;  ///< with the cutoff that was found for a tolerance
+  Scene scene;  ///< with the cutoff that was found for [reduction] tolerance
   Model model;
 
   /// Runs in memory, with output rows at both ends only. Errors: SceneError for scenes that the engine refuses.
   Report run_in_memory(Recorder& recorder) const;
-  /// Into `directory`, to which `watch` passes all on; certified where options are given. If a file cannot be
-  /// written, summary.json has the time that the run reached. Errors: those of ends(); FileError.
+  /// Runs into `directory`, to which `watch` forwards all data; certified if options are given. If a file
+  /// cannot be written, summary.json has the time that the run reached. Errors: those of run_in_memory();
+  /// FileError.
   StoredRun run_to_disk(result::RunDirectory& directory, run::ForwardingRecorder& watch,
                         const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 
-/// go_on: same as in find_cutoff. Errors: those of read_scene, find_cutoff and build_model.
+/// Reads a scene with these changes, finds its cutoff and builds its model. go_on: same as in find_cutoff.
+/// Errors: those of read_scene, find_cutoff and build_model.
 [[nodiscard]] PreparedRun prepare_run(
     const std::string& file, const std::vector<Override>& changes,
     const std::function<bool()>& go_on = [] { return true; });
-/// One of several runs that are compared, with the cutoff `found` for the first one.
+/// Prepares one of several runs that are compared. found: the cutoff that was found for the first run.
 [[nodiscard]] PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found);
 /// The same run with output rows at both ends only.
 [[nodiscard]] RunSpec without_rows(RunSpec run);
@@ -53,12 +56,13 @@ struct PreparedRun {
 // Runs are bitwise reproducible, so the repeated events must equal those of events.csv. If they differ, nothing is
 // written: files that run.toml refers to (records, the continued run) or the program have changed.
 
-/// A run of this version that ended by itself and has neither table, or none that its manifest lists: one that was not
-/// written to its end.
+/// True for a run of this version that ended by itself and has neither motion.csv nor curves.csv. A table
+/// that its manifest does not list counts as absent: it was not written to its end.
 [[nodiscard]] bool lacks_picture_rows(const std::filesystem::path& directory);
 
-/// Computes them and adds them to the manifest; go_on: asked often, false leaves everything as it was. Returns whether they
-/// were written. Errors: those of prepare_run; FileError for events that differ.
+/// Computes the picture data and adds them to the manifest; returns true if they were written. go_on: called
+/// often; false ends the computation, and no file is changed. Errors: those of prepare_run; FileError if
+/// events differ.
 bool add_picture_rows(const std::filesystem::path& directory, const std::function<bool()>& go_on);
 
 }  // namespace signorini::study

@@ -23,8 +23,8 @@ struct MassFacts {
   double moving_x = 0.0, moving_y = 0.0;  ///< r M r for a unit translation of everything that is not fixed
 };
 
-/// Stiffness of a contact's spring relative to that of the rest of the structure there: 1 / (a . K_rest^-1 a), K_rest
-/// being the structure with the springs of all other contacts. 0: nothing else resists.
+/// Stiffness of a contact's spring, and `rest`, that of the structure at the contact: 1 / (a . K_rest^-1 a).
+/// K_rest includes the springs of all other contacts. rest 0: only the spring resists the motion.
 struct StiffnessRatio {
   int contact = 0;
   bool normal = true;
@@ -47,17 +47,17 @@ struct Cost {
   std::vector<run::Trial> trials;  ///< measurements by measure_cost(); empty without it
 };
 
-/// Facts about the structure of the scene, even if the run uses a reduced model of it; this includes frequencies, free
-/// motions and stiffness.
+/// Facts about a scene. Frequencies, free motions and stiffnesses are those of the full structure, even if
+/// the run uses a reduced model.
 struct CheckReport {
   long degrees_of_freedom = 0, massless = 0;
   std::optional<MassFacts> mass;
   double least_mass = 0.0, greatest_mass = 0.0;  ///< on the diagonal of M, without zeros
   std::vector<ContactSample> contacts;           ///< just after t = 0
   std::vector<std::string> warnings;             ///< warnings of the run, and model warnings
-  std::vector<std::string> free_motions;   ///< of the structure with its closed contacts, with the contacts
-                                           ///< that hold them
-  modes::Frequencies open, closed, stuck;  ///< all contacts in the same state
+  /// Motions of the structure that its closed contacts leave free, with the contacts that hold them.
+  std::vector<std::string> free_motions;
+  modes::Frequencies open, closed, stuck;           ///< all contacts in the same state
   std::optional<std::vector<double>> load_factors;  ///< run.geometric: Geometric::load_factors
   std::vector<StiffnessRatio> stiffness;
   std::vector<Discontinuity> discontinuities;  ///< ascending
@@ -66,12 +66,12 @@ struct CheckReport {
   std::size_t rows = 0;  ///< number of rows of history.csv
 };
 
-/// Errors: SceneError with the reason if the run could not start.
+/// Checks a scene. Errors: SceneError with the reason if the run could not start.
 [[nodiscard]] CheckReport check(const Scene& scene, const Model& model);
 
-/// Measures the first steps of each engine that accepts the scene; also with these cutoffs of [reduction], in cycles
-/// per time, or, if none is given and the run is long, with one that suits its frequencies. Takes half a second per
-/// engine.
+/// Measures the first steps of each engine that accepts the scene, for half a second each; also with these
+/// cutoffs of [reduction], in cycles per time. If none is given and the run is long, a cutoff is chosen
+/// (run::cutoff_to_try).
 void measure_cost(const Scene& scene, const Model& model, std::vector<double> cutoffs, CheckReport& report);
 
 /// The report as JSON, with numbers in the scene's units.
@@ -89,7 +89,8 @@ struct Start {
   Method method;
   std::vector<std::string> warnings;  ///< warnings of the run itself
 };
-/// Errors: SceneError with the reason why the run cannot start.
+/// Decides the first states and makes the first step. Errors: SceneError with the reason why the run cannot
+/// start.
 [[nodiscard]] Start start(const Scene& scene, const Model& model);
 
 /// Reason why the forces of sticking contacts without tangential stiffness are not unique.
@@ -97,6 +98,7 @@ struct Ambiguity {
   std::size_t contact = 0;
   std::string reason;  ///< one sentence
 };
+/// A contact whose forces are not unique; nullopt if there is none.
 [[nodiscard]] std::optional<Ambiguity> ambiguous_contacts(const Model& model);
 
 /// Nodes without any attachment, and sections that no member uses; one sentence each.
@@ -104,6 +106,7 @@ struct Ambiguity {
 /// An unstable motion with the contacts as they are at t = 0; empty if there is none.
 [[nodiscard]] std::string unstable_motion(const Scene& scene, const Model& model,
                                           const std::vector<ContactSample>& contacts);
+// Each returns the part of CheckReport with the same name.
 [[nodiscard]] check::MassFacts mass_of(const Scene& scene, const Model& model);
 [[nodiscard]] std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                                     const std::vector<ContactSample>& contacts);

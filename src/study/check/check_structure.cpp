@@ -40,7 +40,8 @@ std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSampl
   return closed;
 }
 
-/// Stiffness factor of the springs that replace rigid contacts; larger if contacts must stabilise frozen forces.
+/// Factor for the stiffness of the springs that replace rigid contacts; larger if contacts must stabilise a
+/// structure with frozen forces.
 double firmness_of(const Model& model) { return model.geometric ? 1e6 : 1.0; }
 
 }  // namespace
@@ -125,16 +126,16 @@ check::MassFacts mass_of(const Scene& scene, const Model& model) {
 
 namespace {
 
-/// The structure without sliding points (model/rigid_contacts.hpp), the last degrees of freedom: in a free motion their springs
-/// have no elongation, so the points add no motion of their own.
+/// The structure without sliding points (model/rigid_contacts.hpp), which are the last degrees of freedom. In
+/// a free motion their springs have no elongation, so the points have no independent motion.
 struct WithoutSlipPoints {
   WithoutSlipPoints(const Model& model, int own) : contacts(model.contacts), size(own) {
     stiffness = model.stiffness.topLeftCorner(own, own);
     load = assembly::static_load(model.loads, model.size()).head(own);
     for (Contact& contact : contacts) contact.tangent = contact.body_tangent();
   }
-  /// A free motion of the structure, extended to sliding points: each moves with its body, or, if measured relative to
-  /// it, rests.
+  /// Extends a free motion of the structure to sliding points. Each point moves with its body; a point that
+  /// is measured relative to its body has no motion.
   [[nodiscard]] Vector with_points(const Model& model, const Vector& motion) const {
     Vector all = Vector::Zero(model.size());
     all.head(size) = motion;
@@ -190,7 +191,8 @@ std::vector<check::StiffnessRatio> stiffness_ratios(const Model& model) {
   std::vector<check::StiffnessRatio> result;
   const auto add = [&](std::size_t contact, bool normal, const Combination& form, double stiffness) {
     const double give = form.dot(structure.solve(assembly::dense_vector(form, model.size())));
-    // 1 / give is the sum of the spring and the rest in parallel; below rounding there is no rest.
+    // 1 / give is the stiffness of spring and rest in parallel; if the rest is below rounding, it counts as
+    // zero.
     const double rest = give > 0.0 ? 1.0 / give - stiffness : 0.0;
     result.push_back({static_cast<int>(contact), normal, stiffness, rest > 1e-12 * stiffness ? rest : 0.0});
   };

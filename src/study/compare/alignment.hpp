@@ -1,11 +1,11 @@
-// alignment.hpp: pairs the events of two lists.
+// alignment.hpp: pairs the events of two runs, and the rows of their tables.
 //
 //   reference  a1 a2 b1 a3 ...        partners have the same contact, event, from and to, and each contact's
 //   other      a1 b1 a2 a3 ...        events keep their order; the first event without a partner ends the list
 //
 // Only the order of events of different contacts may differ, and only if it is insignificant: within one instant, or
-// closer than the events' own uncertainties in one of the two lists (then counted as `swapped`). `time` rows mark jumps
-// of the loads, not changes of the motion; they are ignored.
+// closer than the events' own uncertainties in one of the two lists (then counted as `swapped`). Rows of the
+// type `time` are ignored: they are jumps of the loads, not changes of the motion.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@
 
 namespace signorini::compare {
 
-// The largest of many differences, and its place.
+/// The largest of many differences, and its place.
 
 struct MaxDifference {
   double value = 0.0;
@@ -38,8 +38,8 @@ struct MaxDifference {
   }
 };
 
-/// Largest difference of one quantity: over the time that both runs cover, and up to the first difference of their
-/// sequences.
+/// Largest differences of one quantity. whole: over the time that both runs cover; until_split: up to the
+/// first difference of their sequences.
 struct Deviation {
   MaxDifference whole, until_split;
   std::size_t count = 0;               ///< number of compared pairs; 0: nothing to compare
@@ -77,7 +77,7 @@ class TimeJoin {
   TimeJoin(const std::filesystem::path& a, const std::filesystem::path& b,
            double until = std::numeric_limits<double>::infinity())
       : a_(a), b_(b), until_(until) {}
-  /// Moves to the next common time; false: there is none, and all rows have been counted.
+  /// Moves to the next common time; returns false if there is none, after all rows have been counted.
   bool next();
   /// Rows of a (reference) and b (other).
   [[nodiscard]] const RowCount& rows() const { return rows_; }
@@ -132,8 +132,8 @@ struct LoggedEvent {
 
 struct AlignedPair {
   std::size_t reference = 0, other = 0;  ///< indices into the two lists
-  bool swapped = false;                  ///< in the other list it comes after an event that follows it in the
-                                         ///< reference
+  /// In the other list the event comes after one that follows it in the reference.
+  bool swapped = false;
 };
 
 struct Alignment {

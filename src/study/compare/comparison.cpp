@@ -126,7 +126,7 @@ void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Co
   c.rows.energy = join.rows();
 }
 
-/// Tells whether an event of either run lies between two times; both times must not decrease from call to call.
+/// True if an event of either run lies between two times; neither time may decrease from call to call.
 class EventsBetween {
  public:
   EventsBetween(const ComparedRun& a, const ComparedRun& b) {

@@ -41,9 +41,10 @@ struct Comparison {
   Alignment alignment;
   Deviation event_time;
   Deviation displacement, rotation, velocity, angular_velocity;
-  Deviation force;       ///< N and T of the contacts
-  Deviation force_away;  ///< the same, at output times without an event of either run up to their neighbours
-  Deviation energy;      ///< stored energies, dissipations and works, each separately
+  Deviation force;  ///< N and T of the contacts
+  /// Same as force, at output times that have no event of either run up to the neighbouring output times.
+  Deviation force_away;
+  Deviation energy;  ///< stored energies, dissipations and works, each separately
   std::vector<std::pair<std::string, Deviation>> columns;  ///< columns of history.csv; then NAME.N and NAME.T
   /// The response quantities of both runs, at the rows of both.
   struct Response {
@@ -56,11 +57,11 @@ struct Comparison {
   struct Rows {
     RowCount history, contacts, energy, response;
   } rows;
-  bool ends_differ = false;        ///< one run continues beyond t_end
+  bool ends_differ = false;        ///< one of the runs continues beyond t_end
   std::vector<std::string> notes;  ///< parts that could not be compared, one sentence each
 };
 
-/// Errors: FileError, also for the settings' folder.
+/// Compares `other` with `reference`. Errors: FileError, also for the settings' folder.
 [[nodiscard]] Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
                                       const ComparisonSettings& settings = {});
 

@@ -4,7 +4,7 @@
 //   differences.csv  run,quantity,unit,value,t,where,value_until_split,t_until_split,where_until_split
 //   columns.csv      run,column,value,t,value_until_split,t_until_split
 //   events.csv       run,t_reference,t,difference,contact,event,from,to,swapped   one row per aligned pair
-//   compare.json     all of it except the rows of events.csv
+//   compare.json     the same data except the rows of events.csv
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ namespace signorini::compare {
 //   plots/forces-RUN.csv  t,N,T                       the same for any contact
 //   events.csv            run,t_reference,t,difference,contact,event,from,to,swapped   one row per aligned pair
 
-/// Units: length, length/time.
+/// Row of motion-RUN.csv. Units: length, length/time.
 struct MotionDifference {
   double t, displacement, velocity;
 };
@@ -34,7 +34,7 @@ struct MotionDifference {
   return table;
 }
 
-/// Unit: force.
+/// Row of forces-RUN.csv. Unit: force.
 struct ForceDifference {
   double t, N, T;
 };
@@ -51,6 +51,7 @@ struct EventPair {
   double t;  ///< time in the other run
   bool swapped;
 };
+/// Columns of events.csv.
 [[nodiscard]] inline const result::CsvTable<EventPair>& event_pair_table() {
   using P = EventPair;
   static const result::CsvTable<P> table = {
@@ -70,7 +71,7 @@ struct ComparisonReport {
   std::vector<ComparedRun> runs;        ///< readable runs; the first is the reference
   std::vector<Comparison> comparisons;  ///< runs[1], runs[2], ... compared with the reference
   std::vector<Limit> limits;
-  std::vector<std::string> exceeded;  ///< limits.hpp
+  std::vector<std::string> exceeded;  ///< result of exceeded() (limits.hpp)
   /// Engines that refused the scene: name and reason.
   std::vector<std::pair<std::string, std::string>> refused;
 };
@@ -79,6 +80,7 @@ struct ComparisonReport {
 [[nodiscard]] std::string split_text(const ComparedRun& reference, const ComparedRun& other,
                                      const Alignment::Split& split);
 
+/// Text of compare.json.
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
 
 /// Errors: FileError.

@@ -15,9 +15,9 @@ struct Limit {
   double value = 0.0;
 };
 
-/// Names: event_time, displacement, rotation, velocity, angular_velocity, force, force_away, energy, sequence,
-/// response:NAME; units of the scene. Errors: UsageError for another name, a repeated name, or a value that is not a
-/// number >= 0.
+/// Parses limits NAME=VALUE in the units of the scene. Names: event_time, displacement, rotation, velocity,
+/// angular_velocity, force, force_away, energy, sequence, response:NAME. Errors: UsageError for another name,
+/// a repeated name, or a value that is not a number >= 0.
 [[nodiscard]] std::vector<Limit> parse_limits(const std::vector<std::string>& texts);
 
 /// A quantity of a comparison by the name of its limit, with its unit.
@@ -25,18 +25,20 @@ struct Quantity {
   std::string name, unit;
   const Deviation* deviation;
 };
+/// All quantities of a comparison.
 [[nodiscard]] std::vector<Quantity> quantities(const Comparison& comparison, const Units& units);
 
-/// Names of the quantities, in the same order.
+/// Names of the quantities, in the order of quantities().
 [[nodiscard]] std::vector<std::string> quantity_names();
 
-/// Number of compared rows, and of rows of either run: "history.csv 201, contacts.csv 21 of 201 and 101".
+/// Numbers of compared rows, and of rows of both runs: "history.csv 201, contacts.csv 21 of 201 and 101".
 [[nodiscard]] std::string rows_compared(const Comparison& comparison);
 
-/// One sentence for each exceeded limit: "exact: displacement 3e-6 m at t = 0.1 (A.ux) exceeds ...". A limit also
-/// counts as exceeded if the comparison does not cover both runs completely: one ended early or continues beyond the
-/// other, a column or contact exists in only one of them or in none, or a row of a table has no partner. Events without
-/// a partner violate event_time, unless `sequence` has its own limit.
+/// One sentence for each exceeded limit: "exact: displacement 3e-6 m at t = 0.1 (A.ux) exceeds ...". A limit
+/// also counts as exceeded if the comparison does not cover both runs completely. This is so if one run ended
+/// early or continues beyond the other, if a column or contact exists in only one of them or in none, or if a
+/// row of a table has no partner. Events without a partner violate event_time, unless `sequence` has its own
+/// limit.
 [[nodiscard]] std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFigures& reference,
                                                 const RunFigures& other, const Comparison& comparison);
 

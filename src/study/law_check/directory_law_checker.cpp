@@ -204,8 +204,8 @@ class DirectoryLawChecker {
         last_change_ = row.t;
   }
 
-  /// Checks that a run's own law checker does not need: continuity with the previous instant, the start of the scene, and
-  /// the forces on the structure.
+  /// Checks that the law checker beside a run does not need: continuity with the previous instant, the start
+  /// of the scene, and the forces on the structure.
   void beside_others(const InstantRow& row, const law_check::InstantRecord& record) {
     if (row.start) given_start(row);
     if (last_ && engine_.located) {

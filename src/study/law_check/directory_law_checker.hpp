@@ -1,8 +1,8 @@
 // directory_law_checker.hpp: law check of a run from its files alone (docs/theory-checks.md, "The witness").
 //
 //   run.toml -> model;   summary.json -> engine;   instants.csv, events.csv -> src/law_check, instant by instant
-//   contacts.csv: rows per time and contact: state of the last instant, its guards, forces of that state
-//   summary.json: as many events of each type as in events.csv; peaks not below any row
+//   contacts.csv   each row: state of the last instant, guards of this state, forces of this state
+//   summary.json   as many events of each type as in events.csv; peaks not below any row
 //
 //   DirectoryLawCheck found = check_directory_laws("pipeline-run");
 //
@@ -18,16 +18,17 @@
 
 namespace signorini::directory_check {
 
-/// Result of the check. Of the violations the first hundred are listed, in the units of the scene; for violations found
-/// in tables Violation::event is the name of the table.
+/// Result of the check. The first hundred violations are listed, in the units of the scene. For violations
+/// found in tables Violation::event is the name of the table.
 struct DirectoryLawCheck {
   Model model;
-  long instants = 0, events = 0, rows = 0;  ///< numbers of checked items; rows: of contacts.csv and
-                                            ///< motion.csv
-  bool complete = true;                     ///< the run had ended
+  /// Numbers of checked items; rows: of contacts.csv and motion.csv.
+  long instants = 0, events = 0, rows = 0;
+  bool complete = true;  ///< the run had ended
   LawCheckSummary law_checks;
 };
 
+/// Checks the run in this directory.
 [[nodiscard]] DirectoryLawCheck check_directory_laws(const std::filesystem::path& directory);
 
 }  // namespace signorini::directory_check

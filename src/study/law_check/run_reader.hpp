@@ -19,8 +19,8 @@ namespace signorini::directory_check {
 struct RecordedSummary {
   Engine engine = Engine::automatic;
   std::string flow;      ///< of exact: "modal" or "taylor"
-  bool ended = true;     ///< false: it is still being written, or was killed
-  bool stopped = false;  ///< it stopped before t_end
+  bool ended = true;     ///< false: the run is still being written, or was killed
+  bool stopped = false;  ///< the run stopped before t_end
   double t = 0.0;        ///< time reached
   long total = 0;        ///< number of events
   std::map<std::string, long> events_by_type;
@@ -35,12 +35,12 @@ struct RecordedSummary {
 [[nodiscard]] RecordedSummary read_recorded_summary(const std::filesystem::path& directory,
                                                     const Model& model);
 
-/// All rows of events.csv; user-law states are given as their kinds. ended: a last line without its line break then is
-/// an error. Errors: FileError.
+/// All rows of events.csv; user-law states are given as their kinds. ended: the run has ended, so that a last
+/// line without its line break is an error. Errors: FileError.
 [[nodiscard]] std::vector<Event> read_recorded_events(const std::filesystem::path& directory,
                                                       const Model& model, bool ended);
 
-/// Message for a table that ends too early: the line of its end, and the missing part.
+/// Message for a table that ends too early: the line of its end, and `lacks`, the missing part.
 [[nodiscard]] std::string truncation_message(const result::CsvReader& reader, const std::string& lacks);
 
 /// Index of a contact by name; an unknown name is a FileError for this file and line.

@@ -10,7 +10,7 @@
 
 namespace signorini::directory_check {
 
-/// Equal up to the rounding of a conversion of units and back.
+/// True if the values are equal up to the rounding of a conversion of units and back.
 bool TableRowOrder::same(double a, double b) {
   return std::abs(a - b) <= rounding::few_operations * std::max(std::abs(a), std::abs(b));
 }
@@ -177,7 +177,7 @@ std::vector<Violation> TableRowChecker::violations_of(const RecordedRow& row, co
   m.dut = row.vt;
   m.displacement_size = size.place + model_.scales.displacement;
   m.velocity_size = size.speed;
-  if (c.compliance_split() && !is_open(state.state)) {  // of its springs, whatever they are
+  if (c.compliance_split() && !is_open(state.state)) {  // with any values of its springs
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }
@@ -219,7 +219,7 @@ void TableRowChecker::check_forces(const RecordedRow& row, const ContactState& s
     check("friction force", c.compliance_split() ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
-/// slip = ut - T/kt; with borrowed springs ut is that of the surfaces. of_force: error of T.
+/// Checks slip = ut - T/kt; for a compliance split ut is that of the surfaces. of_force: error of T.
 void TableRowChecker::check_slip(const RecordedRow& row, const char* file, double of_force,
                                  const Found& found) const {
   const Contact& c = model_.contacts[row.contact];

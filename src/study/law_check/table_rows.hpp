@@ -6,7 +6,7 @@
 //
 //   TableRowChecker rows(model, engine, checker);
 //   for each instant: rows.instant(record);
-//   rows.contacts(directory / "contacts.csv", run, found);        required rows: table_rows.hpp
+//   rows.contacts(directory / "contacts.csv", run, found);
 #pragma once
 
 #include <filesystem>
@@ -20,11 +20,13 @@ namespace signorini::directory_check {
 
 // Rows that contacts.csv and motion.csv must have.
 //
-//   contacts.csv   t in the grid of run.toml, every contact at each t      up to t_end, the time of the stop,
-//                                                                          or the last instant
-//   motion.csv     contact by contact, t ascending, the first row at 0     in a completed run the last row at t_end
+//   contacts.csv   every contact at each t of the grid in run.toml, up to t_end, the time of the stop, or
+//                  the last instant
+//   motion.csv     contact by contact, t ascending, the first row at 0; in a completed run the last row is
+//                  at t_end
 //
-// Rows out of place are violations ("rows"). A table that ends too early is cut: FileError, with its line.
+// Rows out of place are violations ("rows"). A table that ends too early is an error: FileError, with the
+// line.
 
 /// Time span of a run.
 struct RunSpan {
@@ -41,11 +43,13 @@ class TableRowOrder {
   TableRowOrder(const Model& model, const RunSpan& run, const Found& found)
       : model_(model), run_(run), found_(found) {}
 
-  /// Checks the next row of contacts.csv; at its end, completeness.
+  /// Checks the next row of contacts.csv.
   void grid_row(const RecordedRow& row);
+  /// Checks that contacts.csv is complete.
   void end_of_grid(const RecordedRowReader& reader) const;
-  /// Checks the next row of motion.csv; at its end, completeness.
+  /// Checks the next row of motion.csv.
   void block_row(const RecordedRow& row);
+  /// Checks that motion.csv is complete.
   void end_of_blocks(const RecordedRowReader& reader) const;
 
  private:
@@ -68,14 +72,15 @@ class TableRowChecker {
   /// All arguments must outlive the object. stopped: the run ended before t_end, by itself.
   TableRowChecker(const Model& model, const run::CheckedEngine& engine, const law_check::LawChecker& witness,
                   bool stopped);
-  /// To be called in the order of time.
+  /// Takes the states on both sides of an instant; to be called in the order of time.
   void instant(const InstantRow& row, const law_check::InstantRecord& record);
-  /// Check all rows of contacts.csv, of motion.csv, and their completeness; return the number of rows. Errors:
-  /// FileError.
+  /// Both check all rows of a table (contacts.csv or motion.csv) and its completeness, and return the number
+  /// of rows. Errors: FileError.
   long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   /// Compares peaks with the checked rows and instants.
   void check_peaks(const std::vector<std::optional<Peak>>& recorded, const Found& found) const;
+  /// Compares the recorded extremes of N and T with the checked rows, and with the peaks.
   void check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
                    const std::vector<std::optional<Peak>>& peaks, const Found& found) const;
 

@@ -305,7 +305,7 @@ constexpr std::array marks{
     MarkOfPoint{"end", "with points pointtype 3 pointsize 1.1 linecolor '#1a1a1a'"},
     MarkOfPoint{"restart", "with points pointtype 2 pointsize 1.0 linecolor '#666666'"}};
 
-/// Marks of the kinds that occur, with their names in the first panel.
+/// Symbols of the kinds of special points that occur, with their names in the first panel.
 void add_marks(const BranchTable& table, const Branch& branch, const std::string& name, bool first,
                result::Panel& panel) {
   for (const MarkOfPoint& mark : marks) {

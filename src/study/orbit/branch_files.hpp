@@ -2,10 +2,10 @@
 //
 //   branch.csv    one row per point of the branch, written as it is found (docs/command-line.md)
 //   branch.json   the key, the reason for the branch's end, its sequences of events by number
-//   last/         a point of the first branch, in the format of `orbit`, and mark.json: --resume continues from there
+//   last/         a point of the first branch, in the format of `orbit`, and mark.json, for --resume
 //
-// last/ is written while the branch is followed, through a temporary neighbour that replaces it: after a kill it is
-// complete.
+// last/ is written while the branch is followed, to a temporary folder that replaces it: it is complete even
+// after a kill.
 #pragma once
 
 #include <filesystem>
@@ -28,36 +28,40 @@ class BranchWriter {
   result::CsvFile file_;
 };
 
-/// The first rows of branch.csv. Errors: FileError, also if there are fewer.
+/// The first `rows` rows of branch.csv. outputs: number of outputs. Errors: FileError, also if there are
+/// fewer rows.
 [[nodiscard]] std::vector<BranchPoint> read_branch(const std::filesystem::path& directory,
                                                    std::size_t outputs, std::size_t rows);
 
-/// DIR/last. Errors: FileError.
+/// Writes the checkpoint to DIR/last. Errors: FileError.
 void write_mark(const std::filesystem::path& directory, const SceneReader& read, const BranchOptions& options,
                 const BranchCheckpoint& mark);
-/// Removes the mark of an earlier branch.
+/// Removes the checkpoint of an earlier branch.
 void remove_mark(const std::filesystem::path& directory);
-/// The mark of a branch that ended early, or was killed. Errors: FileError; UsageError if the branch is complete, or a
-/// different one.
+/// Reads the checkpoint of a branch that ended early or was killed. Errors: FileError; UsageError if the
+/// branch is complete or a different one.
 [[nodiscard]] BranchCheckpoint read_mark(const std::filesystem::path& directory, const SceneReader& read,
                                          const BranchOptions& options);
 
+/// Text of branch.json.
 [[nodiscard]] std::string branch_json(const BranchOptions& options, const Units& units, const Branch& branch);
 
 // Picture of a branch of orbits: a frequency response, or amplitudes over another key.
 //
-//   plots/branch.gp     one panel per output (its least and largest value in a period), the largest multiplier, the
-//                       number of the sequence of events; stable parts solid, unstable ones dashed, located points
-//                       marked
+//   plots/branch.gp     one panel per output (its least and largest value in a period), the largest
+//                       multiplier, the number of the sequence of events; stable parts solid, unstable ones
+//                       dashed, special points as symbols
 //   plots/branch.csv    the curves: x, stable 1 or 0, sequence, special, multiplier, amplitude, outputs
 
-/// outputs: names with units, in the order of BranchPoint::minima; at most six panels of them.
+/// Pictures of the branch. outputs: names with units, in the order of BranchPoint::minima; at most six have a
+/// panel.
 [[nodiscard]] result::PictureFiles branch_pictures(const std::string& title, const Units& units,
                                                    const BranchOptions& options,
                                                    const std::vector<std::string>& outputs,
                                                    const Branch& branch,
                                                    const result::PictureStyle& look = {});
 
+/// True for a file that branch_pictures() or its scripts write.
 [[nodiscard]] bool is_picture_of_branch(const std::filesystem::path& file);
 
 }  // namespace signorini::orbit_study

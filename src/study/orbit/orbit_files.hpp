@@ -12,6 +12,7 @@
 
 namespace signorini::orbit_study {
 
+/// Text of orbit.json.
 [[nodiscard]] std::string orbit_json(const Model& model, const Orbit& orbit);
 
 /// The scene of orbit_scene(); its run.toml begins from DIR/start.
@@ -26,11 +27,12 @@ void write_orbit(const std::filesystem::path& directory, const Scene& scene, con
 //   plots/multipliers.gp   Floquet multipliers and the unit circle
 //   plots/phase.gp         v over u of the degrees of freedom with the largest motion, from history.csv; three at most
 
-/// directory: contains the run of a period. Errors: FileError.
+/// Pictures of the orbit. directory: contains the run of a period. Errors: FileError.
 [[nodiscard]] result::PictureFiles orbit_pictures(const std::filesystem::path& directory,
                                                   const std::string& title, const Units& units,
                                                   const Orbit& orbit, const result::PictureStyle& look = {});
 
+/// True for a file that orbit_pictures() or its scripts write.
 [[nodiscard]] bool is_picture_of_orbit(const std::filesystem::path& file);
 
 }  // namespace signorini::orbit_study

@@ -1,4 +1,4 @@
-// spectra.hpp: pseudo-accelerations of oscillators under base motion.
+// spectra.hpp: pseudo-accelerations of oscillators under base motion, and target spectra.
 //
 //   u'' + 2 z w u' + w^2 u = -a(t),   u(0) = u'(0) = 0,   a linear between its samples
 //   PSA(T) = w^2 max |u|,  w = 2 pi / T
@@ -14,8 +14,9 @@
 
 namespace signorini::quake {
 
-/// `a`: samples at equal distances dt > 0. Unit: that of a; T > 0 and dt in one unit of time; 0 <= z < 1. The
-/// oscillator is also followed for one period after the last sample, with a = 0.
+/// PSA(T) at the damping ratio z, 0 <= z < 1, in the unit of a. a: samples at equal distances dt > 0; T > 0
+/// and dt have one unit of time. The oscillator is also followed for one period after the last sample, with a
+/// = 0.
 [[nodiscard]] double pseudo_acceleration(const std::vector<double>& a, double dt, double T, double z);
 
 // Target response spectrum of an accelerogram.

@@ -10,8 +10,9 @@ namespace {
 
 // Terms of the series in each force. Chosen; tests/unit/study/reduction/excited_modes compares them with all modes.
 constexpr int terms = 4;
-constexpr double dependent = 1e-10;  // of its energy, that is left of a vector beside the others: rounding
-constexpr double needs_no_mass = 1e-12;  // 1/omega^2 against the greatest one: it follows at once
+constexpr double dependent = 1e-10;  // fraction of a vector's energy outside the others that is only rounding
+// Smallest 1/omega^2 of a vector, relative to the largest; below it the vector responds without inertia.
+constexpr double needs_no_mass = 1e-12;
 
 /// Vectors that are orthonormal in K.
 class Span {

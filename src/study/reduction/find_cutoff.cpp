@@ -137,24 +137,25 @@ constexpr Eigen::Index min_modes = 6;  // modes with stiffness in the first tria
 // Radians of the cutoff: at twice the cutoff, an extreme between two samples is 1 % larger.
 constexpr double radians_a_sample = 0.15;
 constexpr double max_growth = 4.0;    // growth of the cutoff from one trial to the next
-constexpr double least_growth = 2.0;  // so that the next trial adds most of the missing part
+constexpr double least_growth = 2.0;  // smallest growth: the next trial then adds most of the missing part
 constexpr double max_radians = 1.0;   // per half step, where few instants are compared: a factor of 1.85
 constexpr double nothing_known =
-    1.0;  // error of a trial beside one that misses no less: all of the displacement
-constexpr double usual_order = 2.0;             // of what is missed, in the cutoff, until two trials tell
-constexpr int max_failures = 4;                 // trials that cannot run, one after the other
-constexpr int max_moves = 8;                    // of a frequency below which modes cannot be counted or found
-constexpr double move_by = 1.01;                // factor
-constexpr double raised = 1.5;                  // a frequency below which too few modes lie
+    1.0;  // error of a trial if the finer one misses no less: the whole displacement
+constexpr double usual_order = 2.0;             // order of `missed` in 1/cutoff before two trials
+constexpr int max_failures = 4;                 // successive trials that cannot run
+constexpr int max_moves = 8;                    // moves of a cutoff if modes cannot be counted
+constexpr double move_by = 1.01;                // factor of such a move
+constexpr double raised = 1.5;                  // factor for a cutoff below which there are too few modes
 constexpr Eigen::Index min_compared = 2048;     // instants at which trials are compared; chosen
-constexpr Eigen::Index max_compared = 1 << 22;  // displacements that a trial keeps for that: 32 MB
+constexpr Eigen::Index max_compared = 1 << 22;  // displacements that a trial keeps for the comparison: 32 MB
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction.tolerance", why);
 }
 
-/// Places where displacements are asked for, as the only ones that a reduced model has: a run then computes as before, and
-/// its samples cost what few rows cost. Other parts of the model know the structure's degrees of freedom and must not be left in it.
+/// Restricts a reduced model's displacements to the requested places. A run computes the same motion, and its
+/// samples cost as little as a few rows. Parts of the model that refer to the structure's degrees of freedom
+/// must be removed.
 void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
   const auto count = static_cast<Eigen::Index>(asked.size());
   Reduction& reduction = *model.reduction;
@@ -232,7 +233,7 @@ class SystemMatrices {
     double omega = 0.0;
     Eigen::Index kept = 0;  ///< modes below it; -1: they cannot be counted
   };
-  /// Above all modes up to a frequency, above so many at least.
+  /// A cutoff above all modes up to a frequency, and above at least this number of modes.
   [[nodiscard]] Cutoff cutoff_above(double omega, Eigen::Index least) const {
     least = std::min(least, all());
     if (all_) {
@@ -339,7 +340,8 @@ double feedback(const Trial& trial) {
   return trial.missed > 0.0 ? std::max(1.0, trial.reported.error / trial.missed) : 1.0;
 }
 
-/// Error of a trial, from one with more modes: error = moved + missed_finer max(1, error / missed), solved.
+/// Sets the error of a trial, from one with more modes: the solution of
+/// error = moved + missed_finer max(1, error / missed).
 void judge(Trial& trial, const Trial& finer, double t_end) {
   if (!(finer.greatest > 0.0)) return;
   const double moved = apart(trial, finer, t_end) / finer.greatest;
@@ -380,14 +382,15 @@ class Search {
   }
 
  private:
-  /// Where modes are only counted, from the lowest frequency that the structure has on its contacts.
+  /// First cutoff. If modes can only be counted, it is above the lowest frequency of the structure on its
+  /// contacts.
   [[nodiscard]] SystemMatrices::Cutoff first() const {
     const bool known = structure_.all() <= reduce::all_modes_up_to;
     const double lowest = structure_.model.omega1 > 0.0 ? structure_.model.omega1 : 1.0 / scene_.run.t_end;
     return structure_.cutoff_above(known ? 0.0 : lowest, structure_.free() + min_modes);
   }
 
-  /// A model may be refused for where its cutoff lies among the modes; it is moved a little then.
+  /// Runs a trial. If a model is refused because its cutoff is too near a mode, the cutoff is moved slightly.
   Trial tried() {
     Trial failed;
     for (int moves = 0; moves < max_failures; ++moves) {

@@ -1,14 +1,15 @@
-// find_cutoff.hpp: finds the cutoff for a given tolerance.
+// find_cutoff.hpp: finds the cutoff of a reduced model for a given tolerance.
 //
-//   few modes -> run -> contribution of the modes left out (find_cutoff.hpp) -> more modes -> run -> ...
+//   few modes -> run -> contribution of the modes left out (TruncationError) -> more modes -> run -> ...
 //   error = |u - u_finer| + missed_finer max(1, error / missed)
 //   the first trial with error <= tolerance is used
 //
-// The missing contribution changes contact forces, which emit waves, shift events and may change their sequence. An
-// estimate from one run includes none of this, nor forces that jump between its samples. So a trial is compared with a
-// run with at least twice the cutoff, at all common sample instants. The contribution that the finer run still misses
-// also changes the motion; its effect is scaled by the ratio of error to contribution that the trial showed. If the
-// finer run has all modes, the error is the difference from the full model.
+// The missing contribution changes contact forces, which emit waves, shift events and may change their
+// sequence. An estimate from one run includes none of these effects, and no forces that jump between its
+// samples. So a trial is compared with a run with at least twice the cutoff, at all common sample instants.
+// The contribution that the finer run still misses also changes the motion; its effect is scaled by the ratio
+// error / missed of the trial. If the finer run has all modes, the error is the difference from the full
+// model.
 // Errors are relative to the largest displacement of all requested places in the run.
 #pragma once
 
@@ -31,21 +32,22 @@ namespace signorini::reduction {
 /// A place at which displacements are evaluated.
 struct RequestedPlace {
   std::string name;  ///< "normal of contact 'first'", "A.ux"
-  Vector form;       ///< on displacements of the structure; the motion of supports is left aside
+  Vector form;       ///< on displacements of the structure; the motion of supports is left out
 };
 
-/// Contacts along normal and tangent, and named nodes; rotations left aside. The model: build_structure's.
+/// Contacts along normal and tangent, and named nodes without rotations. full: result of build_structure().
 [[nodiscard]] std::vector<RequestedPlace> requested_places(const Model& full);
 
 class TruncationError {
  public:
-  /// full: build_structure's, must outlive it; `square`, `shapes`: its modes, ascending; `kept`: how many of
-  /// them the reduction keeps. Or, with 0, what stands for those left out (excited_modes.hpp).
+  /// full: result of build_structure(), must outlive the object; square, shapes: its modes, ascending; kept:
+  /// number of modes that the reduction keeps. With kept = 0 square and shapes are the vectors that replace
+  /// the modes left out (excited_modes.hpp).
   TruncationError(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes,
                   Eigen::Index kept, double step);
 
   [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
-  /// Forces of contacts, in the order of the model's layout, at times 0, step, 2 step, ...
+  /// Takes the forces of contacts, in the order of the model's layout, at the times 0, step, 2 step, ...
   void sample(double t, const std::vector<double>& forces);
   /// To be called after the last sample.
   void finish();
@@ -67,13 +69,14 @@ class TruncationError {
   std::vector<double> missed_;
 };
 
-/// Errors: SceneError at reduction.tolerance if no modes satisfy it, or if a trial run stops. go_on: called
-/// periodically; false ends the search with the scene unchanged.
+/// The scene with the cutoff that satisfies its reduction.tolerance. Errors: SceneError at
+/// reduction.tolerance if no modes satisfy it, or if a trial run stops. go_on: called periodically; false
+/// ends the search with the scene unchanged.
 [[nodiscard]] Scene find_cutoff(
     Scene scene, const std::function<bool()>& go_on = [] { return true; });
 
-/// The cutoff found for another scene with the same tolerance, or else its own: compared runs use one model, and the
-/// search is done once.
+/// The scene with the cutoff `found` for another scene, if both have the same tolerance; otherwise its own
+/// cutoff is found. So compared runs use one model, and the search is done once.
 [[nodiscard]] Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found);
 
 }  // namespace signorini::reduction

@@ -1,4 +1,4 @@
-// sensitivity_files.hpp: files of `sensitivity` (docs/command-line.md).
+// sensitivity_files.hpp: files of `sensitivity` and of `fit` (docs/command-line.md).
 //
 //   events.csv          events of the run
 //   sensitivities.csv   event_index,t,contact,event,parameter,dt_dp,...,elasticity
@@ -6,11 +6,11 @@
 //   figures.csv         figure,contact,value,t,parameter,dvalue_dp,dt_dp,elasticity
 //                       peaks, residual values; losses of contacts and of the run
 //   landings.csv        contact,landing,start,...,parameter,dstart_dp,...      with losses
-//   columns-1.csv, ...  the header of history.csv and columns of contacts, with losses those of energy.csv;
-//                       derivatives by the first parameter, ...
+//   columns-1.csv, ...  derivatives by the first parameter, ...: the columns of history.csv and of
+//                       contacts, with losses also those of energy.csv
 //   sensitivity.json    parameters, changes at which the sequence would differ, spreads
 //
-// elasticity = (p/x) dx/dp, the change of x in per cent for one per cent of p; x: the time, the figure.
+// elasticity = (p/x) dx/dp: the change of x in per cent if p changes by one per cent; x: a time or a figure.
 #pragma once
 
 #include <filesystem>
@@ -24,28 +24,29 @@ namespace signorini::sensitivity_study {
 //
 //   sigma_x = sqrt( sum_p (dx/dp sigma_p)^2 )       for independent keys
 //
-// The result is valid while the sequence of events does not change: `reach` is the smallest change of a key at which
-// two neighbouring events meet, divided by its sigma. Below 2, one run in twenty has another sequence, and the result
-// is only indicative.
+// The result is valid while the sequence of events does not change. `reach` is the smallest change of a key
+// at which two neighbouring events meet, divided by the key's sigma. If it is below 2, more than one run in
+// twenty has another sequence, and the result is only indicative.
 
-/// One per parameter; 0: the parameter is known exactly.
+/// Standard deviations, one per parameter; 0: the parameter is known exactly.
 using Sigmas = std::vector<double>;
 
 struct Spread {
-  std::vector<double> events, responses;  ///< sigma of each time, of each figure; NaN: unknown
+  std::vector<double> events, responses;  ///< sigma of each time and of each figure; NaN: unknown
   std::vector<double> reach;              ///< one per parameter; infinity: no events meet, or sigma is 0
 };
+/// Standard deviations of results, and the reach of each parameter.
 [[nodiscard]] Spread spread(const Sensitivities& s, const Sigmas& sigmas);
 
-/// sigmas: empty, or one per parameter.
+/// Text of sensitivity.json. sigmas: empty, or one per parameter.
 [[nodiscard]] std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas);
 
 /// Writes all files except events.csv and sensitivity.json. Errors: FileError.
 void write_sensitivities(const std::filesystem::path& directory, const Sensitivities& s,
                          const Sigmas& sigmas);
 
-/// Reads the data needed by pictures: parameters, figures, and times of events with their derivatives; sigmas are empty
-/// if there were none. Errors: FileError.
+/// Reads the data needed by pictures: parameters, figures, and times of events with their derivatives. sigmas
+/// becomes empty if none were given. Errors: FileError.
 [[nodiscard]] Sensitivities read_sensitivities(const std::filesystem::path& directory, Sigmas& sigmas);
 
 /// The unit of a figure, with the scene's unit names.
@@ -63,6 +64,7 @@ void write_sensitivities(const std::filesystem::path& directory, const Sensitivi
 //   fit.json        keys with their sigmas, covariance, chi_squared, reason for the end
 //   residuals.csv   row,event_index,column,t,measured,residual,sigma
 
+/// Text of fit.json.
 [[nodiscard]] std::string fit_json(const Fit& fit, const Measurements& measured);
 /// Writes both files. Errors: FileError.
 void write_fit(const std::filesystem::path& directory, const Fit& fit, const Measurements& measured);

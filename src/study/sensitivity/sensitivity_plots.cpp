@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t max_figures = 6, max_bars = 16, max_time_pictures = 12;
-constexpr std::size_t first_events = 24;  // limit for labelled events in a picture of event times; further
-                                          // ones are grey
+// Limit for labelled events in a picture of event times; further ones are grey.
+constexpr std::size_t first_events = 24;
 constexpr const char* contact_colours[] = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                            "#e7298a", "#666666", "#a6761d", "#17becf"};
-constexpr double widest = 0.1;  // relative change of a parameter that a picture of event times shows on each
-                                // side
+// Relative change of a parameter that a picture of event times shows on each side.
+constexpr double widest = 0.1;
 constexpr const char* rising = "#2166ac";
 constexpr const char* falling = "#c0182b";
 
@@ -40,7 +40,7 @@ struct Bar {
   double length = 0.0;
 };
 
-/// Bars shorter than this relative to the longest are invisible: a thousandth of a pixel in a thousand pixels.
+/// Fraction of the longest bar below which bars are invisible: a thousandth of a pixel in a thousand pixels.
 constexpr double no_length = 1e-6;
 
 /// Sorts bars with the longest on top; gnuplot's axis points upwards. Invisible bars are dropped.
@@ -100,8 +100,8 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   }
   std::stable_sort(sizes.begin(), sizes.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  constexpr double rounding_of_derivatives = 1e-9;  // chosen value: errors of derivatives are at most 1e-10
-                                                    // of the largest
+  // Chosen value: errors of derivatives are at most 1e-10 of the largest.
+  constexpr double rounding_of_derivatives = 1e-9;
   while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first)
     sizes.pop_back();
   std::vector<const Response*> list;
@@ -158,7 +158,8 @@ void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const result::Plo
   files.add(run, picture);
 }
 
-/// Range on each side in a picture of event times: beyond the first changes of the sequence.
+/// Range of the parameter on each side in a picture of event times; it includes the first changes of the
+/// sequence.
 double span_of(const Sensitivities& s, std::size_t p) {
   const double value = std::abs(s.parameters[p].value);
   double least = 0.0;

@@ -14,7 +14,7 @@
 
 namespace signorini::sensitivity_study {
 
-/// Empty without events and figures.
+/// Pictures of the sensitivities; empty if there are neither events nor figures.
 [[nodiscard]] result::PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
                                                         const result::PictureStyle& look = {});
 

@@ -1,8 +1,8 @@
 // pareto_front.hpp: the cheapest engine for each accuracy (Pareto front of error and time).
 //
-//   A run is on the front if no other one is as accurate in as little time, within a tenth of each. Only runs that
-//   reach the end with the reference's sequence of events count: an error up to the first missing event is
-//   not comparable.
+// A run is on the front if no other run is as accurate in as little time, within a tenth of each. Only runs
+// that reach the end with the reference's sequence of events count: an error up to the first missing event is
+// not comparable.
 #pragma once
 
 #include <limits>
@@ -19,7 +19,7 @@ struct ErrorRange {
   double most = std::numeric_limits<double>::infinity();  ///< larger errors are meaningless
 };
 
-/// Errors decrease, times increase from entry to entry. Indices into `rows`.
+/// The front, as indices into `rows`. From entry to entry errors decrease and times increase.
 [[nodiscard]] std::vector<std::size_t> pareto_front(const std::vector<WorkRow>& rows,
                                                     const std::string& quantity,
                                                     const ErrorRange& range = {});

@@ -288,8 +288,8 @@ namespace {
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1a1a1a", "#1b9e77",
                                                 "#7b3294", "#e7298a", "#a6761d", "#666666"};
 constexpr std::array<const char*, 4> drawn = {"event_time", "displacement", "force_away", "energy"};
-constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};  // filled; the number before each is the hollow
-                                                               // one
+// gnuplot point types: filled symbols; the number before each is its hollow form.
+constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};
 constexpr double panel_height = 330.0;
 
 /// Runs of one engine, sorted by increasing accuracy.

@@ -1,4 +1,4 @@
-// work_files.hpp: files of a study (docs/command-line.md).
+// work_files.hpp: files and diagrams of a study (docs/command-line.md).
 //
 //   study.csv    one row per run: engine, setting, outcome, errors, times, counters
 //   study.json   the same, with machine, versions, notes and frontiers
@@ -21,8 +21,9 @@ struct WorkTable {
 };
 [[nodiscard]] WorkTable work_table(const WorkReport& report);
 
-/// Results of the study, one sentence each: the fronts, then failures.
+/// The fronts of the study, one sentence each.
 [[nodiscard]] std::vector<std::string> work_conclusions(const WorkReport& report);
+/// The failures of the study, one sentence each.
 [[nodiscard]] std::vector<std::string> work_failures(const WorkReport& report);
 
 /// "errors against exact", and the time up to which runs are compared.
@@ -31,6 +32,7 @@ struct WorkTable {
 /// "51 dofs, 2 contacts; AMD ..., 2 cores; ..."
 [[nodiscard]] std::string work_conditions(const WorkReport& report);
 
+/// Text of study.json.
 [[nodiscard]] std::string work_json(const WorkReport& report);
 
 /// Writes the files; study.md shows the picture if it exists. Errors: FileError.
@@ -43,7 +45,8 @@ void write_work(const std::filesystem::path& directory, const WorkReport& report
 // Filled points reached the end with the reference's events and are connected; hollow ones did not: their error covers
 // the time up to the first difference of the sequences.
 
-/// The scripts; empty if no run has both an error and a time. Errors: FileError.
+/// Writes the diagrams' scripts and returns them; empty if no run has both an error and a time. Errors:
+/// FileError.
 [[nodiscard]] std::vector<std::filesystem::path> write_work_plots(const std::filesystem::path& directory,
                                                                   const WorkReport& report);
 

@@ -18,10 +18,11 @@ namespace signorini::speed {
 //   1e-2:1e-3:2     1e-2, 5e-3, 2.5e-3, 1.25e-3: the third number is the factor between neighbours
 //   1e-3,4e-4       a list
 
-/// Numbers > 0 in the given order. Errors: UsageError, which begins with `option`, also for more than 100 values.
+/// The numbers, > 0, in the given order. Errors: UsageError, whose message begins with `option`, also for
+/// more than 100 values.
 [[nodiscard]] std::vector<double> parse_decades(const std::string& option, const std::string& text);
 
-/// The value as written by hand: 1e-05, not 1.0000000000000003e-05.
+/// The value rounded to few digits, as a user would write it: 1e-05, not 1.0000000000000003e-05.
 [[nodiscard]] double rounded_decimal(double value);
 
 /// The accuracy key of the engine with this name: "run.rtol", "run.dt", or "".
@@ -33,7 +34,7 @@ struct WorkPoint {
   std::optional<double> accuracy;  ///< value of accuracy_key()
   std::vector<Override> varied;    ///< other keys that differ from the reference
 
-  /// "1e-06", or the keys in `varied`; empty for `exact` with nothing varied.
+  /// "1e-06", or the keys in `varied`; empty for `exact` without varied keys.
   [[nodiscard]] std::string setting() const;
   /// "ida rtol=1e-06 reduction.cutoff_omega=1e3"
   [[nodiscard]] std::string name() const;
@@ -54,7 +55,7 @@ struct WorkRanges {
 /// All combinations: engine by engine, varied point by varied point, in the order of the ranges.
 [[nodiscard]] std::vector<WorkPoint> work_points(const WorkRanges& ranges);
 
-/// Five decades of steps starting with a fiftieth of the run, at round numbers.
+/// Five time steps, each a tenth of the one before; the first is the largest power of ten up to t_end / 50.
 [[nodiscard]] std::vector<double> usual_steps(double t_end);
 
 }  // namespace signorini::speed

@@ -40,7 +40,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ends a run after its time. The clock is asked now and then: asking costs as much as a short step.
+/// Ends a run after its time limit. The clock is read only now and then, since reading it costs as much as a
+/// short step.
 class Deadline : public run::ForwardingRecorder {
  public:
   explicit Deadline(const WorkLimits& limits, Recorder* next = nullptr)

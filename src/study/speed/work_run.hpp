@@ -13,11 +13,8 @@
 
 namespace signorini::speed {
 
-// Cost and error of one engine with one setting.
-//
-//   error = largest difference from the reference, up to the first difference of the sequences of events
-
-/// The largest error of one quantity (names and units of limits.hpp).
+/// The largest error of one quantity: its largest difference from the reference (names and units of
+/// limits.hpp).
 struct WorkError {
   std::string quantity, unit;
   double value = 0.0, t = 0.0;  ///< up to the first difference of the sequences
@@ -27,18 +24,18 @@ struct WorkError {
 
 struct WorkRow {
   WorkPoint point;
-  std::filesystem::path directory;                  ///< directory of the run; empty if refused
-  std::string outcome;                              ///< done, stopped, refused, "too slow"
-  bool reference = false;                           ///< true: the errors of all others are relative to this
-                                                    ///< run
+  std::filesystem::path directory;  ///< directory of the run; empty if refused
+  std::string outcome;              ///< done, stopped, refused, "too slow"
+  /// True if the errors of all other runs are relative to this one.
+  bool reference = false;
   std::string reason;                               ///< empty when done
   std::optional<double> t;                          ///< time reached
   bool whole = false;                               ///< true: reached the end of the reference
   std::optional<long> events, events_of_reference;  ///< within the compared time
   std::size_t matched_events = 0;                   ///< number of events with a partner in the reference
-  std::string split;                                ///< first difference of the sequences; empty if they are
-                                                    ///< equal
-  std::optional<double> t_split;                    ///< time of the first difference
+  /// First difference of the sequences; empty if they are equal.
+  std::string split;
+  std::optional<double> t_split;  ///< time of the first difference
 
   std::vector<WorkError> errors;
   std::vector<double> wall_times;  ///< s, of repeated runs without output
@@ -48,7 +45,7 @@ struct WorkRow {
   /// True if the run reached the end with the reference's sequence of events.
   [[nodiscard]] bool complete() const { return outcome == "done" && whole && split.empty(); }
   [[nodiscard]] const WorkError* error(const std::string& quantity) const;
-  [[nodiscard]] std::optional<double> wall_time() const;  ///< the smallest
+  [[nodiscard]] std::optional<double> wall_time() const;  ///< the smallest of wall_times
 };
 
 /// Enters the differences of a run from the reference into its row.
@@ -71,7 +68,7 @@ struct WorkOutcome {
 [[nodiscard]] WorkOutcome record_run(const study::PreparedRun& run, const std::filesystem::path& directory,
                                      const WorkLimits& limits);
 
-/// Same without output: there are rows at both ends only, and nothing is stored.
+/// Runs without output: there are rows at both ends only, and no data are stored.
 [[nodiscard]] WorkOutcome time_run(const study::PreparedRun& run, const WorkLimits& limits);
 
 }  // namespace signorini::speed

@@ -272,7 +272,7 @@ void WorkStudy::take_ranges() {
     for (const compare::Quantity& quantity : compare::quantities(doubt, report_.units))
       if (quantity.deviation->count > 0) report_.range[quantity.name].floor = quantity.deviation->whole.value;
   }
-  // Rounding of the time itself.
+  // Rounding of event times.
   double& floor = report_.range["event_time"].floor;
   floor = std::max(floor, rounding::eps * report_.compared_until);
   const auto events = static_cast<double>(changes_until(reference_.events, report_.compared_until));

@@ -2,14 +2,15 @@
 //
 //   WorkStudy study(request);  study.find_reference();
 //   for (const WorkPoint& point : work_points(request.ranges)) study.add(point);
-//   study.time_all(...);       // round by round, so that temporary load of the machine affects all runs alike
+//   study.time_all(...);       // round by round, so that temporary load of the machine affects all runs
+// equally
 //
-// The reference is `exact`. If that uses modes, and its Taylor series is expected to finish within the time limit, the
-// reference is the series, which is computed independently of them. If `exact` refuses the scene or stops early, it is
-// `ida` with a tolerance one decade below the smallest. The error of `exact` itself is measured: the same run with all
-// masses changed in their last digits. Once such a change affects the sequence of events, nothing later is compared.
-// Rigid contacts without a capture_velocity get that of the scene's own tolerance in all runs; otherwise every run
-// would solve a different problem.
+// The reference is `exact`. If `exact` uses modes, and its Taylor series is expected to finish within the
+// time limit, the reference is the series, which is independent of modes. If `exact` refuses the scene or
+// stops early, the reference is `ida` with a tolerance one decade below the smallest. The error of `exact` is
+// measured by the same run with all masses changed in their last digits. Times after such a change has
+// altered the sequence of events are not compared. In all runs rigid contacts without a capture_velocity get
+// that of the scene's own tolerance; otherwise every run would solve a different problem.
 #pragma once
 
 #include <array>
@@ -54,20 +55,21 @@ struct WorkReport {
 
 class WorkStudy {
  public:
-  /// The engine that is the reference; and the one that is where the first cannot be.
+  /// The engine of the reference, and the one that replaces it if the first cannot compute the scene.
   static const std::array<Engine, 2> references;
 
   /// Reads the scene and builds its model. Errors: SceneError, UsageError, FileError.
   explicit WorkStudy(WorkRequest request);
 
-  /// If no engine computes the scene within ten times the time limit, runs have times but no errors. Errors: SceneError
-  /// if no engine computes it at all; FileError.
+  /// Computes the reference. If no engine computes the scene within ten times the time limit, runs have times
+  /// but no errors. Errors: SceneError if no engine computes the scene at all; FileError.
   void find_reference();
   /// Records a run and compares it. A refused run is a row as well. Errors: FileError.
   const WorkRow& add(const WorkPoint& point);
-  /// `before` is called with each run. A run is repeated until it has taken ten seconds, at least once.
+  /// Measures the times of all runs. A run is repeated until it has taken ten seconds, at least once;
+  /// `before` is called before each repetition.
   void time_all(const std::function<void(const WorkRow&, std::size_t round)>& before);
-  /// The series of `exact`, if it is the reference: an additional run.
+  /// The additional run of `exact` with its series, if it is the reference.
   [[nodiscard]] const std::optional<WorkPoint>& series() const { return series_; }
 
   [[nodiscard]] const WorkReport& report() const { return report_; }
@@ -95,7 +97,7 @@ class WorkStudy {
   std::optional<ReductionSpec> reduction_;    // contains the cutoff of all runs
   std::map<std::string, Recorded> recorded_;
   compare::ComparedRun reference_,
-      perturbed_reference_;  // again_: `exact` with masses changed in their last digits
+      perturbed_reference_;  // perturbed: `exact` with masses changed in their last digits
   bool reference_error_measured_ = false;
   std::optional<WorkPoint> series_;
 };

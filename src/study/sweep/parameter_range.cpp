@@ -50,7 +50,7 @@ int decimals(const std::string& number) {
   return static_cast<int>(std::clamp<long long>(after - exponent, 0, 99));
 }
 
-/// start + k step in decimals, as written by hand.
+/// start + k step with the decimals of both, as a user would write it.
 double stepped(double start, double step, double k, int digits) {
   const double value = start + k * step;
   constexpr int most_digits = 15;

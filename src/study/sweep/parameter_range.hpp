@@ -1,10 +1,10 @@
-// parameter_range.hpp: values of the keys of a sweep.
+// parameter_range.hpp: values of the keys of a sweep: ranges, lists, and draws from distributions.
 //
 //   0:1.3:0.1     start:stop:step, the stop included if it is a multiple; 0.3 is 0.3, not 0.30000000000000004
 //   ida,exact     a list of TOML values; commas inside of quotes, brackets and braces do not separate
 //
-// Several ranges form a product; the last one varies fastest. Keys of one group vary in step, and count as one range,
-// at the place of the first of them.
+// Several ranges form a product; the last one varies fastest. Keys of one group vary in step, and count as
+// one range at the place of the group's first key.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ struct ParameterRange {
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
 };
 
-/// "vary" or "sample", the option that gave the values.
+/// The option that gave the values: "vary" or "sample".
 [[nodiscard]] const char* option_of(const ParameterRange& vary);
 /// Override for one of its values.
 [[nodiscard]] Override override_of(const ParameterRange& vary, const std::string& value);
@@ -33,10 +33,10 @@ struct ParameterRange {
 /// contacts.first.friction), and a setting all of whose keys are varied. Errors: UsageError; those of the file.
 void check_overlaps(const std::string& scene, const std::vector<ParameterRange>& varied,
                     const std::vector<Override>& settings);
-/// Errors: UsageError, also for more than 1e6 values.
+/// Parses PATH=VALUES of --vary. Errors: UsageError, also for more than 1e6 values.
 [[nodiscard]] ParameterRange parse_vary(const std::string& text);
-/// The product: entry i holds one value for each ParameterRange, in their order. Errors: UsageError for more than 1e6 points, for
-/// a repeated path, and for keys in step with different numbers of values.
+/// The product: entry i has one value for each ParameterRange, in their order. Errors: UsageError for more
+/// than 1e6 points, for a repeated path, and for keys in step with different numbers of values.
 [[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<ParameterRange>& varied);
 
 // Draws values of keys from distributions.
@@ -51,8 +51,9 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
 //   random   u from the Mersenne twister of the seed, draw by draw, row by row
 //   sobol    point i of Sobol's sequence, shifted by one vector of such draws, modulo 1
 //
-// Row i depends only on the seed, i and the number of draws per row: more samples leave the earlier ones unchanged, and
-// shares, resumed sweeps and other machines draw the same values. Source of both sequences: GSL.
+// Row i depends only on the seed, i and the number of draws per row. So more samples do not change the
+// earlier ones, and shares, resumed sweeps and other machines draw the same values. Source of both sequences:
+// GSL.
 
 enum class Sequence { random, sobol };
 

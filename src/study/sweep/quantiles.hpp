@@ -27,7 +27,7 @@ struct Quantile {
   double probability = 0.0, value = 0.0;
   std::optional<double> low, high;
 };
-/// sorted: ascending, at least one.
+/// Quantile of at least one value, sorted ascending.
 [[nodiscard]] Quantile quantile(const std::vector<double>& sorted, double probability, bool independent);
 
 struct Exceedance {
@@ -36,7 +36,7 @@ struct Exceedance {
 };
 /// Columns of exceedance tables.
 [[nodiscard]] const result::CsvTable<Exceedance>& exceedance_columns();
-/// At most 200 of the values.
+/// Exceedance probabilities of at most 200 of the values.
 [[nodiscard]] std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool independent);
 
 /// The results of one query for one combination of the keys that are not sampled.

@@ -18,8 +18,7 @@
 
 namespace signorini::sweep {
 
-// Events of one type, at all contacts or one, in options: EVENT, EVENT@CONTACT.
-
+/// Events of one type, at all contacts or at one; in options EVENT or EVENT@CONTACT.
 struct EventQuery {
   EventType type{};
   std::string contact;  ///< empty: all
@@ -30,12 +29,14 @@ struct EventQuery {
   }
 };
 
+/// Names of all event types, as options use them.
 [[nodiscard]] std::vector<std::string> event_names();
-/// nullopt if EVENT is not an event type. option: begins error messages. Errors: UsageError for an unknown contact.
+/// Parses EVENT or EVENT@CONTACT; nullopt if EVENT is not an event type. option: begins error messages.
+/// Errors: UsageError for an unknown contact.
 [[nodiscard]] std::optional<EventQuery> parse_event_query(const std::string& option, const std::string& text,
                                                           const Model& model);
 
-/// Errors: UsageError "OPTION: unknown WHAT "NAME"", with similar names.
+/// Checks that `name` is one of `known`. Errors: UsageError, OPTION: unknown WHAT "NAME", with similar names.
 void check_known(const std::string& option, const char* what, const std::string& name,
                  const std::vector<std::string>& known);
 
@@ -56,7 +57,7 @@ struct ResponseQuery {
   [[nodiscard]] bool of_output() const { return kind <= Kind::end; }
 };
 
-/// Errors: UsageError that lists the model's names.
+/// Parses a query. Errors: UsageError that lists the model's names.
 [[nodiscard]] ResponseQuery parse_query(const std::string& text, const Model& model);
 
 /// Records a run's results for the queries.
@@ -68,7 +69,7 @@ class QueryRecorder : public Recorder {
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
 
-  /// One per query; NaN if there is none.
+  /// Results, one per query; NaN if the run has none.
   [[nodiscard]] std::vector<double> values(const Report& report) const;
   /// Hash of contacts, types and new states of all events in their order: equal for equal sequences.
   [[nodiscard]] std::string sequence() const;
@@ -83,7 +84,7 @@ class QueryRecorder : public Recorder {
   std::vector<double> first_slip_, last_slip_;      // per contact
 };
 
-/// The unit of the result, "" if it has none.
+/// The unit of a query's result; empty if it has none.
 [[nodiscard]] std::string unit_of(const ResponseQuery& query, const Model& model);
 
 }  // namespace signorini::sweep

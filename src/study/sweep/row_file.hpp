@@ -1,4 +1,5 @@
-// row_file.hpp: the finished rows of a sweep on disk, one JSON line each, in the order of completion.
+// row_file.hpp: the finished rows of a sweep on disk, one JSON line each, in the order of completion; and
+// shares of rows.
 //
 //   {"row":3,"values":["1.5"],"outcome":"done",...,"checksum":"9d0c5f1e2a7b4c38"}
 //
@@ -55,7 +56,8 @@ class RowFile {
 struct Share {
   std::size_t number = 1, count = 1;  ///< number counts from 1
 
-  [[nodiscard]] bool holds(std::size_t row) const { return row % count == number - 1; }  ///< row from 0
+  /// True if the row belongs to this share; rows count from 0.
+  [[nodiscard]] bool holds(std::size_t row) const { return row % count == number - 1; }
   [[nodiscard]] bool all() const { return count == 1; }
   [[nodiscard]] std::string text() const { return std::to_string(number) + "/" + std::to_string(count); }
   friend bool operator==(const Share&, const Share&) = default;
@@ -64,7 +66,8 @@ struct Share {
 /// Value of an environment variable, if it is set.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 
-/// Errors: UsageError for anything but K/N with 1 <= K <= N or "auto", and for auto without such variables.
+/// Parses a share. Errors: UsageError for texts other than K/N with 1 <= K <= N or "auto", and for "auto" if
+/// the environment has no such variables.
 [[nodiscard]] Share parse_share(const std::string& text, const Environment& environment);
 
 /// Number of processes of this sweep that a launcher (not an array) has started; 1 without a launcher.

@@ -13,8 +13,8 @@
 namespace signorini::sweep {
 namespace {
 
-constexpr double same_period = 1e-9;  // relative, for periods in a ratio of integers, as in
-                                      // orbit/load_period.cpp
+// Relative difference up to which periods count as a ratio of integers, as in orbit/load_period.cpp.
+constexpr double same_period = 1e-9;
 
 /// Number of complete periods in the time t.
 double whole_periods(double t, double period) { return std::floor(t / period * (1.0 + same_period)); }
@@ -90,7 +90,7 @@ void StroboscopicRecorder::sample(const Sample& sample) {
   run::ForwardingRecorder::sample(sample);
   if (strobe_.period == 0.0) return;
   const double turns = std::round(sample.t / strobe_.period);
-  // Rows are at k times the period up to rounding; the end of the run is a row, too.
+  // Rows are at k times the period up to rounding; the end of the run is also a row.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(sample.t);
   if (turns < 1.0 || std::abs(sample.t - turns * strobe_.period) > rounding) return;
   if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();  // its other side

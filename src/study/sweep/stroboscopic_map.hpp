@@ -1,5 +1,5 @@
-// stroboscopic_map.hpp: states of a run at the same phase of every period, or after every event of a type: the points of a
-// bifurcation diagram.
+// stroboscopic_map.hpp: points of a bifurcation diagram: states of a run at the same phase of every period,
+// or after every event of a type.
 //
 //   0.5             t_k = k 0.5 after the start, k = 1, 2, ...
 //   loads           the same with the period of the run's loads; the run ends with a complete period
@@ -25,9 +25,11 @@ struct StroboscopicMap {
   bool of_loads = false;  ///< the period is that of the scene's loads
   EventQuery event;
 };
-/// Errors: UsageError that lists the model's names; SceneError for loads without a common period.
+/// Parses the text of --strobe. Errors: UsageError that lists the model's names; SceneError for loads without
+/// a common period.
 [[nodiscard]] StroboscopicMap parse_strobe(const std::string& text, const Scene& scene, const Model& model);
-/// Warning if the points are at varying phases of the loads; empty if not, or if the loads have no period.
+/// Warning if the points are at varying phases of the loads; otherwise, or if the loads have no period,
+/// empty.
 [[nodiscard]] std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene);
 
 /// Names and units of the values of a point.
@@ -35,6 +37,7 @@ struct StroboscopicColumn {
   std::string name, unit;
   bool output = false;  ///< an [[output]]
 };
+/// Columns of a point: those of history.csv, then the outputs.
 [[nodiscard]] std::vector<StroboscopicColumn> strobe_columns(const Model& model);
 
 struct StroboscopicPoint {
@@ -42,7 +45,7 @@ struct StroboscopicPoint {
   std::vector<double> values;  ///< one per column
 };
 
-/// Takes the points of a run, and passes all on.
+/// Takes the points of a run, and forwards all data.
 class StroboscopicRecorder : public run::ForwardingRecorder {
  public:
   /// All arguments must outlive the object.

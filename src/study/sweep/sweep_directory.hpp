@@ -29,18 +29,18 @@ struct StroboscopicSpec {
   std::vector<StroboscopicColumn> columns = {};
 };
 
-/// Runs along the last range, each of which begins with the final state of the previous one.
+/// Option by which each run along the last range begins with the final state of the previous one.
 struct CarrySpec {
   bool on = false;
-  bool back = false;  ///< the last range is followed by its values in the opposite order: its second half
+  bool back = false;  ///< the second half of the last range repeats its values in the opposite order
   friend bool operator==(const CarrySpec&, const CarrySpec&) = default;
 };
 
 /// Specification of a sweep. Two sweeps are the same if everything but scene and share is equal.
 struct SweepSpec {
-  std::string scene;                  ///< file, as given
-  std::string fingerprint;            ///< fingerprint of the scene's content with settings and the first
-                                      ///< valid values
+  std::string scene;  ///< file, as given
+  /// Fingerprint of the scene's content, with settings and the first valid values.
+  std::string fingerprint;
   std::vector<std::string> settings;  ///< --set, in order
   std::vector<ParameterRange> vary;   ///< the sampled keys last
   /// Queries for every run (response_query.hpp), and the unit of each result.
@@ -53,7 +53,7 @@ struct SweepSpec {
   Units units;
 };
 
-/// Errors of all members: FileError.
+/// Directory of a sweep. Errors of all members: FileError.
 class SweepDirectory {
  public:
   /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is removed
@@ -71,14 +71,15 @@ class SweepDirectory {
   [[nodiscard]] const std::map<std::size_t, SweepRow>& rows() const { return rows_; }
   [[nodiscard]] std::filesystem::path run_directory(std::size_t index) const;
 
-  /// The rows of another directory of this sweep, or of a share of it, without crashed ones. Errors: also if a row is
-  /// altered or does not belong to this sweep.
+  /// The rows in the file of another directory of this sweep, or of a share of it, without crashed rows.
+  /// Errors: also if a row is altered or does not belong to this sweep.
   [[nodiscard]] std::map<std::size_t, NumberedRow> rows_in(const std::filesystem::path& file) const;
-  /// Writes a row, or lines of row_line(), and stores them.
+  /// Appends a row, or lines of row_line(), to the file and to rows().
   void add(const SweepRow& row);
   void add(const std::string& lines);
-  /// Writes sweep.csv and, at the end, results.json.
+  /// Writes sweep.csv.
   void write_table() const;
+  /// Writes results.json, at the end.
   void write_results() const;
 
  private:
@@ -92,7 +93,7 @@ class SweepDirectory {
 
 /// Reads DIR/sweep.json. Errors: FileError if there is no sweep.
 [[nodiscard]] SweepSpec read_sweep_spec(const std::filesystem::path& directory);
-/// "--vary was a=0:1:0.1, is a=0:1:0.2"; empty if they only differ in scene and share.
+/// Text of the first difference, "--vary was a=0:1:0.1, is a=0:1:0.2"; empty if only scene and share differ.
 [[nodiscard]] std::string difference(const SweepSpec& was, const SweepSpec& is);
 
 /// Copies the rows of several shares into one directory; returns rows that none of them has (index from 0). Errors:

@@ -23,8 +23,8 @@ std::vector<double> values_of(const ParameterRange& vary) {
   return values;
 }
 
-constexpr double decades = 50.0;      // ratio of the largest to the smallest value from which an axis is
-                                      // logarithmic
+// Ratio of the largest to the smallest value from which an axis is logarithmic.
+constexpr double decades = 50.0;
 constexpr std::size_t max_ticks = 8;  // with more values, not every value has its own tick
 
 bool logarithmic(const std::vector<double>& values) {

@@ -3,8 +3,8 @@
 //   map.csv      x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work,QUERY,...
 //   borders.csv  x0,y0,x1,y1: sides between cells with different sequences of events
 //
-// Figures are the largest of all contacts. A cell reaches half-way to its neighbours; on an axis of positive values
-// that span a factor of 50 or more, which is logarithmic, to the geometric mean.
+// Figures are the largest of all contacts. A cell extends half-way to its neighbours. An axis is logarithmic
+// if its values are positive and span a factor of 50 or more; there a cell extends to the geometric mean.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ struct MapAxes {
   std::size_t x = 0, y = 0;
 };
 
-/// nullopt unless exactly two keys have several values, at least three each, and all of them are numbers.
+/// The axes, if exactly two keys have several values, each has at least three, and all are numbers; otherwise
+/// nullopt.
 [[nodiscard]] std::optional<MapAxes> map_axes(const SweepSpec& spec);
 
 /// Row of map.csv: a cell and the results of its run; cells without a run have no row.
@@ -32,11 +33,13 @@ struct MapCell {
   const SweepRow& row;
   SweepRow::Contact greatest;  ///< largest figures of all contacts
 };
+/// Columns of map.csv.
 [[nodiscard]] result::CsvTable<MapCell> map_table(const SweepSpec& spec);
+/// Cells of all rows that ran.
 [[nodiscard]] std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes,
                                              const SweepRows& rows);
 
-/// Sides that separate regions with equal sequences of events; cells without a run have none.
+/// A side between cells with different sequences of events; cells without a run have no sides.
 struct Border {
   double x0, y0, x1, y1;
 };
@@ -46,12 +49,14 @@ struct Borders {
 };
 /// Columns of borders.csv.
 [[nodiscard]] const result::CsvTable<Border>& border_table();
+/// Borders between cells with different sequences of events.
 [[nodiscard]] Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 
 /// A figure and its column in map.csv.
 struct MapPanel {
   std::string label, column;
 };
+/// Picture with one map per panel. borders: borders.csv is drawn on the maps.
 [[nodiscard]] result::Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
                                           const std::string& subtitle, const std::vector<MapPanel>& panels,
                                           bool borders, const result::PictureStyle& look);

@@ -184,7 +184,7 @@ class SweepCurves {
                             : alone                           ? ""
                                                               : contacts_[k];
         if (!combinations_[c].name.empty()) title += (title.empty() ? "" : ", ") + combinations_[c].name;
-        // The colour distinguishes contacts or, if there are several combinations of the other keys, those.
+        // The colour distinguishes contacts or, if there are several, combinations of the other keys.
         const std::size_t colour = combinations_.size() > 1 ? c : k;
         // Coinciding curves stay visible: later ones are thinner and dashed, on top.
         const std::size_t i = list.size();

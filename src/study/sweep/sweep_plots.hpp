@@ -21,10 +21,9 @@
 
 namespace signorini::sweep {
 
-// The key of a sweep that is the axis of its pictures, and the rows of each curve over it.
-//
-//   x of a row = value of the key on the axis, or its number if values are not numbers
-
+/// The key of a sweep that is the axis of its pictures.
+///
+///   x of a row = value of the key on the axis, or the number of the value if values are not numbers
 struct SweepAxis {
   std::size_t key = 0;  ///< index into SweepSpec::vary
   bool numbers = true;  ///< all of its values are numbers
@@ -43,12 +42,12 @@ struct SweepCurve {
 /// Curves of the rows that ran, in their order.
 [[nodiscard]] std::vector<SweepCurve> swept_curves(const SweepSpec& spec, const SweepRows& rows,
                                                    const SweepAxis& axis);
-/// Explanation of the values in names of curves: "; curves: PATH, PATH".
+/// Text that names the keys whose values are names of curves: "; curves: PATH, PATH".
 [[nodiscard]] std::string other_keys(const SweepSpec& spec, const SweepAxis& axis);
 /// "set xrange [a:b]" around all values, including those without a run, so that a gap at an end is visible.
 [[nodiscard]] std::string x_range(const SweepAxis& axis);
 
-/// Empty if fewer than two rows ran.
+/// Pictures of the sweep; empty if fewer than two rows ran.
 [[nodiscard]] result::PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows,
                                                   const result::PictureStyle& look = {});
 

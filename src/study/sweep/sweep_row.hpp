@@ -31,7 +31,8 @@ struct SweepRow {
     double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
   };
   std::vector<Contact> contacts;
-  std::vector<double> responses;          ///< one per query of the sweep; NaN: none. Empty if no run began
+  std::vector<double>
+      responses;  ///< one per query of the sweep, NaN if it has no result; empty if no run began
   std::vector<StroboscopicPoint> points;  ///< points of a stroboscopic sweep
   std::string sequence;    ///< hash of its events: equal for equal sequences (response_query.hpp)
   double wall_time = 0.0;  ///< s
@@ -40,7 +41,7 @@ struct SweepRow {
   std::size_t warnings = 0;
 
   [[nodiscard]] bool ran() const { return outcome == "done" || outcome == "stopped"; }
-  /// Number of events without `time` rows, which mark jumps of the loads.
+  /// Number of events without jumps of the loads (type `time`).
   [[nodiscard]] long changes() const;
   /// Result of the i-th query; nullopt if there is none.
   [[nodiscard]] std::optional<double> response(std::size_t i) const;
@@ -72,18 +73,19 @@ struct RowTask {
   std::optional<double> settle = {};        ///< earliest time of the first point; absent: half of t_end
 };
 
-/// Errors: FileError if files cannot be written.
+/// Runs a task. Errors: FileError if files cannot be written.
 [[nodiscard]] SweepRow compute_row(const RowTask& task);
-/// Same, starting from the final state of the previous row if there is one. `carried` becomes the final state of this
-/// run; it is unchanged if no run began.
+/// Runs a task from the final state of the previous row, `carried`, if there is one. Then carried becomes the
+/// final state of this run; it is unchanged if no run began.
 [[nodiscard]] SweepRow compute_row(const RowTask& task, std::optional<SavedState>& carried);
 
+/// The row as JSON, without checksum.
 [[nodiscard]] std::string row_json(const SweepRow& row);
 /// The row as a line of a file, with its line end and a checksum, so that an altered line is not taken for a result.
 [[nodiscard]] std::string row_line(const SweepRow& row);
-/// True if the line (without its end) is exactly as row_line() made it.
+/// True if the line (without its line end) is exactly as row_line() made it.
 [[nodiscard]] bool is_unaltered(const std::string& line);
-/// Parses such a line. Errors: Json::exception.
+/// Parses a line of row_line(). Errors: Json::exception.
 [[nodiscard]] SweepRow parse_row(const std::string& line);
 /// True if the rows are equal except for their wall time.
 [[nodiscard]] bool same_result(const SweepRow& a, const SweepRow& b);

@@ -1,4 +1,4 @@
-// sweep_table.hpp: the rows of a sweep as one table.
+// sweep_table.hpp: the rows of a sweep as one table, and its stroboscopic points.
 //
 //   sweep.csv  row,PATH,...,outcome,t,reason,events,slip,stick,reversal,separation,contact,impact,time,
 //              QUERY,...,NAME.peak_t,NAME.peak_n,NAME.peak_N,NAME.peak_T,NAME.friction_work,...,
@@ -23,6 +23,7 @@ using SweepRows = std::map<std::size_t, SweepRow>;
 /// The contact with this name in a row, if it has one.
 [[nodiscard]] const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name);
 
+/// Texts of sweep.csv and of results.json.
 [[nodiscard]] std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows);
 [[nodiscard]] std::string sweep_json(const SweepSpec& spec, const SweepRows& rows);
 
@@ -32,7 +33,7 @@ using SweepRows = std::map<std::size_t, SweepRow>;
 //   plots/strobe.gp  one panel per value, points over the last swept key
 
 [[nodiscard]] std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows);
-/// Outputs, or displacements if the scene has no outputs; at most six panels.
+/// Adds the picture of outputs, or of displacements if the scene has no outputs; at most six panels.
 void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const result::PlottedRun& run,
                         result::PictureFiles& files);
 

@@ -1,17 +1,18 @@
-// richardson.hpp: Richardson extrapolation of three computations at h, h/2, h/4.
+// richardson.hpp: observed runs, and Richardson extrapolation of three of them at h, h/2, h/4.
 //
 //   x_h = x + C h^2 + O(h^3)
 //   order p = log2( rms(x_h - x_h/2) / rms(x_h/2 - x_h/4) )
 //
 //   R  = x_h/4 + (x_h/4 - x_h/2) / 3      without the error of second order
 //   R' = x_h/2 + (x_h/2 - x_h) / 3
-//   bar = 2 |R - R'| + |x_h/2 - x_h/4| / 50, the largest so far and soon after
+//   bar = 2 |R - R'| + |x_h/2 - x_h/4| / 50, the largest value up to five values later
 //
-// The remaining error of R is of third order, a h^3 / 8; that of R' is a h^3, so |R - R'| is seven times the error of R
-// if a is smooth. It is not at events, whose position within a step is random: R and R' may then have equal errors,
-// which the fiftieth of the last difference covers (measured: a thousandth, case 02b); these errors persist, so the bar
-// never decreases. If the observed order is not yet two, the bar is the whole difference |x_h/2 - x_h/4|. Soon after:
-// five values, since a difference may vanish by chance. Rounding grows with the square root of the number of steps.
+// The remaining error of R is of third order, a h^3 / 8; that of R' is a h^3, so |R - R'| is seven times the
+// error of R if a is smooth. At events a is not smooth, since their position within a step is random: R and
+// R' may then have equal errors. The fiftieth of the last difference covers these (measured: a thousandth,
+// case 02b). Such errors persist, so the bar never decreases. If the observed order is not yet two, the bar
+// is the whole difference |x_h/2 - x_h/4|. Five later values count, since a difference may vanish by chance.
+// Rounding grows with the square root of the number of steps.
 #pragma once
 
 #include <array>
@@ -25,8 +26,7 @@
 
 namespace signorini::verify {
 
-// Observations of a run: its events, and at output times the columns of history.csv, N, T and outputs.
-
+/// Observations of a run: its events, and at output times the columns of history.csv, N, T and outputs.
 struct ObservedRun {
   certify::EventSequence track;
   certify::RecordedRows rows;
@@ -40,13 +40,14 @@ struct ObservedRun {
 /// A column of ObservedRun::rows.
 struct ObservedColumn {
   std::string name;  ///< "A.ux", "first.N", an output's
-  std::string
-      kind;  ///< "displacement", "rotation", "velocity", "angular_velocity", "force", "output [m/s^2]"
+  /// "displacement", "rotation", "velocity", "angular_velocity", "force", "output [m/s^2]"
+  std::string kind;
   std::string unit;
 };
+/// Columns of ObservedRun::rows for this model.
 [[nodiscard]] std::vector<ObservedColumn> observed_columns(const Model& model);
 
-/// Periodically checks whether to continue, and stores nothing.
+/// Calls go_on periodically, which decides whether the run continues; stores no data.
 class ObservingRecorder : public Recorder {
  public:
   explicit ObservingRecorder(const std::function<bool()>& go_on) : go_on_(go_on) {}
@@ -58,13 +59,13 @@ class ObservingRecorder : public Recorder {
   const std::function<bool()>& go_on_;
 };
 
-/// Errors: SceneError for scenes that the engine refuses.
+/// Runs the model, and returns its observations. Errors: SceneError for scenes that the engine refuses.
 [[nodiscard]] ObservedRun observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on);
 
 /// Observations of a run that has ended.
 [[nodiscard]] ObservedRun observed_run(certify::CompanionTracker&& tracker, Report report);
 
-/// A quantity at one instant, computed with the steps h, h/2, h/4.
+/// Values of a quantity at one instant, computed with the steps h, h/2, h/4.
 using StepTriple = std::array<double, 3>;
 
 /// The limit of the values, and its error bound.
@@ -96,7 +97,7 @@ struct SeriesKind {
   double steps = 1.0;  ///< number of steps of the finest run
 };
 
-/// `series` must be in the order of time.
+/// Limits of a series of values and their error bounds. The series must be in the order of time.
 [[nodiscard]] Extrapolation extrapolate(const std::vector<StepTriple>& series, const SeriesKind& kind);
 
 }  // namespace signorini::verify

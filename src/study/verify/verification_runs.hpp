@@ -23,7 +23,7 @@ class VerificationRuns {
   void add(double dt_of_run, ObservedRun run);
   /// True if the sequence and the orders of the last three runs have settled, as far as IDA's sequence is certain.
   [[nodiscard]] bool settled();
-  /// Fills in verdict, sentence, kinds, events.
+  /// Sets verdict, sentence, kinds and events of the result.
   void evaluate(Verification& result);
 
   ObservedRun ida;

@@ -17,7 +17,7 @@
 namespace signorini::verify {
 namespace {
 
-constexpr double least_seconds_of_step = 1e-6;  // if nothing vibrates and the cost is unknown
+constexpr double least_seconds_of_step = 1e-6;  // if there is no vibration and the cost is unknown
 constexpr double steps_at_first = 64.0;         // number for the whole run, if no dt is given
 
 class Study {
@@ -60,9 +60,9 @@ class Study {
     return run;
   }
 
-  /// Peaks are between the steps of newmark, whose values are at the ends of steps: all step sizes miss up to |r''| h^2
-  /// / 8 of a peak alike, since halved steps share their ends. So newmark also reports its values at the times of ida's
-  /// peaks; the shift of a peak by O(h^2) changes its value by O(h^4) only.
+  /// Peaks are between the steps of newmark, whose values are at the ends of steps. All step sizes miss the
+  /// same part of a peak, up to |r''| h^2 / 8, since halved steps share their ends. So newmark also reports
+  /// its values at the times of ida's peaks; the shift of a peak by O(h^2) changes its value by O(h^4) only.
   void find_peaks() {
     std::vector<double> rows = *run_.output_times;
     for (const OutputExtremes& extremes : result_.ida.report.response)

@@ -3,17 +3,16 @@
 //   newmark at dt, dt/2, dt/4 -> order, R, bar                 (richardson.hpp)
 //   |ida - R| <= bar + error bound in IDA's certificate
 //
-// at every event and output time: for the times of events, displacements, velocities, N and T of the contacts, and
-// outputs, at `VerifyRequest::rows` output times. Output times that may be before an event in one run and after it in
-// another are omitted. Extremes of outputs, if all runs are complete, are compared with the finest step of newmark.
-// Everything counts up to the first instant from which IDA's sequence is not certain, or newmark's changes with its
-// step.
+// This is checked for the times of events and, at VerifyRequest::rows output times, for displacements,
+// velocities, N and T of the contacts, and outputs. Output times that may be before an event in one run and
+// after it in another are omitted. If all runs are complete, extremes of outputs are compared with those of
+// newmark's finest step. All comparisons end at the first instant from which IDA's sequence is not certain,
+// or newmark's changes with its step.
 //
 //   agree      all comparisons hold, to the end
 //   differ     one fails: the result names the event or quantity, the time and the difference
-//   undecided  steps are too coarse, or the sequence is not certain to the end;
-//              or the third engine, exact if it accepts the scene, agrees
-//              with IDA, so that newmark's bar is too small
+//   undecided  steps are too coarse, or the sequence is not certain to the end; or newmark's bar is too
+//              small, since the third engine (exact, if it accepts the scene) agrees with IDA
 //
 // Without a dt, the step is halved from a coarse one until the sequence and the orders have settled, as far as the
 // expected cost allows.
@@ -91,10 +90,11 @@ struct Verification {
   bool interrupted = false;
 };
 
-/// Relative to the largest displacement; the paper gives no number.
+/// Change relative to the largest displacement; the paper gives no number.
 inline constexpr double paper_change = 0.01;
 
-/// `own`: IDA's model; only tests use a different one. Errors: SceneError for scenes that IDA or newmark refuses.
+/// Compares IDA with newmark. own: IDA's model, which differs from `model` only in tests. Errors: SceneError
+/// for scenes that IDA or newmark refuses.
 [[nodiscard]] Verification verify(const Model& model, const Model& own, const VerifyRequest& request);
 
 [[nodiscard]] const char* to_string(Agreement verdict);

@@ -1,7 +1,7 @@
 // verify_files.hpp: files of `verify` (docs/command-line.md).
 //
 //   verify.json   verdict, orders, richardson, bars, step tests
-//   events.csv    one row per event: its time with IDA, at the limit of the three steps, both errors
+//   events.csv    one row per event: its time with IDA, the limit of newmark's three times, both errors
 //   plots/verify  differences relative to the allowed ones
 #pragma once
 
@@ -13,6 +13,7 @@
 
 namespace signorini::verify {
 
+/// Text of verify.json.
 [[nodiscard]] std::string verify_json(const Model& model, const Verification& result);
 
 /// Writes verify.json and events.csv. Errors: FileError.

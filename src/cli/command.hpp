@@ -1,8 +1,8 @@
-// command.hpp: registration of a subcommand.
+// command.hpp: registration of the subcommands, and options that several of them share.
 //
-// add_NAME() declares its options; if the command line names the subcommand, `action` is set to its function. Actions
-// run after parsing, so their exceptions never pass through CLI11. A new subcommand is one file with one add_ function,
-// and one line in main.cpp.
+// add_NAME() declares the options of a subcommand; if the command line names the subcommand, `action` is set
+// to its function. Actions run after parsing, so their exceptions never pass through CLI11. A new subcommand
+// is one file with one add_ function, and one line in main.cpp.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -24,6 +24,7 @@ struct Program {
   std::function<ExitCode()> action;
 };
 
+// Each adds one subcommand to the program.
 void add_run(Program& program);
 void add_check(Program& program);
 void add_compare(Program& program);
@@ -44,9 +45,9 @@ void add_quake(Program& program);
 void add_completion(Program& program);
 void add_man(Program& program);
 
-// Options shared by several subcommands: --set, and the treatment of results.
+// Options shared by several subcommands: --set, and those for the output of results.
 
-/// Treatment of results.
+/// Options for the output of results.
 struct OutputOptions {
   bool force = false, quiet = false, json = false, no_plots = false;
   [[nodiscard]] bool tables() const { return !quiet && !json; }
@@ -55,7 +56,8 @@ struct OutputOptions {
 void print_warnings(const OutputOptions& options, const std::vector<std::string>& warnings,
                     const std::string& of = "");
 
-/// A note on stderr where the files of a run cannot be checked, since it has no manifest (base/run_files.hpp).
+/// Prints a note to stderr if the files of a run cannot be checked because it has no manifest
+/// (base/run_files.hpp).
 void print_unchecked(const std::filesystem::path& directory);
 
 /// Adds --force, --quiet, --json and --no-plots to a subcommand; `options` must outlive parsing.
@@ -70,17 +72,18 @@ void add_table_option(CLI::App& command, std::string& style);
 /// Adds --set PATH=VALUE to a subcommand; `settings` must outlive parsing.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
-/// Prints notes to stderr: number of tables that each setting with a * matches. `given` are PATH or PATH=VALUE after
-/// `option`. Without an option: the settings themselves, each applied after those before it. Errors: those of the file
-/// and of settings.
+/// Prints notes to stderr: the number of tables that each setting with a * matches. given: PATH or PATH=VALUE
+/// after `option`; without an option the settings themselves are reported, each applied after those before
+/// it. Errors: those of the file and of settings.
 void print_patterns(const std::string& scene, const std::vector<std::string>& settings,
                     const std::string& option = "", const std::vector<std::string>& given = {});
 
-/// Errors: UsageError for a setting without "=".
+/// The settings as overrides. Errors: UsageError for a setting without "=".
 [[nodiscard]] std::vector<Override> overrides_of(const std::vector<std::string>& settings);
 
-/// The settings for `engine`. "exact:run.rtol=1e-12" is for one engine of `engines`: no key of a scene has a colon
-/// before its first dot. Errors: UsageError, also for run.engine.
+/// The settings for `engine`: general ones, and those for this engine alone. "exact:run.rtol=1e-12" is a
+/// setting for one engine of `engines`; it cannot be a key of a scene, which has no colon before its first
+/// dot. Errors: UsageError, also for run.engine.
 [[nodiscard]] std::vector<Override> overrides_for(const std::vector<std::string>& settings,
                                                   const std::vector<std::string>& engines,
                                                   const std::string& engine);
@@ -99,8 +102,9 @@ struct ResultFolder {
   std::vector<std::string> files;
 };
 
-/// Errors: FileError unless the folder is absent, empty or, with `force`, one of ours; then also if the scene lies in
-/// it and could be lost; `scene`: empty if there is none.
+/// Checks that a command may write into the folder. Errors: FileError unless it is absent, empty or, with
+/// `force`, created by this command; with `force` also if the folder contains the scene, which could be lost.
+/// scene: may be empty.
 void check_folder(const std::filesystem::path& path, const ResultFolder& folder, bool force,
                   const std::string& scene);
 /// Creates the folder, removes our files and writes the marker. Errors: FileError.

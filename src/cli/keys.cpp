@@ -69,7 +69,7 @@ std::string small(std::string text) {
   return text;
 }
 
-/// A search word, and the words in key descriptions that it stands for. The word itself is searched, too.
+/// A search word, and the words in key descriptions that it stands for. The word itself is also searched.
 struct Synonym {
   std::string_view word;
   std::initializer_list<std::string_view> keys;

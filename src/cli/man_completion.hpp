@@ -18,6 +18,7 @@ struct OptionText {
   [[nodiscard]] bool positional() const { return names.empty(); }
 };
 
+/// Subcommands of the program.
 [[nodiscard]] std::vector<const CLI::App*> commands_of(const CLI::App& app);
 /// Options of a command, positional arguments first.
 [[nodiscard]] std::vector<OptionText> options_of(const CLI::App& command);
@@ -28,6 +29,7 @@ struct Completion {
   Kind kind = Kind::nothing;
   std::vector<std::string> words;  ///< allowed words; for settings "run.rtol="
 };
+/// Completion of an option's value, or of a positional argument.
 [[nodiscard]] Completion completion_of(const std::string& command, const OptionText& option);
 
 /// The completion scripts for bash and zsh.

@@ -26,7 +26,7 @@
 
 namespace signorini::cli {
 
-// Signorini orbit SCENE --over PATH=FROM:TO.
+// signorini orbit SCENE --over PATH=FROM:TO: follows a branch of orbits over a key.
 
 /// Parses PATH=FROM:TO. Errors: UsageError.
 void read_over(const std::string& text, BranchOptions& options);
@@ -72,7 +72,7 @@ class MarkWriter {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int marks_apart = 20;  // relative to the duration of a mark. Chosen value.
+  static constexpr int marks_apart = 20;  // time between two checkpoints / time to write one. Chosen value.
 
   const fs::path& path_;
   const SceneReader& read_;

@@ -82,7 +82,7 @@ bool listen(int end, Clock::time_point last, std::string& output) {
   }
 }
 
-/// The child's exit code; nullopt if it has not ended by then.
+/// The child's exit code; nullopt if it has not ended by the given time.
 std::optional<int> wait_for(pid_t child, Clock::time_point last) {
   for (;;) {
     int status = 0;

@@ -3,8 +3,8 @@
 //   ProgressDisplay display(run_directory, model, t_end, show_progress);
 //   Report report = simulate(model, scene.run, display);
 //
-// Rows are passed on to another Recorder. The first SIGINT or SIGTERM asks the run to stop and be kept; a second signal
-// ends the program at once.
+// All data are forwarded to another Recorder. After the first SIGINT or SIGTERM the run stops and is kept; a
+// second signal ends the program at once.
 #pragma once
 
 #include <chrono>
@@ -20,10 +20,10 @@ namespace signorini::cli {
 
 // SIGINT and SIGTERM, one handler for both and for all commands.
 //
-//   without results (set-up, check)   the program ends at once, exit code 130
-//   an Interrupt object exists (a run)  the request is noted: the run ends by itself and is kept, 130;
-//                                     a second signal, or a run that has not ended after `patience`,
-//                                     ends the program at once
+//   without results (set-up, check)     the program ends at once, exit code 130
+//   an Interrupt object exists (a run)  the request is noted: the run ends by itself and is kept, code 130;
+//                                       a second signal, or a run that has not ended after grace_seconds,
+//                                       ends the program at once
 
 /// From this call on both signals end the program with exit code 130. To be called once, at the start of the program.
 void end_on_interrupt();
@@ -36,7 +36,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// s from a noted signal to the forced end: longer than a step of any practical scene.
+  /// Seconds from a noted signal to the forced end: longer than a step of any practical scene.
   static constexpr unsigned grace_seconds = 30;
   [[nodiscard]] static bool requested();
 };
@@ -51,7 +51,8 @@ class ProgressDisplay : public run::ForwardingRecorder {
 
   void event(const Event& event) override;
   bool progress(double t) override;
-  /// Called once, after two seconds, with the estimated total duration in seconds; returns a note, or "".
+  /// Sets a function that is called once, after two seconds, with the estimated total duration in seconds,
+  /// and returns a note, or "".
   void set_long_run_advice(std::function<std::string(double)> advice) { advice_ = std::move(advice); }
 
   /// Up to this number of events are shown in full; otherwise the first and the last ones.

@@ -97,7 +97,7 @@ std::string ground_text(const quake::QuakeSpec& spec, const std::vector<double>&
       pga, ground.velocity * scene::standard_gravity, ground.displacement * scene::standard_gravity);
   if (!spec.target) return text;
   double least = 1e300, greatest = 0.0;
-  // Steps of 1 %, both ends included: narrower than any peak at 5 % damping.
+  // Periods in steps of 1 %, both ends included: narrower than any peak at 5 % damping.
   const int last = static_cast<int>(
       std::ceil(std::log(quake::max_matched_period / quake::min_matched_period) / std::log(1.01)));
   for (int i = 0; i <= last; ++i) {

@@ -31,7 +31,7 @@ std::string check_of(const Scene& scene) {
   }
 }
 
-/// Another file of that name is somebody's.
+/// A file of that name that this command has not written is not replaced.
 void check_page(const fs::path& page) {
   base::check_output_file(page, "page of Signorini", "<meta name=\"generator\" content=\"Signorini");
 }

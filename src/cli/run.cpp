@@ -62,7 +62,7 @@ std::string stacked(const std::vector<std::string>& tables) {
   return text;
 }
 
-/// The cutoff found for a tolerance; empty: none was searched for.
+/// Text about the cutoff found for a tolerance; empty if no cutoff was searched.
 std::string reduction_line(const Model& model) {
   if (!model.reduction || model.reduction->trials.empty()) return "";
   const CutoffTrial& last = model.reduction->trials.back();
@@ -71,7 +71,7 @@ std::string reduction_line(const Model& model) {
       last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->trials.size());
 }
 
-/// Results of the run; `events`: table of events; pictures: the run has the data for pictures.
+/// Text of the run's results. events: table of events; pictures: the run has the data for pictures.
 std::string certificate_text(const Scene& scene, const Model& model, const CertifiedReport& certified,
                              const std::string& events, const fs::path& path, bool pictures) {
   const Report& report = certified.report;
@@ -89,7 +89,8 @@ std::string certificate_text(const Scene& scene, const Model& model, const Certi
          "summary.json, run.toml)\n";
 }
 
-/// Suggestion for a quicker setting if a run is expected to take `seconds` in all. Empty: none, or no large gain.
+/// Suggestion for a quicker setting if a run is expected to take `seconds` in all; empty if no setting is
+/// much quicker.
 std::string quicker_choices(const Scene& scene, const Model& model, double seconds) {
   constexpr double time_of_trial = 0.2;  // s
   const Engine own = run::choose_engine(model, scene.run).engine;

@@ -13,8 +13,8 @@ namespace signorini::cli {
 /// Changes of state in a frictional start; empty for other starts.
 [[nodiscard]] std::string start_table(const Model& model, TableStyle style = TableStyle::plain);
 
-/// One row per event; if there are many, the first and the last ones. N and T are values just before the event. A
-/// certificate, or null, adds the error of each time, and the end of the certain sequence.
+/// One row per event; if there are many, the first and the last ones. N and T are values just before the
+/// event. certificate: null, or adds the error of each time and the end of the certain sequence.
 [[nodiscard]] std::string event_table(const ProgressDisplay& display, const Model& model,
                                       const Certificate* certificate, TableStyle style = TableStyle::plain);
 

@@ -17,13 +17,14 @@ struct KeyedOptions : OutputOptions {
   std::vector<std::string> parameters, settings;
 };
 
-/// -o, or SCENE's name with this suffix. Errors: UsageError.
+/// Directory of the results: that of -o, or SCENE's name with this suffix. Errors: UsageError.
 [[nodiscard]] std::filesystem::path directory_of(const KeyedOptions& options, const std::string& ending);
 
-/// Adds SCENE; then, after other arguments, --parameter, -o, --set, --force, --quiet and --json. `what`: description of
-/// --parameter; `results`: as in "replace earlier sensitivities in the directory"; `ending`: suffix of the directory;
-/// `json`: description of --json.
+/// Adds the argument SCENE.
 void add_scene(CLI::App& command, KeyedOptions& options);
+/// Adds --parameter, -o, --set, --force, --quiet and --json, after other arguments. what: description of
+/// --parameter; results: as in "replace earlier sensitivities in the directory"; ending: suffix of the
+/// directory; json: description of --json.
 void add_keyed_options(CLI::App& command, KeyedOptions& options, const std::string& what,
                        const std::string& results, const std::string& ending, const std::string& json);
 

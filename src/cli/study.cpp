@@ -76,7 +76,7 @@ const ResultFolder& study_folder() {
   return folder;
 }
 
-/// A comma without a name beside it gives an empty name.
+/// Names separated by commas; a comma without a name beside it gives an empty name.
 std::vector<std::string> names_between_commas(const std::string& text) {
   std::vector<std::string> names(1);
   for (const char c : text)
@@ -194,7 +194,7 @@ class ProgressLine {
   bool shown_;
 };
 
-/// Removes the runs of an earlier study, and nothing else. Errors: FileError.
+/// Removes the runs of an earlier study; other files stay. Errors: FileError.
 void clear_runs(const fs::path& path) {
   std::error_code error;
   const fs::path runs = path / "runs";

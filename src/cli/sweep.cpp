@@ -248,18 +248,18 @@ class Progress {
   }
 
   const sweep::SweepDirectory& directory_;
-  std::size_t all_, there_, written_ = 0;  // there: rows from before this process
+  std::size_t all_, there_, written_ = 0;  // there_: number of rows that existed before this process
   bool line_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point next_;
 };
 
-/// Computes a row for every task, unless interrupted. False: interrupted.
+/// Computes the rows of all tasks; returns false if interrupted.
 bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& options) {
   int file_error = 0;
   const auto ended = [&](const TaskResult& end) {
     if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
-      ++file_error;  // it has printed its message
+      ++file_error;  // the worker has printed its message
       return false;
     }
     try {

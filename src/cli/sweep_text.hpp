@@ -8,8 +8,8 @@
 
 namespace signorini::cli {
 
-/// The first and the last of many rows, the first of many contacts; sweep.csv has all. Styles for papers have all rows,
-/// without the reasons of failed ones.
+/// Table of the rows. Of many rows it has the first and the last, of many contacts the first; sweep.csv has
+/// all. Styles for papers have all rows, without the reasons of failed ones.
 [[nodiscard]] std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& rows,
                                      TableStyle style = TableStyle::plain);
 

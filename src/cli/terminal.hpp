@@ -1,4 +1,4 @@
-// terminal.hpp: output streams. Data goes to stdout, messages and progress to stderr.
+// terminal.hpp: output streams and tables. Data go to stdout, messages and progress to stderr.
 //
 // Colour only on a terminal, and never when NO_COLOR is set (https://no-color.org).
 #pragma once
@@ -25,11 +25,11 @@ void open_closed_streams();
 /// Replaces the progress line; an empty text removes it.
 void progress_line(const std::string& text);
 
-// Text in columns for the terminal; `right` columns are aligned to the right.
+// Text in columns for the terminal; columns with `right` are aligned to the right.
 //
 //   Table table({"t [s]", "contact"}, {true, false});  table.row({"0.5", "first"});  table.str()
 //
-// For papers also in Markdown, and as a LaTeX tabular that needs no package.
+// For papers a table is also written in Markdown, and as a LaTeX tabular that needs no package.
 
 /// The number with six significant digits.
 [[nodiscard]] std::string number(double value);

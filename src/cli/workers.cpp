@@ -26,7 +26,7 @@
 namespace signorini::cli {
 namespace {
 
-constexpr int between_looks = 200;    // milliseconds between two checks while nothing happens
+constexpr int between_looks = 200;    // milliseconds between two checks without reports
 constexpr std::size_t max_ahead = 2;  // tasks per worker: the next one waits in its pipe
 
 /// A file descriptor that is closed with its owner.
@@ -224,8 +224,8 @@ class Pool {
       }
   }
 
-  /// Waits for reports or a signal. Tasks that a dead worker has not begun return to the queue. True: a signal that
-  /// ends all tasks.
+  /// Waits for reports or a signal. Tasks that a dead worker has not begun return to the queue. Returns true
+  /// after a signal that ends all tasks.
   bool listen(std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     std::vector<pollfd> watched{{signals_.fd(), POLLIN, 0}};
     for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
@@ -257,7 +257,7 @@ class Pool {
     return status;
   }
 
-  /// Reads complete reports; false: the worker has closed its end.
+  /// Reads complete reports; returns false if the worker has closed its end.
   static bool hear(Worker& w, std::vector<TaskResult>& ends) {
     char block[65536];
     bool open = true;
@@ -291,7 +291,7 @@ class Pool {
 
   static void bury(Worker& w, std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     const int status = reap(w.process);
-    const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // it ended between two tasks
+    const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // ended between two tasks
     if (!w.given.empty() && !clean) {
       ends.push_back({w.given.front(), WIFEXITED(status) ? WEXITSTATUS(status) : 1,
                       WIFSIGNALED(status) ? WTERMSIG(status) : 0, std::move(w.reported)});

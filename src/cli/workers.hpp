@@ -1,4 +1,4 @@
-// workers.hpp: runs tasks in a few persistent processes, one task after another.
+// workers.hpp: runs tasks, such as rows of a sweep, in a few persistent processes, one task after another.
 //
 //   const bool whole = run_workers(tasks, jobs, work, ended, idle);
 //
@@ -31,20 +31,21 @@ struct TaskResult {
 using SendReport = std::function<void(const std::string&)>;
 using Work = std::function<std::string(std::size_t task, const SendReport&)>;
 
-/// `work` runs in a worker, and its report is returned here; an exception becomes an exit code (the message goes to
-/// stderr). `ended` runs here, in the order of completion, and returns whether to continue. `idle` runs here
-/// periodically, with the number of tasks in progress. Returns false if interrupted. Errors: FileError if no process
-/// can be started; all others have ended then.
+/// Runs all tasks. `work` runs in a worker, which sends its report to this process; an exception becomes an
+/// exit code (the message goes to stderr). `ended` runs in this process, in the order of completion, and
+/// returns whether to continue. `idle` runs in this process periodically, with the number of tasks in
+/// progress. Returns false if interrupted. Errors: FileError if no process can be started; all others have
+/// ended by then.
 [[nodiscard]] bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const Work& work,
                                const std::function<bool(const TaskResult&)>& ended,
                                const std::function<void(std::size_t)>& idle);
 
-// The rows of a sweep as tasks for workers: one row each or, if rows continue each other, all rows
-// along the last range.
-
+/// The rows of a sweep as tasks for workers. A task is one row or, if rows continue each other, all rows
+/// along the last range.
 class SweepTasks {
  public:
-  /// common: settings of all rows. keep: also keep the run of each row. directory: must outlive the object.
+  /// common: settings of all rows; keep: the run of each row is also kept. The directory must outlive the
+  /// object.
   SweepTasks(sweep::SweepDirectory& directory, sweep::RowTask common, bool keep);
 
   /// Missing tasks, by the index of their first row.

@@ -40,8 +40,8 @@ std::vector<std::size_t> every_contact(const Model& model) {
   return all;
 }
 
-/// Largest number of rigidly sticking contacts in a block: the rows of two may be dependent. A contact that takes
-/// impulses is always decided with its block; the result is then the largest number of the type.
+/// Largest number of contacts in a block that can stick rigidly: the rows of two may be dependent. A contact
+/// that takes impulses is always decided with its block; the result is then the largest number of the type.
 std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& blocks) {
   std::size_t most = 0;
   for (const Block& block : blocks.all) {
@@ -55,7 +55,8 @@ std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& block
   return most;
 }
 
-/// Refusal for contact states without a system: dependent rows of its contacts, or a singular structure.
+/// Refusal for contact states without a system: the rows of rigid contacts are dependent, or the structure is
+/// singular.
 Refusal no_system(const Model& model, const contact::ContactStates& states) {
   std::vector<std::size_t> held;
   for (std::size_t c = 0; c < states.size(); ++c)
@@ -76,7 +77,8 @@ Refusal no_system(const Model& model, const contact::ContactStates& states) {
           {}};
 }
 
-/// Stiffnesses that make the forces unique. Only sliders may have a tangential_stiffness without a normal one.
+/// Keys of stiffnesses that make the forces unique, for messages. Only sliders may have a
+/// tangential_stiffness without a normal one.
 std::string springs_for_uniqueness(const Model& model, const std::vector<std::size_t>& contacts) {
   const bool sliders = std::any_of(contacts.begin(), contacts.end(),
                                    [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
@@ -206,7 +208,8 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
          systems_.held_by_others(c, solver_state.states, solver_state.after, solver_state.instant.t);
 }
 
-/// Finds the guards that fail in the evaluated states. before: they are the states of the motion up to the instant.
+/// Finds the guards that fail in the evaluated states, and notifies the listener. before: these are the
+/// states of the motion up to the instant.
 void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   solver_state.failed =
       find_failed_guards(model_, solver_state.jets, solver_state.states, solver_state.instant, before,
@@ -229,8 +232,8 @@ void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   listener_(round);
 }
 
-/// Keeps a contact that stops on the way of massless parts where it stopped, not where it started. This is done once
-/// per contact, since the way is a different one afterwards.
+/// Starts the path of massless parts anew where contact f stops on it, so that the contact stays there. This
+/// is done once per contact, because the path is a different one afterwards.
 void ContactStateSolver::stop_there(const FailedGuard& f, SolverState& solver_state) const {
   std::vector<std::size_t>& before = solver_state.slid_contacts;
   if (!stops_on_path(model_.contacts[f.contact], f, solver_state.states[f.contact].state,
@@ -254,7 +257,8 @@ std::vector<Block> selected(const std::vector<Block>& blocks, const std::vector<
 
 }  // namespace
 
-/// Gives their next states to contacts that are decided separately. Returns the blocks that must be decided together.
+/// Sets the next states of contacts that are decided separately. Returns the blocks whose contacts must be
+/// decided together.
 std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   ImpactResult& found = solver_state.impact_result;
   std::vector<bool> jointly(blocks_.all.size(), false);
@@ -266,7 +270,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   };
   if (solver_state.touched && model_.contacts[solver_state.touched->contact].normal_damping > 0.0)
     solver_state.instant.u = way.from + solver_state.touched->fraction * (way.to - way.from);
-  // Once: if states repeat, all contacts are decided.
+  // Failures are deferred only until states repeat; then all contacts are decided.
   if (solver_state.decision.rounds >= 2 && !solver_state.noise_increased) {
     defer_slip_failures(model_, solver_state.failed);
     if (!found.sliders)
@@ -275,7 +279,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   for (const FailedGuard& f : solver_state.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
-    // The time of a touch on the way is that of another contact's event.
+    // A contact that closes on the path has no crossing of its own: the event is another contact's.
     if (!solver_state.decision.visited[c] && !touched(c) &&
         !is_pushed(f, solver_state.instant, solver_state.decision.before[c], solver_state.noise_before[c]))
       solver_state.decision.crossings.insert_or_assign(c, crossing(f.form, solver_state.jets[c]));
@@ -291,7 +295,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
       stop_there(f, solver_state);
       ContactState& state = solver_state.states[c];
       state = contact::next_state(contact, state, f.guard, solver_state.jets[c]);
-      if (touched(c))  // elastic first; its limit decides about slip
+      if (touched(c))  // it sticks first; its friction limit decides about slip
         state = {contact::state_at_rest(contact),
                  solver_state.jets[c].motion[0].ut + solver_state.touched->ut};
       continue;
@@ -315,7 +319,8 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   return selected(blocks_.all, jointly);
 }
 
-/// Stops sliders that reverse: the slip rate left by the location of the event would otherwise persist.
+/// Sets the slip rates of sliders that reverse to zero: otherwise the slip rate that is left at the located
+/// time would persist.
 void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const {
   if (turning.empty()) return;
   const motion::StateSystemPtr system = systems_.system_of(solver_state.states);
@@ -331,7 +336,7 @@ void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverSta
   solver_state.impact_result.capture(with_reactions(model_, *system, turning, impulses));
 }
 
-/// Records the crossings of gaps that closed together with others, up to rounding.
+/// Records the crossings of gaps that closed at the same time as others, up to rounding.
 void ContactStateSolver::note_hits(SolverState& solver_state) const {
   Decision& d = solver_state.decision;
   if (d.rounds > 1) return;
@@ -342,7 +347,7 @@ void ContactStateSolver::note_hits(SolverState& solver_state) const {
                                        solver_state.jets[c]));
 }
 
-/// Proposes the next states from the guards that failed in the last one.
+/// Proposes the next states from the guards that fail in the states tried last.
 Refusal ContactStateSolver::propose(SolverState& solver_state) {
   Decision& d = solver_state.decision;
   const std::vector<Block> jointly = react(solver_state);
@@ -377,7 +382,7 @@ Refusal ContactStateSolver::try_next(SolverState& solver_state) {
   if (!solver_state.impact_result.hit && !std::exchange(solver_state.impact_result.sliders, true)) {
     solver_state.tried_states.pop_back();
     solver_state.states = last;
-    // The joint decision of several sliders needs all orders of their motions.
+    // Several sliders that are decided together need all orders of their motions.
     if (!evaluate(solver_state.after, solver_state.states, solver_state))
       return no_system(model_, solver_state.states);
     if (Refusal why = propose(solver_state)) return why;
@@ -431,7 +436,7 @@ bool ContactStateSolver::meets_static_limit(const SolverState& solver_state, std
          std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
 }
 
-/// True if all its guards are positive at order 0.
+/// True if all guards of contact c are clearly positive in value.
 bool ContactStateSolver::clearly_holds(const SolverState& solver_state, std::size_t c) {
   return solver_state.open && !std::binary_search(solver_state.open->begin(), solver_state.open->end(), c);
 }
@@ -501,8 +506,8 @@ void ContactStateSolver::finish(SolverState& solver_state) {
   record_released(solver_state, d);
 }
 
-/// Enumeration may give the same result as release(): a contact at its limit of friction opens, and its force drops to
-/// zero.
+/// Records contacts that enumeration released, in addition to those of CycleFallback::release(): at its
+/// friction limit a contact on massless parts opens, and its force drops to zero.
 void ContactStateSolver::record_released(const SolverState& solver_state, Decision& d) const {
   const Instant& now = solver_state.instant;
   if (now.jump || now.start || !d.released.empty()) return;
@@ -514,8 +519,8 @@ void ContactStateSolver::record_released(const SolverState& solver_state, Decisi
   }
 }
 
-/// Refuses a slipping contact whose slip rate is zero with all its derivatives if sticking contacts hold it: its own
-/// row is then dependent on theirs, and its force need not stay at the limit.
+/// Refuses a slipping contact whose slip rate is zero with all its derivatives because sticking contacts hold
+/// it. Its row depends on theirs, and its force need not stay at the limit.
 Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const {
   const Decision& d = solver_state.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
@@ -559,14 +564,14 @@ Decision ContactStateSolver::decide(Instant instant, const motion::Forcing& befo
   const Refusal::Kind kind = first.decision.refusal.kind;
   if (kind == Refusal::Kind::none) return std::move(first.decision);
   if (first.flight_taken_as_rest) {
-    // A flight of a chattering contact is computed until the clock resolves no more, if resting has no consistent
-    // state.
+    // If no state with the contact at rest is consistent, its flights are computed as long as times resolve
+    // them.
     Instant flying = instant;
     flying.keep_low_flights = true;
     if (Attempt a = attempt(flying, before, after); !a.decision.refusal) return std::move(a.decision);
   }
-  // Otherwise slip rates as small as the flights taken as rest count as rest: hits that are left out would change them,
-  // and the slip ends with the chatter.
+  // Otherwise slip rates as small as the speeds that were taken as rest count as zero. The omitted impacts
+  // would change them, and the slip ends with the chatter.
   const bool painleve = kind == Refusal::Kind::ambiguous || kind == Refusal::Kind::paradox;
   if (!painleve || !(first.max_rest_speed > 0.0)) return std::move(first.decision);
   instant.rest_speed = retry_noise_factor * first.max_rest_speed;

@@ -2,14 +2,16 @@
 //
 //   every guard g of the new states:  g, g', g'', ...  is lexicographically not negative
 //
-// States are never simply switched: the next states are those whose guards hold on the solution after the instant. A
-// contact whose guard fails takes its next state (contact/law.hpp), and the jet is expanded again with the new
-// states, until all guards hold. Rigid contacts are decided together (decide/rigid_contact_solver.hpp): velocities
-// first if one closes with g' < 0, then accelerations and their derivatives. Sliders without tangential stiffness join
+// The states after an instant are those whose guards hold on the solution after it. A contact whose guard
+// fails takes its next state (contact/law.hpp). The jet is then expanded again with the new states, until all
+// guards hold. Rigid contacts are decided together (decide/rigid_contact_solver.hpp): velocities first if one
+// closes with g' < 0, then accelerations and their derivatives. Sliders without tangential stiffness join
 // them if their own states repeat, or if several of them may hold one motion. If states repeat,
-// decide/cycle_fallback.hpp continues. If no states are consistent, the decision is refused. If a flight was taken as
-// rest because of its height only, the decision is made once more with that flight, then with slip rates as small as
-// such flights at rest, too.
+// decide/cycle_fallback.hpp continues.
+//
+// If no states are consistent, the decision is refused. If a flight was taken as rest because of its height
+// only, a second attempt computes this flight. If that attempt is refused as well, a third attempt takes slip
+// rates as small as the speeds of such flights as zero.
 #pragma once
 
 #include "decide/cycle_fallback.hpp"
@@ -17,24 +19,27 @@
 
 namespace signorini::decide {
 
-/// Friction limits that are zero with all their derivatives, from now until they are found to fail.
+/// Friction limits that are zero with all their derivatives after the decision: the list
+/// Instant::resting_limits of the next one, as long as none of them fails.
 [[nodiscard]] std::vector<TriggeredGuard> find_resting_limits(const Decision& decision);
 
 class ContactStateSolver {
  public:
-  /// capture_velocity: for rigid contacts without a value of their own. whole_jets: Decision::jet is used beyond
-  /// accelerations and the rates of forces.
+  /// max_rounds: limit for the rounds of state changes at one instant. capture_velocity: for rigid contacts
+  /// without a value of their own. whole_jets: Decision::jet is used beyond accelerations and the rates of
+  /// forces.
   ContactStateSolver(motion::StateSystems& systems, int max_rounds, double capture_velocity,
                      bool whole_jets = true);
 
   /// Decides the states just after an instant. `before`, `after`: the forcing on both sides of it.
   [[nodiscard]] Decision decide(Instant instant, const motion::Forcing& before, const motion::Forcing& after);
-  /// Adopts `states` from an engine that finds states and no instants: computes their forces and
-  /// accelerations, which are the same before and after.
+  /// Adopts `states` from an engine that finds states, but not the instants at which they change: computes
+  /// their forces and accelerations, which are the same before and after.
   [[nodiscard]] Decision adopt(const Instant& instant, const contact::ContactStates& states,
                                const motion::Forcing& forcing);
 
-  /// Reason for ending a run whose events take no time, after the decision `last`.
+  /// Refusal that ends a run whose events take no time, after the decision `last`: the reason with its
+  /// contacts and the condition number of their forces.
   [[nodiscard]] Refusal standstill(const Decision& last, std::vector<std::size_t> contacts,
                                    std::string reason);
 

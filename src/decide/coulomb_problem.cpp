@@ -18,11 +18,12 @@ using Eigen::VectorXd;
 
 // Tolerance for the conditions of a solution, relative to the size of the problem.
 constexpr double misses = rounding::elimination;
-// Responses are equal if they differ by less, relative to the size of the problem, or by `misses` times the condition
-// of their own equations. Chosen value: far below the differences in Painleve's paradox.
+// Two responses are equal if they differ by less than this, relative to the size of the problem, or by less
+// than `misses` times the condition of their equations. Chosen value: far below the differences in Painleve's
+// paradox.
 constexpr double same_solution = 1e-9;
-// Upper limit of this difference for any condition. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a
-// margin of 1e-10; motions of Painleve's paradox differ by the size itself.
+// Largest such difference, for any condition. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a margin of
+// 1e-10; responses in Painleve's paradox differ by the size of the problem.
 constexpr double most_alike = 1e-3;
 
 /// The problem in units that make the diagonal of W one.
@@ -50,12 +51,13 @@ Scaled scaled(const CoulombProblem& p) {
   return s;
 }
 
-/// Number of covering vectors tried with Lemke's method. With W semidefinite each one gives a solution except for
-/// rounding: with many contacts that share few motions the method may end in a ray. Chosen value: of 150 seams four
-/// need a second vector (tests/unit/base/lcp.cpp).
+/// Number of covering vectors tried with Lemke's method. With W semidefinite, each one leads to a solution in
+/// exact arithmetic; with rounding, and many contacts that share few motions, the method may end in a ray.
+/// Chosen value: 4 of 150 seams need a second vector (tests/unit/base/lcp.cpp).
 constexpr int most_ways = 12;
 
-/// Covering vector d: ones, then numbers from 1 to 2 without a pattern (multiples of the golden section).
+/// Covering vector d: ones for way = 0, otherwise irregular numbers from 1 to 2 (multiples of the golden
+/// section).
 VectorXd cover_of(Index size, int way) {
   VectorXd d = VectorXd::Ones(size);
   for (Index i = 0; way > 0 && i < size; ++i) {
@@ -65,7 +67,8 @@ VectorXd cover_of(Index size, int way) {
   return d;
 }
 
-/// Solves the linear complementarity problem: forces = F z plus given ones; w = rows of responses, or of cones.
+/// Solves the linear complementarity problem of the variables z by Lemke's method: forces = F z + given
+/// forces, w = responses, or distances to cones. Returns the forces, scaled.
 std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const std::vector<bool>& kinetic,
                                  int way) {
   Index size = 0;
@@ -125,7 +128,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   return VectorXd(F * *z * size_of_q);
 }
 
-/// States of an item in the enumeration. sign_of: direction of slip.
+/// States of an item in the enumeration; sign_of() is the direction of slip.
 enum class TrialState : unsigned char { open, stick, slip_plus, slip_minus };
 
 int sign_of(TrialState state) {
@@ -148,7 +151,7 @@ std::vector<TrialState> choices(const CoulombItem& item) {
   return {};
 }
 
-/// Equations of one combination of states: at most one unknown per row; A x = c with x the forces.
+/// Equations A x = c of one combination of states, x the 2m scaled forces.
 struct Equations {
   MatrixXd A;
   VectorXd c;
@@ -233,7 +236,8 @@ CoulombSolution finished(const CoulombProblem& p, const Scaled& s, const VectorX
   return solution;
 }
 
-/// True if x (scaled) satisfies all conditions. Lemke's method may end with the basis of a tie, which does not.
+/// True if the scaled forces x satisfy all conditions; with ties Lemke's method may end in a basis that
+/// violates some.
 bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
@@ -257,13 +261,13 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
   return true;
 }
 
-/// Factor by which a residual of a combination, relative to its size, may change the solution.
+/// Factor from a relative residual of the equations to the relative change of the solution.
 double amplification(const MatrixXd& equations) {
   const VectorXd values = base::singular_values(equations);
   return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
 }
 
-/// Marks items that slip with the static coefficient; true if there are any.
+/// Marks items that slip in the solution, but had the static coefficient. True: there are such items.
 bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
@@ -308,8 +312,8 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
     least = std::min(least, tried.miss);
     if (tried.miss > misses) continue;
     CoulombSolution solution = finished(p, s, tried.force, kinetic);
-    // Two solutions at the limit of friction are the same motion: close to Painleve's limit their residuals separate
-    // them.
+    // Two solutions at a friction limit may be the same motion: near the limit of Painleve's paradox,
+    // residuals of rounding size separate them.
     const double condition = amplification(equations_of(p, s, states, kinetic).A);
     bool known = false;
     for (std::size_t k = 0; k < found.size() && !known; ++k) {
@@ -368,8 +372,8 @@ using Kind = CoulombItem::Kind;
 constexpr double noise_of_solution =
     2.0;  // relative to the noise of the right-hand side: the solution adds as much again
 
-/// Forces whose responses are zero, and the responses to a unit of each; k of a slipping contact is proportional to its
-/// l.
+/// Forces whose responses are zero, and the responses to a unit of each force. k of a slipping contact
+/// follows its l.
 struct Acting {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd columns;

@@ -20,9 +20,9 @@
 
 namespace signorini::decide {
 
-// Rows of a listed contact in vectors that contain l, k or rn, rt of each contact in turn, by the layout of the list.
+// Rows of a listed contact in vectors that contain l and k, or rn and rt, contact by contact.
 //
-//   (n_1, t_1, n_2, t_2, ...)         the list: touching, undecided, or reversing contacts
+//   (n_1, t_1, n_2, t_2, ...)         the list contains touching, undecided, or reversing contacts
 
 template <class Integer>
 [[nodiscard]] Eigen::Index normal_place(const ForceLayout& layout, Integer i) {
@@ -43,12 +43,13 @@ struct CoulombItem {
     sliding,     ///< slides along sign already: k = -sign f l
     frictional,  ///< may stick, or begin to slip in either direction
     pressed,     ///< l is given: k alone
-    limit,       ///< slides along sign at its limit, as W assumes; k = +sign d, d >= 0, if it sticks
+    limit,       ///< at its limit; W contains its slip along sign; if it sticks, k changes by sign d, d >= 0
   } kind = Kind::normal;
   double static_friction = 0.0, kinetic_friction = 0.0;
   double applied_normal_force = 0.0;  ///< pressed: l
   int sign = 0;                       ///< sliding, limit
 
+  /// Coefficient of friction.
   [[nodiscard]] double friction(bool slips) const { return slips ? kinetic_friction : static_friction; }
 };
 
@@ -68,8 +69,8 @@ struct CoulombSolution {
   std::vector<bool> kinetic;        ///< items that have begun to slip: f is the kinetic coefficient
 };
 
-/// Solution by Lemke's method, then, for up to `max_enumerated` items, by trying all states. nullopt: no solution was
-/// found.
+/// Solution by Lemke's method. If it finds none, all states of up to `max_enumerated` items are tried.
+/// nullopt: no solution was found.
 [[nodiscard]] std::optional<CoulombSolution> solve(const CoulombProblem& problem);
 
 inline constexpr std::size_t max_enumerated = 6;
@@ -77,8 +78,8 @@ inline constexpr std::size_t max_enumerated = 6;
 /// Result of trying all states.
 struct EnumerationResult {
   std::vector<CoulombSolution> solutions;  ///< solutions with different responses
-  /// Largest violation of a condition by the best combination, in roundings of the problem's size; 0: there is a
-  /// solution, NaN: there are too many items.
+  /// Largest violation of a condition by the best combination, in multiples of the rounding of the problem's
+  /// size. 0: there is a solution; NaN: there are too many items.
   double min_violation = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -88,10 +89,10 @@ struct EnumerationResult {
 /// Condition number of W in units that make its diagonal one: largest over smallest singular value.
 [[nodiscard]] double condition_number(const CoulombProblem& problem);
 
-/// False if friction couples tangent to normal too weakly for more than one solution.
+/// False if friction couples the tangent to the normal too weakly for a second solution to exist.
 [[nodiscard]] bool may_be_nonunique(const CoulombProblem& problem);
 
-// Values of a Coulomb problem's solution that are significant within its noise.
+// Accuracy of a Coulomb problem's solution: distinguishes its values from noise.
 //
 //   df = |A^-1| db,   dr = db + |W_A| df       A: rows and columns of W of the acting forces, |.| entrywise
 //
@@ -115,8 +116,8 @@ class CoulombSignificance {
 
   [[nodiscard]] double force_tolerance(Eigen::Index row) const;
   [[nodiscard]] bool is_zero_response(Eigen::Index row) const;
-  /// True if friction is clearly inside its cone: the contact is then at rest, whatever rounding is left in its
-  /// response.
+  /// True if the force is inside its cone by more than its noise: the contact is then at rest, whatever
+  /// rounding is left in its response.
   [[nodiscard]] bool is_inside_cone(std::size_t i) const;
 
  private:

@@ -8,7 +8,8 @@
 
 namespace signorini::decide {
 
-/// Tries all combinations of states of a block, if no other method finds a consistent one.
+/// Takes the best of all combinations of states of a block, if it is acceptable; otherwise returns the
+/// refusal.
 Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   StateEnumeration enumeration(systems_, jets_);
   std::vector<StateEnumeration::Choice> choices;
@@ -51,8 +52,8 @@ Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   return {};
 }
 
-/// Lets massless parts leave the failing contact if no combination of states is consistent. False: they cannot, or
-/// already have.
+/// Lets massless parts leave the only failing contact of the block (massless_jump.hpp). False: several
+/// contacts fail, or the parts cannot leave, or have already left.
 bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
   std::vector<std::size_t> circling;
   for (const FailedGuard& f : solver_state.failed)
@@ -72,9 +73,10 @@ bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
   return true;
 }
 
-/// Continues a decision whose states repeat, in three steps. First, zeros are blurred: one sample of rounding, and the
-/// clock, may have separated them too sharply. Second, sliders are decided together with the other contacts. Third,
-/// rounding cannot decide, and all combinations are weighed.
+/// Continues a decision whose states repeat, by the first of three steps that has not been taken yet. First,
+/// noise and resolution are increased: one sample of rounding may have separated zeros too sharply. Second,
+/// sliders are decided together with the other contacts. Third, all combinations of the states of each
+/// failing block are compared.
 Refusal CycleFallback::next_step(SolverState& solver_state) {
   if (solver_state.increase_noise()) {
     solver_state.tried_states.clear();

@@ -1,9 +1,10 @@
 // cycle_fallback.hpp: continues a decision whose states repeat.
 //
-//   blurred zeros -> sliders with the others -> all combinations of states of a block -> massless parts let go
+//   16 times the noise -> sliders decided with the others -> all combinations of states of a block
+//                      -> massless parts leave the contact instantaneously
 //
-// Guards that fail in turns are zeros that rounding has separated too sharply. If no combination of states is
-// consistent either, the decision is refused.
+// Contact states repeat if rounding separates the zeros of several guards that are zero together. Each step
+// is tried only if states repeat after the one before. If the last one fails, the decision is refused.
 #pragma once
 
 #include <vector>
@@ -18,6 +19,7 @@ namespace signorini::decide {
 
 /// Groups of contacts that are decided together, and the block of each contact.
 struct ContactBlocks {
+  /// Groups of contacts that are coupled (assembly/parts.hpp).
   explicit ContactBlocks(const Model& model)
       : all(assembly::coupled_contacts(model)), of(model.contacts.size()) {
     for (std::size_t b = 0; b < all.size(); ++b)
@@ -48,15 +50,15 @@ class CycleFallback {
 
 // Order of state changes if several contacts change at one instant.
 //
-//   p' = 0: it stops   ->   |T| <= f|N| in stick?   no: it slips, in the other direction or in the same
+//   p' = 0: the contact stops   ->   |T| <= f|N| in stick?   no: it slips, in the other or the same direction
 //
-// While a stopped contact is tried as sticking, it pulls at others with a force that is later found not to exist.
-// Contacts that only this force pushes beyond a limit have no reason to change: they are decided after the state of the
+// A stopped contact is first tried as sticking. If it does not stick, its force on other contacts does not
+// exist. Other contacts that only this force pushes beyond a limit keep their states until the state of the
 // stopped contact is known.
 
-/// If a contact that was decided before is beyond the limit of rigid friction, removes failures of other contacts of
-/// its block that were not decided before: failures of values, not of rates. visited: one entry per contact; block_of:
-/// its block.
+/// Acts if a contact with a rigid tangent that has changed its state is beyond its friction limit. It removes
+/// the failures of all contacts of this block that have not changed yet, if their guards fail in value (order
+/// 0). visited: contacts that have changed; block_of: block of each contact.
 void defer_pushed_failures(const Model& model, const std::vector<bool>& visited,
                            const std::vector<std::size_t>& block_of, std::vector<FailedGuard>& failed);
 

@@ -20,11 +20,11 @@ struct GuardStart {
   bool at_zero = false;   ///< starts at zero and rises
   int leading_order = 0;  ///< order of its first nonzero derivative; -1: none is known
   double noise = 0.0;     ///< rounding of its value at the start; at least the value that was taken as zero
-  /// leading_order < 0: rounding of its second and third derivatives
+  /// leading_order < 0: rounding of its second and third derivatives.
   std::array<double, 2> derivative_noise{};
 
-  /// Possible drift of the guard by rounding after a time h if no derivative determines it: a body at rest beside a
-  /// wall drifts. 0 if the drift is beyond the range of numbers.
+  /// Possible drift by rounding after a time h, if all derivatives of the guard are zero: the computed gap of
+  /// a body at rest next to a wall drifts. 0 if the drift is beyond the range of numbers.
   [[nodiscard]] double drift(double h) const {
     const double far = h * h * (derivative_noise[0] / 2.0 + h * derivative_noise[1] / 6.0);
     return std::isfinite(far) ? far : 0.0;
@@ -58,12 +58,12 @@ struct Decision {
   std::vector<GuardStart> guards;             ///< one entry for each slot of `layout`
   GuardForms forms;                           ///< forms of these guards, including absent ones
   std::map<std::size_t, Crossing> crossings;  ///< of visited contacts
-  std::vector<bool> visited;  ///< contacts that changed state in between, one entry per contact
+  std::vector<bool> visited;  ///< contacts that changed state during the decision, one entry per contact
   std::vector<bool> jumped;   ///< contacts whose N or T jumps
   std::vector<std::size_t>
       released;                   ///< contacts that massless parts left instantaneously (massless_jump.hpp)
   std::vector<Impulse> impulses;  ///< one entry per contact if rigid contacts were hit; otherwise empty
-  std::vector<SingleImpact> single_impacts;  ///< successive impacts, whose sums are `impulses`
+  std::vector<SingleImpact> single_impacts;  ///< terms of the sums `impulses`, in the order of the impacts
   std::vector<double> departures;            ///< ImpactResult::departures
   double impact_loss = 0.0;                  ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;          ///< work of moving surfaces in the impacts
@@ -71,18 +71,18 @@ struct Decision {
   /// True if rounding left the decision open: the states with the smallest violation were taken, or rest continues at
   /// the limit of friction.
   bool undecided = false;
-  /// Contacts that rest there, or whose friction drops to the kinetic value if they do not.
+  /// Contacts that rest at their friction limit, or whose friction drops to the kinetic value if they do not.
   std::vector<ContactAtLimit> at_limit;
   /// True if a flight faster than capture_velocity was taken as rest because the clock does not resolve it, or as
   /// landed because it is lower than the rounding of its data.
   bool unresolved = false;
-  double tolerated_violation = 0.0;  ///< violation of those states, in multiples of their rounding
+  double tolerated_violation = 0.0;  ///< largest violation of their guards, in multiples of the rounding
   int rounds = 0;
-  /// Impulses along n and t, indexed like forces, that no law of impact gives: they stop contacts that stay, and remove
-  /// the velocities that rounding and tolerances leave where zero is exact. Empty: none.
+  /// Impulses along n and t, indexed like forces, that do not belong to an impact. They stop contacts that
+  /// stay closed, and remove velocities that are rounding or errors within tolerances. Empty: none.
   Eigen::VectorXd capture_impulses = {};
 
-  /// Guard after the decision.
+  /// Guard in the new states. slot: index of a guard (contact/contact_states.hpp).
   [[nodiscard]] const GuardForm& guard(std::size_t slot) const {
     return forms[layout.contact_of_guard(slot)][layout.guard_within(slot)];
   }

@@ -90,8 +90,9 @@ Eigen::VectorXd impose_velocities(const Delassus& d, const std::vector<FixedVelo
 
 namespace {
 
-/// Fraction of the largest force. The noise is the size that counts as zero: 64 times 4 to 8 eps of the terms times the
-/// condition. A check is worthwhile above a condition of about 1e10. Chosen value; the singular value decides.
+/// Fraction of the largest force above which its noise is suspicious. The noise is 64 times 4 to 8 eps of the
+/// terms, times the condition; a check is worthwhile above a condition of about 1e10. Chosen value: the
+/// singular value decides.
 constexpr double suspicious = 1e-3;
 
 bool holds(const Contact& contact, const ContactState& state) {
@@ -99,7 +100,8 @@ bool holds(const Contact& contact, const ContactState& state) {
   return contact.sticks_rigidly() && state.state == State::stick;
 }
 
-/// Matrix A: constraint rows of accelerations, and their response to the constraint forces.
+/// A of forces_are_unique(): the rows of W of normals of closed and tangents of sticking contacts, with
+/// friction in the columns of slipping ones.
 Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& states,
                           const std::vector<std::size_t>& contacts, const Delassus& d) {
   std::vector<Eigen::Index> rows;
@@ -116,8 +118,8 @@ Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& stat
   return effect(rows, rows);
 }
 
-/// Adds the terms that make shares unique for feet of one body that share a motion: s z z' for directions z without
-/// effect (linear/redundant_rows.hpp).
+/// Adds terms s z z^T, z the directions of forces without effect: they make the forces of feet of one body
+/// unique (linear/redundant_rows.hpp).
 void add_shares(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
                 const std::vector<std::size_t>& contacts, Delassus& d) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
@@ -177,11 +179,12 @@ namespace {
 
 using Kind = CoulombItem::Kind;
 
-/// Items whose forces may change, their rows in turn, and the sets in which they may.
+/// Forces that may change without effect on the responses: their rows, item by item, and the admissible set
+/// of each item.
 struct Shares {
   std::vector<Eigen::Index> rows;
   std::vector<base::ConvexSet> sets;
-  std::vector<std::size_t> resting;  ///< items that may stick: what they bear is no slip
+  std::vector<std::size_t> resting;  ///< items that may stick
 };
 
 Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, const CoulombSolution& s) {
@@ -233,7 +236,7 @@ void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may
   const Eigen::VectorXd given = solution.force(shares.rows);
   const Eigen::MatrixXd kept = base::orthogonal_complement(open).transpose();
   const auto force = base::least_norm(kept, kept * given, shares.sets);
-  if (!force) return;  // `given` alone holds it, to rounding
+  if (!force) return;  // up to rounding, `given` is the only solution
   solution.force(shares.rows) = *force;
   for (const std::size_t i : shares.resting) solution.kinetic[i] = false;
 }

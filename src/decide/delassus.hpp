@@ -32,48 +32,50 @@ struct FixedVelocity {
 };
 /// True if v has exactly these velocities.
 [[nodiscard]] bool has_velocities(const std::vector<FixedVelocity>& fixed, const Vector& v);
-/// Gives v these velocities to the last digit, by the smallest change in the norm of M; the computed v has them only up
-/// to the rounding of an elimination. Returns the impulses of this change, one per row of `delassus`; empty: none.
+/// Makes these velocities in v exact, by the smallest change in the norm of M; before, they have the rounding
+/// of an elimination. Returns the impulses of this change, one per row of `delassus`; empty: none.
 Eigen::VectorXd impose_velocities(const Delassus& delassus, const std::vector<FixedVelocity>& fixed,
                                   Vector& v);
 
+/// The matrices for these contacts, in the states of the system.
 [[nodiscard]] Delassus delassus(const Model& model, const motion::StateSystem& system,
                                 const std::vector<std::size_t>& contacts);
 
-/// Impulses on the listed contacts (decide/coulomb_problem.hpp), together with the reactions of other constraint rows, such as
-/// those of a sticking slider. Indexed like forces. Empty: no impulses.
+/// Impulses on the listed contacts (decide/coulomb_problem.hpp), together with the reactions of other
+/// constraint rows, such as those of a sticking slider. Indexed like forces. Empty: no impulses.
 [[nodiscard]] Eigen::VectorXd with_reactions(const Model& model, const motion::StateSystem& system,
                                              const std::vector<std::size_t>& contacts,
                                              const Eigen::VectorXd& impulses);
 
-// Checks that the rows of contact states determine the forces of its rigid contacts.
+// Checks that contact states determine the forces of rigid contacts.
 //
 //   A = H^T M^-1 (H - s f T),   H: normals of closed contacts, tangents of sticking ones;  A_ij / sqrt(A_ii A_jj)
 //
-// An elimination of dependent rows ends with a pivot of rounding size, and may not detect it: the computed forces then
-// have any size and sign, with noise of the same size.
+// The forces are unique if A is regular. An elimination of dependent rows ends with a pivot of rounding size,
+// and may not detect it: the computed forces then have any size and sign, with noise of the same size.
 
-/// True if the noise of a rigid contact's force exceeds a thousandth of the largest force: the forces may then not be
-/// unique.
+/// True if the noise of a rigid contact's force exceeds a thousandth of the largest force: the forces may
+/// then not be unique, and forces_are_unique() decides.
 [[nodiscard]] bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets);
 
-/// False if the smallest singular value is the rounding of zero.
+/// False if the smallest singular value of the scaled A is zero up to rounding.
 [[nodiscard]] bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStates& states);
 
-// Forces of rigid contacts and sliders that accelerations leave open.
+// Forces of least norm, for rigid contacts and sliders whose forces the accelerations do not determine.
 //
 //   min sum ( l_i^2 + k_i^2 )   over   W f = W f_0,   (l_i, k_i) in the cone of contact i
 //
-//   it presses and rests    0 <= l,  |k| <= fs l        pressed by a given l:  |k| <= fs l
-//   it presses and slips    0 <= l,  k = -f l sign(rt)
-//   without friction        0 <= l
+//   contact i presses and rests    0 <= l,  |k| <= fs l        pressed by a given l:  |k| <= fs l
+//   contact i presses and slips    0 <= l,  k = -f l sign(rt)
+//   without friction               0 <= l
 //
-// A complementarity problem yields some forces that hold a body. Two of its feet that stick may share the friction in other
-// ways, and with feet at unequal heights their compressions, too. The accelerations are those of all; the forces of least norm
-// are unique, so that they depend neither on the order of contacts nor on the method that found the accelerations. A contact
-// whose force of least norm lies on its cone is at its limit.
+// f_0 is one solution of a complementarity problem. Two sticking feet of a body may share the friction in
+// other ways with the same accelerations; feet at unequal heights may also share the compression in other
+// ways. The forces of least norm are unique: they depend neither on the order of contacts nor on the method
+// that found f_0. A contact whose force of least norm lies on its cone is at its limit.
 
-/// Replaces the forces of items of which others may hold the same motion, `may_share`, where that changes no response.
+/// Replaces the forces in the solution by those of least norm, where no response changes. may_share: items
+/// whose motion other items may hold as well.
 void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may_share,
                      CoulombSolution& solution);
 

@@ -19,7 +19,8 @@ constexpr std::size_t most_compared = 5;  // largest number of contacts for whic
 
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
-/// Removes the normal of an item at its limit: it is a constraint row already, and an elimination leaves only rounding.
+/// Removes the normal of items at their limit from the problem: it is a constraint row already, so W contains
+/// only rounding there.
 void hold_normals(CoulombProblem& p) {
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     if (p.items[i].kind != Kind::limit) continue;
@@ -30,7 +31,8 @@ void hold_normals(CoulombProblem& p) {
   }
 }
 
-enum class Verdict : unsigned char { open, limit, decided };  // open: not decided yet
+// open: undecided; limit: undecided, at its friction limit.
+enum class Verdict : unsigned char { open, limit, decided };
 
 void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
   state.state = contact::slip_state(sign);
@@ -66,14 +68,14 @@ Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::si
   const bool two = item.static_friction != item.kinetic_friction;
   if ((two && !participant.bears_limit) || std::abs(r.force(t)) <= r.force_tolerance(t))
     return Verdict::decided;
-  // At its limit: with one coefficient the next derivative decides. With two the contact sticks until the guard of the
-  // static limit fails; from then on it bears that limit if other contacts hold it.
+  // The contact is at its limit. With one coefficient the next derivative decides. With two coefficients it
+  // sticks until the guard of the static limit fails; then it stays at that limit if other contacts hold it.
   participant.sign = -sign_of(r.force(t));
   state.state = contact::slip_state(participant.sign);
   return Verdict::limit;
 }
 
-/// Decides a contact. If its force is not zero, its response is zero, whatever rounding is left in it.
+/// Decides a contact. If its force is not zero, its response counts as zero, whatever rounding is left in it.
 Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
                        Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
@@ -231,7 +233,8 @@ bool DerivativeLevels::set_up_levels(const Instant& instant, const motion::Forci
   return true;
 }
 
-/// No solution and no refusal: all right-hand sides are zero at this order.
+/// Computes the solution of a level. If all right-hand sides are zero at this order, there is neither a
+/// solution nor a refusal.
 Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
   CoulombProblem& problem = level.problem;
   const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
@@ -245,8 +248,8 @@ Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolutio
   for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
   min_norm_forces(problem, may_share, *solution);
   if (level.entries.size() > most_compared || !may_be_nonunique(problem)) return {};
-  // A contact between static and kinetic friction that sticks may also slip; by the law it sticks, so this is not a
-  // paradox.
+  // With a force between kinetic and static friction a contact may stick or slip. By the law it sticks, so
+  // this is not a paradox.
   CoulombProblem settled = problem;
   for (std::size_t i = 0; i < settled.items.size(); ++i) {
     CoulombItem& item = settled.items[i];
@@ -290,8 +293,8 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
     for (const Participant& participant : participants)
       if (levels.empty() || levels.back().block != participant.block)
         levels.push_back({order, participant.block, {}, {}, {}, {}, {}});
-    // An order of a block is solved again as long as it decides a contact: with the large forces as constraints the
-    // small ones stand out from the rounding.
+    // An order of a block is solved again as long as it decides a contact: once large forces are constraints,
+    // small ones exceed the rounding.
     while (!levels.empty()) {
       if (!set_up_levels(instant, forcing, entries, states, levels))
         return dependent_rows(in_force(participants, states));
@@ -306,7 +309,8 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
       levels = std::move(again);
     }
   }
-  // No derivative decides the rest: touching contacts keep their states, contacts at their limit stick.
+  // No derivative decides the remaining contacts: touching ones keep their states, those at their limit
+  // stick.
   for (const Entry& entry : entries) {
     if (entry.status == Status::limit &&
         systems_.held_by_others(entry.participant.contact, states, forcing, instant.t)) {

@@ -1,6 +1,6 @@
 // derivative_levels.hpp: next states of all contacts whose forces may jump, decided together at one instant.
 //
-//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)        r: g'' and ut'' of undecided contacts
+//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)      r: g'' and ut'' of undecided contacts, f: forces
 //
 // Rigid contacts with g = g' = 0 and rigidly sticking sliders are coupled through M. On the level of accelerations this
 // is a Coulomb problem (decide/coulomb_problem.hpp) with the forces as unknowns. A contact whose force and acceleration
@@ -40,8 +40,8 @@ class DerivativeLevels {
   DerivativeLevels(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Changes the states of the participants in `states`; old: their states before. known: resulting signs of their
-  /// guards, one entry per contact.
+  /// Sets the states of the participants in `states`; old: states before the decision; contacts that no
+  /// derivative decides keep them. known: receives the signs of their guards, one entry per contact.
   [[nodiscard]] Refusal decide(const Instant& instant, const motion::Forcing& forcing,
                                const std::vector<Participant>& participants,
                                const contact::ContactStates& old, contact::ContactStates& states,
@@ -56,7 +56,7 @@ class DerivativeLevels {
   /// The Coulomb problem of one block and order.
   struct Level {
     std::size_t order = 0, block = 0;
-    std::vector<std::size_t> entries, contacts;  // undecided ones, and their contacts
+    std::vector<std::size_t> entries, contacts;  // indices of undecided entries, and their contacts
     CoulombProblem problem;
     Eigen::VectorXd noise;  // of problem.b
     motion::StateSystemPtr system;
@@ -80,7 +80,8 @@ class DerivativeLevels {
 
 /// Refusal for sticking contacts whose forces are not unique.
 [[nodiscard]] Refusal dependent_rows(std::vector<std::size_t> contacts = {});
-/// Reason why a rigidly sticking contact has no force of its own, because its tangent moves no mass; otherwise empty.
+/// Message if a rigidly sticking contact has no unique force because its tangent moves no mass; otherwise
+/// empty.
 [[nodiscard]] std::string holds_no_mass(const Model& model, const Contact& contact);
 
 }  // namespace signorini::decide

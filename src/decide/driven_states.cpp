@@ -11,7 +11,9 @@ namespace {
 
 constexpr double same_value = 1e-12;  // relative difference of two pieces of a history that meet smoothly
 
-/// Size of the terms of a form for the final data of a run: each is accurate relative to the largest of its kind.
+/// Magnitude of the terms of a form of x, to which its rounding is relative. Every translation counts as the
+/// largest one, at least `own`; every rotation counts as the largest one, at least `own_turning`. The final
+/// values in a file have this accuracy.
 double left_size(const Model& model, const Combination& form, const Vector& x, double own,
                  double own_turning) {
   double greatest[2] = {own, own_turning}, sum = 0.0;

@@ -8,7 +8,7 @@
 namespace signorini::decide {
 namespace {
 
-/// Derivatives and noise of a guard, or of a linear one by its QuickForm.
+/// Derivative of order k and its noise, of any guard or of a linear guard's QuickForm.
 double derivative(const GuardForm& guard, const MotionJet& jet, std::size_t k) {
   return guard.derivative(jet.motion.data(), k);
 }
@@ -22,7 +22,7 @@ double noise_of(const QuickForm& form, const MotionJet& jet, std::size_t k) {
   return form.magnitude(jet.noise[k]);
 }
 
-/// Size below which derivative k is zero.
+/// Size up to which the derivative of order k counts as zero. blur: factor on its noise.
 template <class F>
 double zero_of(const F& guard, const MotionJet& jet, double blur, double resolution, std::size_t k) {
   double zero = blur * noise_of(guard, jet, k) + std::numeric_limits<double>::min();
@@ -135,13 +135,13 @@ const GuardsOfState& GuardCache::of(std::size_t c, const ContactState& state) {
 bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
                 const Instant& instant, const KnownGuards& known, double most_blur) {
   if (orders == MotionJet::orders) return true;
-  // If a limit has rested, differences to another motion count: rested().
+  // The sign of a resting limit needs the motion up to the instant: resting_reference().
   if (instant.is_resting_limit(c, Guard::slip_plus) || instant.is_resting_limit(c, Guard::slip_minus))
     return false;
   const double blur = most_blur * instant.noise_factor, resolution = most_blur * instant.resolution;
   for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
-    // A located guard is zero, and so is a positive rate: failure_of().
+    // A located guard is zero, and a positive rate counts as zero: failure_of().
     const bool triggered = instant.has_triggered(c, guard.kind);
     const std::size_t first = std::max<std::size_t>(triggered ? 1 : 0, known.of(guard.kind).zeros);
     if (!(guard.is_linear()

@@ -2,8 +2,8 @@
 //
 //   g, g', g'', ...  lexicographically not negative, each entry zero within its rounding
 //
-// A derivative also counts as zero if the next one would compensate it within the resolution of the clock. A quantity
-// that a decision has set to zero is zero, whatever rounding an elimination leaves in it.
+// A derivative also counts as zero if the next one would compensate it within the resolution of time. A
+// quantity that a decision has set to zero is zero, whatever rounding an elimination leaves in it.
 #pragma once
 
 #include <algorithm>
@@ -25,12 +25,13 @@ namespace signorini::decide {
 //
 // The values agree with Form to the last bit, for finite motions: omitting zeros does not change a sum.
 
+/// True if the other terms are zero.
 [[nodiscard]] inline bool is_plain(const Form& f) {
   return f.an == 0.0 && f.at == 0.0 && f.applied_normal_force == 0.0 && f.applied_normal_force_rate == 0.0 &&
          f.limit == 0.0 && f.limit_rate == 0.0;
 }
 
-/// The form must outlive it.
+/// Evaluates a form, which must outlive it: by the short sum if the form is plain. Functions as in Form.
 class QuickForm {
  public:
   explicit QuickForm(const Form& form) : f_(form), plain_(is_plain(form)) {}
@@ -51,12 +52,13 @@ class QuickForm {
   bool plain_;
 };
 
-/// Known signs of a guard: derivatives below order `zeros` vanish; `rises`: the next one is positive.
+/// Known signs of a guard's derivatives: those of orders below `zeros` vanish; `rises`: that of order `zeros`
+/// is positive.
 struct Known {
   std::size_t zeros = 0;
   bool rises = false;
 
-  /// Zero with all available derivatives.
+  /// The guard is zero with all available derivatives.
   [[nodiscard]] static Known at_limit() { return {MotionJet::orders, false}; }
 };
 
@@ -65,7 +67,7 @@ struct KnownGuards {
   bool touches = false;  ///< g = 0
   Known closing, separation, slip_plus, slip_minus, sliding;
 
-  /// The part that holds in any state: g, g' and the slip rate that were set to zero.
+  /// The part that holds in any state of the contact: zeros of g, g' and the slip rate.
   [[nodiscard]] KnownGuards of_motion() const {
     KnownGuards result;
     result.touches = touches;
@@ -96,34 +98,38 @@ struct KnownGuards {
   }
 };
 
+/// Sign of a guard just after an instant.
 struct Sign {
   int sign = 0;         // -1, 0, +1
   int order = 0;        // order of the derivative that decides; number of orders if all vanish
   double excess = 0.0;  // magnitude of that derivative relative to the size that counts as zero
 };
 
-/// Returns so_far, the motion of the contact up to the instant, if the guard has rested and has not risen since;
-/// otherwise null. The slip rate of a slipping state, p' = -(fs |N| - T)' / kt, counts as rested if the limit that the
-/// contact left has rested.
+/// Returns so_far, the motion of the contact up to the instant, if the guard was a resting limit
+/// (Instant::resting_limits) and is still zero; otherwise null. The slip rate of a slipping state, p' = -(fs
+/// |N| - T)' / kt, counts as at rest if the limit that the contact left was.
 [[nodiscard]] const MotionJet* resting_reference(const Contact& contact, std::size_t c,
                                                  const ContactState& state, const GuardForm& guard,
                                                  const MotionJet& so_far, const Instant& instant);
-/// Sign of the first derivative of the form, from order `first` on, that is not zero to working precision. base: a
-/// motion in which the form is exactly zero; the difference to it counts.
+/// Sign of the first derivative of the form, from order `first` on, that is not zero to working precision.
+/// base: a motion in which the form is exactly zero; the derivatives are then those of the difference to it.
 [[nodiscard]] Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                               std::size_t first, const MotionJet* base = nullptr);
+/// True if the form's value is zero within its rounding and the resolution of time.
 [[nodiscard]] bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant);
-/// Factor of its rounding that makes the form lexicographically nonnegative; 0: it is nonnegative.
+/// Factor by which the rounding of the form's derivatives must grow to make the form lexicographically
+/// nonnegative. 0: it is nonnegative.
 [[nodiscard]] double relative_violation(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                         std::size_t first);
-/// Sign of a guard with known signs; a guard that is known to rise is tested only for a clear contradiction.
+/// Sign of a guard with known signs of derivatives; a guard that is known to rise counts as positive unless
+/// its derivative of that order is clearly negative.
 [[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
 using GuardsOfState = ContactLaw::Guards;
 
-/// True if the first `orders` orders determine the signs of all guards of a contact that is decided separately, with
-/// their known signs, even if zeros are blurred by `most_blur`.
+/// True if the first `orders` orders determine the signs of all guards of a contact that is decided
+/// separately, also if noise and resolution are `most_blur` times as large. known: known signs of the guards.
 [[nodiscard]] bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
                               std::size_t orders, const Instant& instant, const KnownGuards& known,
                               double most_blur);
@@ -147,6 +153,7 @@ class GuardCache {
   GuardForms forms_;
 };
 
+/// A guard that is negative just after the instant; sign.sign = -1.
 struct FailedGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
@@ -154,9 +161,10 @@ struct FailedGuard {
   Sign sign = {};
 };
 
-/// The guard that fails first, for each contact with a failing guard. before: the states are those of the motion up to
-/// the instant, so located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one
-/// entry per contact, needed if limits have rested. asked: contacts that may fail, ascending.
+/// The guard that fails first, for each contact with a failing guard. before: the states are those of the
+/// motion up to the instant, so located guards are zero. known: one entry per contact. so_far: the motion up
+/// to the instant, one entry per contact; needed if there are resting limits. asked: contacts to examine,
+/// ascending.
 [[nodiscard]] std::vector<FailedGuard> find_failed_guards(
     const Model& model, const std::vector<MotionJet>& jets, const contact::ContactStates& states,
     const Instant& instant, bool before, const std::vector<KnownGuards>& known,

@@ -16,11 +16,12 @@
 namespace signorini::decide {
 namespace {
 
-// Fraction of the largest energy involved: the rounding of velocities and impulses is below it, an energy gain by
-// Newton's law is not. Chosen value.
+// Energy gains below this fraction of the largest energy are rounding of velocities and impulses; gains by
+// Newton's law are larger. Chosen value.
 constexpr double no_gain = 1e-9;
 
-/// Lets all contacts go that can stick rigidly: only then does the system's matrix give the effect of an impulse.
+/// The states with all contacts open that can stick rigidly: only then does the system's matrix give the
+/// effect of an impulse.
 contact::ContactStates released(const Model& model, contact::ContactStates states) {
   for (std::size_t c = 0; c < states.size(); ++c)
     if (const Contact& contact = model.contacts[c]; contact.takes_impulses() || contact.sticks_rigidly())
@@ -112,7 +113,7 @@ bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProbl
   return true;
 }
 
-/// Makes velocities exact that the solution determines.
+/// Makes the velocities exact that the solution determines: zero, or those of the surface and of the rebound.
 void ImpactSolver::come_to_rest(const motion::Forcing& forcing, double t,
                                 const std::vector<std::size_t>& touching, ImpactProblem& hit,
                                 Impact& impact) const {

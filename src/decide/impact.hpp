@@ -5,9 +5,9 @@
 //   |Pt| <= f Pn,  Pt = -f Pn sign(vt+) where vt+ is not 0      Coulomb's law on the impulse
 //   loss = -sum ( Pn (vn- + vn+) + Pt (vt- + vt+) )/2           vt relative to the surface
 //
-// M couples all contacts, so they are solved together (decide/coulomb_problem.hpp). A rebound slower than
-// capture_velocity is solved again with e = 0 for that contact: it rests, and infinitely many bounces of a ball end
-// after a finite number. Sliders and contact elements take no impulse.
+// M couples all contacts, so they are solved together (decide/coulomb_problem.hpp). If a contact rebounds
+// slower than capture_velocity, the impact is solved again with e = 0 for that contact. It then rests, so the
+// infinitely many bounces of a ball end after a finite number. Sliders and contact elements take no impulse.
 // Source: Newton 1687; Moreau 1988 for the simultaneous problem; Glocker 2001, chapter 8.
 #pragma once
 
@@ -32,7 +32,8 @@ struct Impulse {
   double rebound = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Impulse on one touching contact in one impact. The successive impacts of an instant have the numbers 1, 2, ...
+/// Impulse on one touching contact in one impact. turn: number of the impact among the successive ones of an
+/// instant, from 1.
 struct SingleImpact {
   std::size_t contact = 0;
   int impact_number = 1;
@@ -55,7 +56,8 @@ class ImpactSolver {
   ImpactSolver(motion::StateSystems& systems, double capture_velocity)
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
-  /// u with closed gaps of all touching contacts, by the least change in the norm of M; states: of all other contacts.
+  /// Returns u with the gaps of all touching contacts closed, by the least change in the norm of M. states:
+  /// of all other contacts.
   [[nodiscard]] Vector close_gaps(const contact::ContactStates& states,
                                   const std::vector<std::size_t>& touching, Vector u);
   /// Solves an impact. v: velocities before; touching: rigid contacts with g = 0; states: of all other contacts.
@@ -67,7 +69,7 @@ class ImpactSolver {
   struct ImpactProblem {
     Delassus d;
     CoulombProblem problem;
-    Eigen::VectorXd before, size, after, restitution;  // size: sum of the absolute terms of `before`
+    Eigen::VectorXd before, size, after, restitution;  // size: sum of the magnitudes of the terms of `before`
     Eigen::VectorXd rebound;                           // Impulse::rebound, one entry per touching contact
     std::optional<CoulombSolution> solution;
   };
@@ -90,27 +92,28 @@ class ImpactSolver {
 [[nodiscard]] contact::ContactStates states_of_impact(const Model& model, contact::ContactStates states,
                                                       const std::vector<Impulse>& impulses);
 
-// Order of the hits of rigid contacts at one instant.
+// Order of the impacts of rigid contacts at one instant.
 //
-//   turn 1, 2, ...   closing contacts meet after g / |g'|; the first of them are hit, with contacts that touch at rest
+//   impact 1, 2, ...   closing contacts meet after g / |g'|; the first are hit, with those that touch at rest
 //
-// A leaving contact, g' > 0, takes no impulse: it does not rest because its neighbour is hit, and an impulse on it
-// would add energy. If a later turn throws it back, it is hit again, as it would be a moment later. Contacts that meet
-// at the same time are hit together (decide/impact.hpp).
+// A leaving contact, g' > 0, takes no impulse: an impact at its neighbour does not stop it, and an impulse on
+// it would add energy. If a later impact makes it close again, it is hit again, as it would be a moment
+// later. Contacts that meet at the same time are hit together.
 
 /// A rigid contact at an instant with hits.
 struct Approach {
   std::size_t contact = 0;
   double gap = 0.0;   ///< nonnegative; zero: it touches
   double rate = 0.0;  ///< g'
-  double rest = 0.0;  ///< g' up to this speed does not count as leaving
-  double hit = 0.0;   ///< closing faster than this is a hit
-  bool open = false;  ///< false: it does not close, it presses
+  double rest = 0.0;  ///< the contact leaves if g' exceeds this
+  double hit = 0.0;   ///< the contact is hit if -g' exceeds this
+  bool open = false;  ///< false: the contact is closed and presses already
 
   [[nodiscard]] bool is_closing() const { return open && rate < -hit; }
 };
 
-/// Advances all contacts to the next meeting. Returns the contacts hit there; empty: none closes.
+/// Advances all gaps to the time at which the next contact closes. Returns the contacts hit then; empty: none
+/// closes.
 [[nodiscard]] std::vector<std::size_t> next_impact(std::vector<Approach>& all);
 
 }  // namespace signorini::decide

@@ -16,27 +16,28 @@ namespace signorini::decide {
 struct TriggeredGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
-  bool never_positive = false;  ///< zero at the beginning, and never observed above its rounding
+  bool never_positive = false;  ///< zero at the segment's beginning, and never observed above its rounding
 };
 
+/// The motion just before an event, a jump of the forcing or the start.
 struct Instant {
   double t = 0.0;
   double resolution = 0.0;  ///< events closer than this in time count as one instant
   Vector u, v;
   contact::ContactStates states;  ///< just before
   std::vector<TriggeredGuard> triggered;
-  /// Friction limits that were zero with all their derivatives at the start of the integrator, and that it has not
-  /// found to fail since: they are zero under the forcing up to now, whatever rounding has accumulated in them.
+  /// Friction limits that were zero with all their derivatives at the beginning of the segment, and that have
+  /// not failed since. They are zero under the forcing up to now, whatever rounding has accumulated in them.
   std::vector<TriggeredGuard> resting_limits = {};
-  /// Last time at which each contact had g = 0, the start if it never had; empty: unknown.
+  /// Last time at which each contact had g = 0; the start if there was none. Empty: unknown.
   std::vector<double> last_touch = {};
   bool jump = false;          ///< the forcing is not smooth here
   double noise_factor = 1.0;  ///< factor of a jet's noise below which its entries are zero
   bool start = false;  ///< start of the run: touching rigid contacts are decided even if no guard fails
-  /// True if flights lower than the rounding of their gaps are known: a series begins with g = 0 (Stepper).
+  /// Stepper::resolves_low_flights of the engine.
   bool resolves_low_flights = false;
   double rest_speed = 0.0;  ///< slip rates up to this one count as rest, in addition to rounding
-  /// True if flights are computed that otherwise count as rest, being slower than capture_velocity or unknown.
+  /// True: flights are computed that otherwise count as rest because their height or speed is too small.
   bool keep_low_flights = false;
 
   [[nodiscard]] bool has_triggered(std::size_t contact, Guard guard) const {

@@ -14,11 +14,11 @@
 namespace signorini::decide {
 namespace {
 
-/// Fraction of the scale of velocities: motions that differ by more were not separated by rounding alone. sqrt(eps): no
-/// flow of an engine loses half of its digits.
+/// Fraction of the scale of velocities: motions that differ by more were not separated by rounding alone. It
+/// is sqrt(eps), because no engine loses half of the digits.
 constexpr double half_of_digits = 0x1p-26;
-/// Limit for successive hits at one instant; capture_velocity ends a sequence of rebounds long before, unless e is
-/// almost one.
+/// Limit for successive impacts at one instant; capture_velocity ends a sequence of rebounds long before,
+/// unless e is almost one.
 constexpr int most_turns = 1000;
 
 double norm_of(const Combination& form) {
@@ -27,8 +27,8 @@ double norm_of(const Combination& form) {
   return std::sqrt(squared);
 }
 
-/// Rounding of a form of the velocities, |form| |v| for any angle between them. If all of these velocities are held at
-/// zero, they contain the rounding of corrections, which is relative to the whole motion.
+/// Rounding of a form of the velocities: eps |form| |v|, v the velocities in the form. If these are held at
+/// zero, they contain the rounding of corrections, which is relative to all velocities.
 double rounding_of(const Combination& form, const Vector& v) {
   const double rest = rounding::eps * v.norm();
   double v_squared = 0.0;
@@ -44,8 +44,8 @@ double speed_of(const Model& model, const Vector& v) {
   return std::sqrt(squared);
 }
 
-/// Energy loss: -sum of impulse times mean velocity, for captures since `before`. twice: velocities before plus
-/// velocities after.
+/// Energy loss by capture impulses: -sum of impulse times mean velocity. before, now: sums of the capture
+/// impulses; twice: velocities before plus velocities after.
 double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd& before,
                const Eigen::VectorXd& now, const Vector& twice) {
   double loss = 0.0;
@@ -101,10 +101,10 @@ double RigidContactSolver::min_flight_speed(std::size_t c) const {
   return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
 }
 
-/// Decides whether a contact with g = 0 leaves. It stays if its flight would be shorter than the resolution of the
-/// clock. It is low if its speed is below capture_velocity, or if the flight is lower than the rounding of its gap and
-/// the engine does not know such flights. Its acceleration towards the ground just before also counts as a pull: if all
-/// touching bodies fall freely together, no force seems to pull it back.
+/// Decides whether a contact with g = 0 leaves. It stays if its flight would be shorter than the resolution
+/// of time. Its flight is low if its speed is below capture_velocity. It is also low if its height is below
+/// the rounding of the gap, unless the engine resolves such flights. pull_before: -g'' just before, which
+/// also counts as a pull, because all touching bodies may fall freely together.
 RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const MotionJet& free,
                                                             double pull_before,
                                                             const Instant& instant) const {
@@ -123,13 +123,13 @@ RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const
   return {m.vn <= rounding + low ? Departure::Type::low : Departure::Type::leaves, ratio};
 }
 
-/// True if a dashpot makes the compression of a contact jump up, by n . (v+ - v-). For velocities that no impulse
-/// reaches, the solve leaves rounding relative to all jumps.
+/// True if a dashpot makes the compression of a contact jump up, by -cn n . (v+ - v-). Velocities that do not
+/// jump contain rounding relative to all jumps of velocities.
 bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
   const Contact& contact = model_.contacts[c];
   if (!(contact.normal_damping > 0.0)) return false;
-  // Rounding of an elimination: the effect of a hit decays by a factor of 0.3 per node of a beam, and is no jump once
-  // it is that small.
+  // The effect of an impact decays by a factor of 0.3 per node of a beam; below the rounding of an
+  // elimination it is no jump.
   const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
                           4.0 * rounding::elimination * norm_of(contact.normal) *
                               (speed_of(model_, before) + speed_of(model_, after));
@@ -150,7 +150,7 @@ void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& b
       states[c] = {State::stick, contact::slip_of(contact, motion[c])};
     if (!contact.holds_tangent_only() || states[c].is_open()) continue;
     const double vt = contact::along_surface(contact, instant.v, after.surface(c, instant.t, 1));
-    // Same rounding as in presses_harder: a contact that stuck is at rest up to the rounding of all jumps.
+    // Same rounding as in presses_harder(): a contact that sticks is at rest up to the rounding of all jumps.
     const double of_jump =
         slip_sign(states[c].state) == 0
             ? rounding::elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
@@ -160,8 +160,8 @@ void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& b
   }
 }
 
-/// Sets velocities that count as zero to zero, for all contacts at once: setting one to zero moves the others. False:
-/// they were zero already.
+/// Sets the velocities of resting participants to zero, for all contacts at once, because each change moves
+/// the others. False: these velocities are zero already.
 bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
                                                 const motion::StateSystem& free, const TouchingContacts& met,
                                                 ImpactResult& found) const {
@@ -218,8 +218,8 @@ RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double
   return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
 }
 
-/// Rounding of a gap. A flight begins with g = 0, so its gap is accurate to the rounding of the sum that g is. For a
-/// contact that never touched, the data of the sum have errors of a few roundings.
+/// Rounding of a gap. A flight begins with g = 0, so its gap is accurate to the rounding of the sum g0 + n .
+/// u. If the contact has never touched, the result is of_data: the terms of the sum have errors, too.
 double RigidContactSolver::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
   const bool flew = !instant.last_touch.empty() && instant.last_touch[c] > 0.0;
   const Contact& contact = model_.contacts[c];
@@ -233,7 +233,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
-  // Given motions of rounding size determine a gap no better than motions of the scene's size.
+  // At the start, given values are accurate relative to the scales of the scene, even if they are very small.
   const double given = instant.start ? rounding::few_operations * model_.scales.displacement : 0.0;
   const double given_rate = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
   TouchingContacts met;
@@ -245,11 +245,12 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     const bool open = states[c].is_open();
     const Carried carried = carried_by(c, noise.an, instant);
     const double known = rounding_of_gap(c, noise.gap, instant) + given;
-    // Whatever has accumulated, closing faster than a rebound that would not rest is a hit.
+    // A contact that closes faster than min_flight_speed() is hit, whatever rounding has accumulated.
     const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), min_flight_speed(c));
     Approach a{c,   0.0, m.vn, noise.vn + given_rate + min_flight_speed(c), noise.vn + unsure + given_rate,
                open};
-    // A contact whose gap has become negative touches, too: it closed with others, within the resolution of the clock.
+    // A contact whose gap has become negative touches as well: it closed with others, within the resolution
+    // of time.
     const bool pull_before =
         std::any_of(failed.begin(), failed.end(), [&](const FailedGuard& f) { return f.contact == c; });
     const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known;
@@ -264,7 +265,8 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     met.approaches.push_back(a);
     met.apart = met.apart || m.gap != 0.0;
     met.hit = met.hit || a.is_closing();
-    // These contacts are hit together within the accuracy of their data, which do not determine the order.
+    // If several contacts close within the rounding of their gaps, they are hit together: the order is
+    // unresolved.
     const double own =
         rounding::few_operations * (model_.contacts[c].normal.magnitude(instant.u) +
                                     std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
@@ -276,7 +278,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
   return met;
 }
 
-/// True if the contact moves like one that closes now, up to the rounding of both, or does not move.
+/// True if the contact moves like another one of the block that closes now, up to rounding, or does not move.
 bool RigidContactSolver::lands_alike(const Approach& a, const Instant& instant,
                                      const std::vector<MotionJet>& jets,
                                      const std::vector<FailedGuard>& failed, const Block& block) const {
@@ -291,7 +293,7 @@ bool RigidContactSolver::lands_alike(const Approach& a, const Instant& instant,
   });
 }
 
-/// Computes hits turn by turn, until no contact closes.
+/// Computes the successive impacts of one instant, until no contact closes.
 Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcing& forcing,
                                           const TouchingContacts& met, const Block& block,
                                           ImpactResult& found, Decision& decision,
@@ -309,7 +311,8 @@ Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcin
       if (!(a.rate > a.rest)) continue;
       states[a.contact] = {State::open, 0.0};
       a.open = true;
-      // A contact that had stopped is thrown off; the record of a contact's own rebound is kept.
+      // A contact that an earlier impact stopped leaves now; the record of a rebound by its own impact is
+      // kept.
       if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
     }
   }
@@ -320,7 +323,7 @@ Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcin
           met.contacts};
 }
 
-/// Computes one turn.
+/// Computes one impact. struck: contacts that are hit.
 Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing& forcing,
                                          const Block& struck, const Block& block, ImpactResult& found,
                                          Decision& decision, contact::ContactStates& states) {
@@ -353,7 +356,8 @@ Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing
   return {};
 }
 
-/// Adds contacts that do not leave. free: the motion without forces at all touching contacts.
+/// Adds touching contacts that do not leave to the participants. free: the motion with all touching contacts
+/// open.
 void RigidContactSolver::add_staying(const Instant& instant, const motion::Forcing& forcing,
                                      const TouchingContacts& met, const std::vector<MotionJet>& free,
                                      const Decision& decision, ImpactResult& found) const {
@@ -387,7 +391,8 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
   }
 }
 
-/// Sets contacts to rest that resting contacts hold, whatever rounding is left in their slip: feet of one body.
+/// Sets participants to rest whose motion other resting participants hold, whatever rounding is left in their
+/// slip rate: feet of one body.
 void RigidContactSolver::rest_together(const Instant& instant, const motion::Forcing& forcing,
                                        const contact::ContactStates& states, ImpactResult& found) const {
   contact::ContactStates held = states;
@@ -406,7 +411,8 @@ void RigidContactSolver::rest_together(const Instant& instant, const motion::For
   }
 }
 
-/// Contacts at rest among those that share one motion, if one of these has let go or stopped.
+/// Sliders at rest in groups of contacts that may hold the same motion, if a contact of the group has changed
+/// its state.
 std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, const motion::Forcing& forcing,
                                                      const contact::ContactStates& states,
                                                      const Decision& decision) const {
@@ -435,8 +441,8 @@ std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, con
   return at_rest;
 }
 
-/// Adds sliders whose friction has let go or has stopped them, if sliders take part, and sliders that a hit has
-/// stopped.
+/// Adds sliders to the participants: those that an impact has stopped, those of sharing(), and, if
+/// found.sliders is true, those that have changed their states.
 void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forcing& forcing,
                                      const TouchingContacts& met, const Block& block,
                                      const contact::ContactStates& states, const Decision& decision,
@@ -460,8 +466,8 @@ void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forci
   }
 }
 
-/// Adds sliders that stick rigidly and would otherwise be kept: a consistent state may need them to let go. False:
-/// there are none.
+/// Adds all rigidly sticking sliders to the participants, because a consistent state may require that they
+/// slip. False: there are none.
 bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,
                                       ImpactResult& found) const {
   std::vector<Participant> all;
@@ -486,8 +492,8 @@ bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const co
   return some;
 }
 
-/// Decides the levels. If keeping sliders in stick gives no motion, several motions or dependent rows, these sliders
-/// are decided with the rest.
+/// Decides the participants (decide/derivative_levels.hpp). If sliders that keep sticking lead to no motion,
+/// several motions or dependent rows, these sliders are decided together with the participants.
 Refusal RigidContactSolver::solve_levels(const Instant& instant, const motion::Forcing& forcing,
                                          const std::vector<Block>& blocks, const contact::ContactStates& old,
                                          ImpactResult& found, contact::ContactStates& states) {
@@ -551,7 +557,8 @@ Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forc
     add_sliders(instant, forcing, all[b], blocks[b], states, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }
-  // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: its energy is lost.
+  // A contact that an impact at its neighbour lifts slower than capture_velocity is stopped, and its energy
+  // is lost.
   decision.impact_loss += loss_of(model_, touching, captured, found.capture_impulses, moving + instant.v);
   Refusal refusal = solve_levels(instant, forcing, blocks, old, found, states);
   for (const Participant& participant : found.participants) {

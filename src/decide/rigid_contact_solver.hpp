@@ -4,8 +4,8 @@
 //   leaves:  g' > 0               open
 //   stays:   g' = 0               decided with all others that stay (decide/derivative_levels.hpp)
 //
-// A velocity counts as zero if an acceleration compensates it within the resolution of the clock. The acceleration is
-// known only after a state has been tried, so these zeros are found in the course of a decision.
+// A velocity counts as zero if an acceleration compensates it within the resolution of time. The acceleration
+// is known only after a state has been tried, so these zeros are found in the course of a decision.
 //
 // Uncoupled blocks of contacts are decided separately, with one common motion.
 #pragma once
@@ -22,7 +22,7 @@ namespace signorini::decide {
 /// Contacts coupled through M, C, K and contacts, ascending.
 using Block = std::vector<std::size_t>;
 
-/// Data found at an instant about contacts whose forces may jump; lists: one entry per contact.
+/// Results about contacts whose forces may jump, during one decision. Lists have one entry per contact.
 struct ImpactResult {
   explicit ImpactResult(std::size_t n)
       : decided(n, false),
@@ -32,24 +32,25 @@ struct ImpactResult {
         rests(n, false),
         departures(n, std::numeric_limits<double>::quiet_NaN()),
         known(n) {}
-  bool hit = false;                   ///< the last decision began with an impact
-  bool sliders = false;               ///< sliders that stick rigidly take part
+  bool hit = false;                   ///< the last round began with an impact
+  bool sliders = false;               ///< sliders that stick rigidly are decided with the others
   bool flight_taken_as_rest = false;  ///< a flight was taken as rest because of its height only
   bool unresolved = false;            ///< Decision::unresolved
-  double max_rest_speed = 0.0;        ///< largest speed of leaving that was taken as rest
-  std::vector<bool> decided;          ///< the contact took part
-  std::vector<bool> kinetic;      ///< the contact has begun to slip: the static coefficient no longer applies
-  std::vector<bool> bears_limit;  ///< other contacts hold it: it stays at its static limit
-  std::vector<bool> stays, rests;  ///< vn, vt count as zero
-  /// Speed of leaving divided by the speed below which a contact stays; NaN: not computed.
+  double max_rest_speed = 0.0;        ///< largest g' that was taken as rest
+  std::vector<bool> decided;          ///< contacts that have been participants
+  std::vector<bool> kinetic;  ///< contacts that have begun to slip: the static coefficient no longer applies
+  std::vector<bool> bears_limit;   ///< contacts that others hold at their static limit
+  std::vector<bool> stays, rests;  ///< contacts whose g', ut' count as zero
+  /// g' divided by the speed below which a contact stays; NaN: not computed.
   std::vector<double> departures;
-  Eigen::VectorXd capture_impulses;  ///< Decision::captures; empty: none so far
-  /// Adds impulses of rows 2 i, 2 i + 1 for the i-th of these contacts; empty: none.
+  Eigen::VectorXd capture_impulses;  ///< Decision::capture_impulses; empty: none so far
+  /// Adds impulses to capture_impulses: rows 2 i and 2 i + 1 belong to the i-th of these contacts. Empty:
+  /// none.
   void capture(const Model& model, const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
-  /// Adds impulses of all contacts.
+  /// Same for impulses of all contacts, indexed like forces.
   void capture(const Eigen::VectorXd& impulses);
-  std::vector<KnownGuards> known;         ///< one entry per contact; of touching ones
-  std::vector<Participant> participants;  ///< of the last decision
+  std::vector<KnownGuards> known;         ///< known signs of guards; of touching contacts
+  std::vector<Participant> participants;  ///< contacts decided together in the last round
 };
 
 class RigidContactSolver {
@@ -57,7 +58,8 @@ class RigidContactSolver {
   /// capture_velocity: for contacts without a value of their own.
   RigidContactSolver(motion::StateSystems& systems, motion::JetMaker& jets, double capture_velocity);
 
-  /// Computes impacts if there are any, then the states of the given blocks. failed: the guards that led here.
+  /// Computes impacts if there are any, then the states of the given blocks, in `states`. failed: guards of
+  /// the last states that fail; jets: motion in these states.
   [[nodiscard]] Refusal decide(Instant& instant, const motion::Forcing& forcing,
                                const std::vector<MotionJet>& jets, const std::vector<FailedGuard>& failed,
                                const std::vector<Block>& blocks, ImpactResult& found, Decision& decision,
@@ -68,9 +70,10 @@ class RigidContactSolver {
   struct TouchingContacts {
     Block contacts;
     std::vector<Approach> approaches;  // one per contact
-    bool hit = false, apart = false;   // one closes; a gap is not exactly zero
-    bool unresolved = false;           // one flies, but lower than the rounding of its data
+    bool hit = false, apart = false;   // hit: a contact closes; apart: a gap is not exactly zero
+    bool unresolved = false;           // a contact flies lower than the rounding of its data
   };
+  /// Rounding of g and g' that has accumulated since the contact's last touch.
   struct Carried {
     double gap = 0.0, rate = 0.0;
   };
@@ -116,10 +119,11 @@ class RigidContactSolver {
   [[nodiscard]] Refusal solve_levels(const Instant& instant, const motion::Forcing& forcing,
                                      const std::vector<Block>& blocks, const contact::ContactStates& old,
                                      ImpactResult& found, contact::ContactStates& states);
-  /// Fate of a contact with g = 0, and g' relative to the largest value with which it would stay.
+  /// Next motion of a contact with g = 0, and its g' relative to the largest value with which it stays.
   struct Departure {
-    enum class Type : unsigned char { stays, low, leaves } type;  // low: it leaves, but below its rounding
-    double ratio = std::numeric_limits<double>::quiet_NaN();      // NaN: no speed is too low
+    // low: the flight is too slow or too low to be computed.
+    enum class Type : unsigned char { stays, low, leaves } type;
+    double ratio = std::numeric_limits<double>::quiet_NaN();  // NaN: nothing pulls the contact back
   };
   [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, double pull_before,
                                     const Instant& instant) const;

@@ -12,7 +12,8 @@
 
 namespace signorini::decide {
 
-/// Factor of noise and resolution if states repeat, or if an engine and a decision disagree.
+/// Factor on noise and resolution of time if states repeat, or if a guard that an engine located does not
+/// fail.
 inline constexpr double retry_noise_factor = 16.0;
 
 /// A decision in progress.
@@ -20,29 +21,29 @@ struct SolverState {
   Instant instant;
   const motion::Forcing& after;
   Decision decision;
-  contact::ContactStates states;                     // the states tried last,
-  std::vector<MotionJet> jets;                       // its motion,
-  std::vector<FailedGuard> failed;                   // and its failed guards
-  std::vector<contact::ContactStates> tried_states;  // states tried so far, for recognising repetition
-  std::vector<ContactMotion> noise_before;
+  contact::ContactStates states;                     // states tried last
+  std::vector<MotionJet> jets;                       // motion in these states
+  std::vector<FailedGuard> failed;                   // guards that fail in this motion
+  std::vector<contact::ContactStates> tried_states;  // states tried so far, to recognise repetition
+  std::vector<ContactMotion> noise_before;           // noise of Decision::before
   ImpactResult impact_result;
   std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states are kept
   bool noise_increased = false;
   Vector initial_u = {};                        // at the start: given u, before massless parts move
-  std::vector<MotionJet> so_far = {};           // motion up to the instant; empty if no limit has rested
+  std::vector<MotionJet> so_far = {};           // motion up to the instant; empty: no Instant::resting_limits
   std::optional<PathTouch> touched = {};        // first touch of massless parts in this round
   std::vector<std::size_t> slid_contacts = {};  // contacts that have slid instantaneously and stopped
-  std::optional<std::vector<std::size_t>> open =
-      {};  // contacts with a guard that is not clearly positive; nullopt: any contact
-  const motion::Forcing* forcing = nullptr;  // of the last evaluation
-  double noise_factor = 0.0;                 // Instant::blur of the last evaluation
-  Eigen::VectorXd held = {};  // constraint impulses of the states tried last; Decision::captures
+  // Contacts with a guard that is not clearly positive; nullopt: any contact.
+  std::optional<std::vector<std::size_t>> open = {};
+  const motion::Forcing* forcing = nullptr;  // forcing of the last evaluation
+  double noise_factor = 0.0;                 // Instant::noise_factor of the last evaluation
+  Eigen::VectorXd held = {};  // impulses by which v was set on the constraints of the states tried last
 
   /// Displacements from which massless parts move instantaneously.
   [[nodiscard]] const Vector& jump_origin() const { return instant.start ? initial_u : instant.u; }
 
-  /// Increases noise and resolution: one sample of rounding, and the clock, may have separated zeros too sharply.
-  /// False: this was done before.
+  /// Increases noise and resolution by retry_noise_factor: the rounding of one sample may have separated
+  /// zeros too sharply. False: both have been increased before.
   bool increase_noise() {
     if (std::exchange(noise_increased, true)) return false;
     instant.noise_factor = retry_noise_factor;

@@ -14,12 +14,12 @@
 namespace signorini::decide {
 namespace {
 
-// Accelerations are equal if they differ by less than this fraction of the largest in any combination: half of the
-// digits, since this is the accuracy of forces in a block with the worst condition that can still be decided (1e8).
-// Relative to each other, two that are the rounding of rest would differ.
+// Accelerations are equal if they differ by less than this fraction of the largest acceleration of all
+// combinations. It is the accuracy of forces in a block with the worst condition that can still be decided
+// (1e8). A comparison relative to each other would separate two accelerations that are both rounding of zero.
 constexpr double same_acceleration = 1e-8;
 
-/// Applies the combination with this number, one digit per choice.
+/// Sets the states of the combination with number `code`, which has one digit per choice.
 void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t code,
            contact::ContactStates& contact_states) {
   for (const StateEnumeration::Choice& choice : choices) {
@@ -28,8 +28,8 @@ void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t cod
   }
 }
 
-/// True if the combinations differ by the gap between static and kinetic friction only: a sticking contact may then
-/// also slip, and by the law it sticks.
+/// True if the combinations differ only because a force is between kinetic and static friction: the contact
+/// may stick or slip, and by the law it sticks.
 bool differ_by_law(const Model& model, const contact::ContactStates& one,
                    const contact::ContactStates& other) {
   for (std::size_t c = 0; c < one.size(); ++c) {
@@ -42,7 +42,7 @@ bool differ_by_law(const Model& model, const contact::ContactStates& one,
   return true;
 }
 
-/// States of the contacts in question, as text: "'first' stick, 'second' slip+".
+/// States of the contacts with choices, as text: "'first' stick, 'second' slip+".
 std::string named_states(const Model& model, const std::vector<StateEnumeration::Choice>& choices,
                          const contact::ContactStates& contact_states) {
   std::string text;
@@ -81,7 +81,8 @@ StateEnumeration::Choice StateEnumeration::choice(std::size_t c, const ContactSt
   return {c, contact.law->candidates(contact, state, before)};
 }
 
-/// nullopt: the rows of the states are dependent.
+/// Relative violation and accelerations of a combination; nullopt: the constraint rows of its states are
+/// dependent.
 std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
     const Instant& instant, const motion::Forcing& forcing, const Block& block,
     const std::vector<KnownGuards>& known, const contact::ContactStates& contact_states) {

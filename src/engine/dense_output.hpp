@@ -21,14 +21,15 @@ namespace signorini::engine {
 
 // Bounds on the contribution of the fast part of a motion to any output.
 //
-//   |form . u| <= reach |u|_M,   reach^2 = form' M^-1 form,   |u|_M^2 = u' M u      (Cauchy and Schwarz)
+//   |form . u| <= r |u|_M,   r^2 = form^T M^-1 form (form_norm),   |u|_M^2 = u^T M u   (Cauchy, Schwarz)
 //
-// If the modes are known, |u|_M of all modes faster than a given rate is the square root of the sum of their squared
-// amplitudes: no mode is summed separately, and each form is evaluated once. Sums over modes of the whole motion have a
-// rounding error of a few eps reach |u|_M, wherever on the structure the form acts, also for a stress at a clamped end.
+// If the modes are known, |u|_M of all modes faster than a given rate is the square root of the sum of their
+// squared amplitudes. So the modes need not be summed for every form. Sums over modes of the whole motion
+// have a rounding error of a few eps r |u|_M, wherever on the structure the form acts, also for a stress at a
+// clamped end.
 
-/// Bounds on a step. Units: |.|_M is a length times the square root of a mass, for v and a divided by time and time
-/// squared; forces.
+/// Bounds on |u|_M, |v|_M and |a|_M in a step. Units: length times the square root of a mass; for v and a
+/// divided by time and time squared.
 struct FastModeBound {
   double u = 0.0, v = 0.0, a = 0.0;
   Eigen::VectorXd forces;  ///< bounds of all contact forces, in the order of the model's layout
@@ -39,37 +40,39 @@ struct Expansion {
   const motion::Series* series = nullptr;  ///< null: the engine has no series
   std::size_t degree = 0;                  ///< u, v, a and forces are complete up to this degree
   double x = 0.0;
-  const motion::StateSystem* system =
-      nullptr;  ///< contains friction at the slip rates at the beginning of the series
+  /// System of the contact states, with friction at the slip rates at the beginning of the series.
+  const motion::StateSystem* system = nullptr;
 };
 
 /// Bounds on the fast part of the last step; only engines that follow modes provide them.
 class FastModes {
  public:
   virtual ~FastModes() = default;
-  /// Bounds on the sum of all modes faster than omega, rad per time. nullopt: no bound is known, or a part of the
-  /// motion that is faster does not oscillate.
+  /// Bounds on the sum of all modes faster than omega, rad per time. nullopt: no bound is known, or a faster
+  /// part of the motion does not oscillate.
   [[nodiscard]] virtual std::optional<FastModeBound> fast_mode_bound(double omega) const = 0;
-  /// Sizes of the terms whose sums are u, v, a and forces of the step, fast modes included. Rounding errors are
-  /// relative to these sizes.
+  /// Sums of the magnitudes of the terms of u, v, a and forces on the step, fast modes included. Rounding
+  /// errors are relative to these sums.
   [[nodiscard]] virtual FastModeBound term_sizes() const = 0;
   /// Greatest value of form . u over all u with |u|_M = 1.
   [[nodiscard]] virtual double form_norm(const Combination& form) const = 0;
 };
 
 struct StepFacts {
-  /// Times inside the step of local extremes of N, T, g or ut of a contact that exceed all earlier values, ascending.
+  /// Times inside the step of local extremes of N, T, g or ut of a contact that exceed all earlier values,
+  /// ascending.
   std::span<const double> turning_points = {};
-  /// Contact and quantity of each turning point, unordered. Null: evaluate_watched() of all contacts costs no more than
-  /// of one contact.
+  /// Contact, quantity and time of each turning point, unordered. Null: evaluate_watched() costs the same for
+  /// one contact as for all.
   const std::vector<events::TurningPointDetector::TurningPoint>* contact_turning_points = nullptr;
   Expansion expansion = {};
-  /// Factor by which the rounding of sums over modes exceeds that of orthogonal modes: greatest |x| |y| of the modes
-  /// that the step was followed in, y . x = 1; larger if their terms exceed the motion and cancel. 1: the step was not
-  /// followed in modes.
+  /// Factor by which the rounding of sums over modes exceeds that of orthogonal modes: greatest |x| |y| of
+  /// all modes, x and y right and left eigenvectors with y . x = 1. It is larger if terms of the sum exceed
+  /// the motion and cancel. 1: the motion is not a sum over modes.
   double eigenvector_condition = 1.0;
-  /// Greatest angle by which u, v, a and forces turn on the step, forcing aside; n pi for polynomials of degree n.
-  /// Infinite: the frequencies of the model are the bound. Unit: rad.
+  /// Greatest phase angle of u, v, a and forces on the step, without that of the forcing: frequency times
+  /// length of the step; n pi for polynomials of degree n. Infinite: the frequencies of the model are the
+  /// bound. Unit: rad.
   double phase_angle = std::numeric_limits<double>::infinity();
   const FastModes* fast_modes = nullptr;  ///< null: the engine has no modes of the model
 };
@@ -79,22 +82,24 @@ class DenseOutput {
   virtual ~DenseOutput() = default;
   /// Evaluates u, v and forces at begin <= t <= end.
   virtual void evaluate(double t, motion::Point& point) = 0;
-  /// Evaluates only the watched entries of u and v (those of contacts and EngineParts::watched); other entries may be
-  /// NaN. contact: evaluates at most this contact's entries, provided that StepFacts::contact_turning_points is not null.
+  /// Evaluates only the watched entries of u and v (those of contacts and EngineParts::watched); other
+  /// entries may be NaN. contact: only this contact's entries are needed; set only if
+  /// StepFacts::contact_turning_points is not null.
   virtual void evaluate_watched(double t, std::optional<std::size_t> /*contact*/, motion::Point& point) {
     evaluate(t, point);
   }
   /// Adds accelerations, if missing, to a point that was evaluated at t.
   virtual void accelerate(double /*t*/, motion::Point& /*point*/) {}
-  /// Same as evaluate and accelerate, in the engine's cheapest form: engines with fixed steps interpolate between the
-  /// ends of the step.
+  /// Same as evaluate() and accelerate(), by the engine's fastest method: engines with fixed steps
+  /// interpolate between the ends of the step.
   virtual void interpolate(double t, motion::Point& point) {
     evaluate(t, point);
     accelerate(t, point);
   }
-  /// Adds the integrals of all powers over the part [from, to].
+  /// Adds the integrals of all powers over the part [from, to] of the step.
   virtual void integrate(double from, double to, motion::WorkIntegrals& works) = 0;
-  /// Largest magnitude of an entry of the residual of the equation of motion at the end of the step. Unit: force.
+  /// Largest magnitude of an entry of the residual of the equation of motion at the end of the step. Unit:
+  /// force.
   [[nodiscard]] virtual double residual() = 0;
   [[nodiscard]] virtual StepFacts facts() const = 0;
 };

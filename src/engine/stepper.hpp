@@ -17,7 +17,7 @@
 
 namespace signorini::engine {
 
-/// The stretch up to the next discontinuity of the forcing, in constant contact states.
+/// The interval from a decision to the next discontinuity of the forcing, in constant contact states.
 struct Segment {
   double end = 0.0;
   const decide::Decision* decision = nullptr;  ///< motion, contact states, jet and guards at the beginning
@@ -25,13 +25,14 @@ struct Segment {
   bool same_forcing = false;  ///< the forcing equals that of the previous segment, which ended here
 };
 
+/// Result of advance().
 struct Step {
   enum class Kind { accepted, event, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;                  ///< end: of the accepted step, or the instant of the event
   double resolution = 0.0;                        ///< times closer than this are the same instant
   std::vector<decide::TriggeredGuard> triggered;  ///< Kind::event
-  std::optional<contact::ContactStates>
-      engine_states;   ///< Kind::event: states found by the engine, instead of `fired`
+  /// Kind::event: states found by the engine, which then sets no `triggered`.
+  std::optional<contact::ContactStates> engine_states;
   std::string reason;  ///< Kind::failed
 };
 
@@ -48,11 +49,13 @@ struct StepperReport {
 class Stepper {
  public:
   virtual ~Stepper() = default;
+  /// Begins a segment, which must live until the next start.
   virtual void start(const Segment& segment) = 0;
+  /// Takes one step, up to the first event or segment.end at most.
   [[nodiscard]] virtual Step advance() = 0;
   /// The motion on the last step.
   [[nodiscard]] virtual DenseOutput& dense_output() = 0;
-  /// Possible error of a guard's value due to the errors of one step. Unit: that of the guard.
+  /// Bound on the error of a guard's value from the error of one step. Unit: that of the guard.
   [[nodiscard]] virtual double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
   /// Writes the energy of the structure into a point made by a decision, if the engine knows it more accurately.
@@ -62,8 +65,9 @@ class Stepper {
 
   Counters counters;                  ///< counts so far; complete in the report
   std::vector<std::string> warnings;  ///< warnings of the run so far
-  /// True if the engine resolves a flight that begins with g = 0 and stays lower than the rounding of its gap, as a
-  /// series does. Otherwise that rounding delays the landing, and the contact lands faster than it left.
+  /// True if the engine resolves a flight that begins with g = 0 and stays lower than the rounding of its
+  /// gap, as a series does. Otherwise this rounding delays the landing, and the contact lands faster than it
+  /// left.
   bool resolves_low_flights = false;
 };
 

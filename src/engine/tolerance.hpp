@@ -1,4 +1,4 @@
-// tolerance.hpp: how large an error of each quantity may be.
+// tolerance.hpp: admissible errors of the quantities of a scene.
 //
 //   tol(x) = rtol |x| + atol,   atol = rtol * scale of the scene where the scene gives none
 #pragma once
@@ -18,6 +18,7 @@ struct Tolerance {
   [[nodiscard]] double capture_velocity() const { return velocity; }
 };
 
+/// Tolerances given in [run], otherwise from the scales of the model.
 [[nodiscard]] Tolerance tolerance_of(const Model& model, const RunSpec& run);
 
 /// Tolerance of a form's value, from those of the motion's entries.

@@ -3,7 +3,8 @@
 //   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
 //   -> warnings -> reduction, or separation of undamped massless motions -> shear elements -> outputs
 //
-// The assembly uses the machine's units and is then converted to the scene's, so a change of units changes no bit.
+// The assembly uses internal units (internal_units.hpp). The model is then converted to the scene's units, so
+// that a change of units changes no bit.
 
 #include "model/build.hpp"
 
@@ -51,8 +52,8 @@ using modes::lowest_frequency;
 
 namespace {
 
-/// Takes from a saved run the shears of contacts, from which the anchors follow, their slip directions, and the states
-/// of user laws.
+/// Takes the shear forces of contacts, from which the anchors follow, their slip directions, and the states
+/// of user laws from a saved run.
 void take_contacts(const SavedState& saved, Model& model) {
   for (Contact& c : model.contacts) {
     for (const SavedState::UserLawMemory& own : saved.user_law_states)
@@ -74,7 +75,8 @@ std::vector<SavedState::FinalContact> final_contacts(const SavedState& saved, co
   return saved.final_contacts;
 }
 
-/// pressed: contacts that are closed in the first pass of run.geometric.
+/// Sets u0, v0 and, for a static start, the statics. pressed: contacts that are closed in the first pass of
+/// run.geometric.
 void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, DofMap& map, Model& model) {
   if (scene.initial.is_frictional) {
     start_with_friction(scene, map, model);
@@ -127,7 +129,7 @@ const SavedState* same_run(const Scene& scene) {
   return saved && saved->structure_differences.empty() ? &*saved : nullptr;
 }
 
-/// dampers: C without alpha M + beta K.
+/// Sets alpha, beta and C. dampers: C without alpha M + beta K.
 void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   const DampingSpec& spec = scene.damping;
   model.alpha = spec.alpha;
@@ -149,7 +151,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
 }
 
-/// Finds the initial state and the frozen forces, with the geometric stiffness that follows from them.
+/// Finds the initial state and the prestress, with its geometric stiffness.
 void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.matrices)
     throw SceneError(scene.run.geometric_place, "run.geometric",
@@ -193,13 +195,12 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Comp
   outputs::make_outputs(scene, map, model);
 }
 
-/// Sets velocities of rounding size in a saved state to zero. Displacements are known to rounding; the fastest mode
-/// turns this into velocities of
-///
+/// Sets velocities of rounding size in a saved state to zero. Displacements have rounding errors, which the
+/// fastest mode converts to velocities
 ///     |v| <= many_operations omega_max max |u|,   translations and rotations separately.
-///
-/// Such velocities would decide the slip direction of a contact at its friction limit. If other bodies move, the same
-/// applies to a contact that was left without slip and whose tangential velocities are all that small.
+/// Such velocities would decide the slip direction of a contact at its friction limit. If other bodies move,
+/// the same applies to a contact that did not slip at the end of the run, if all its tangential velocities
+/// are that small.
 void remove_rounding(const SavedState& saved, Model& model) {
   double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
   for (int i = 0; i < model.size(); ++i) {
@@ -227,8 +228,8 @@ void remove_rounding(const SavedState& saved, Model& model) {
         for (const auto& term : c.tangent.terms) model.v0[term.first] = 0.0;
 }
 
-/// A static start without deformation has displacements of rounding size, below those of the scene. They would decide
-/// when a contact that just touches closes.
+/// Sets u0 to zero if all displacements are of rounding size, as in a static start without deformation: they
+/// would decide when a contact that just touches closes.
 void remove_rounding_of_statics(Model& model) {
   for (Eigen::Index i = 0; i < model.u0.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
@@ -247,12 +248,12 @@ void resolve_times(double t_end, Model& model) {
   }
 }
 
-/// Frozen forces are not damped: beta times the model's stiffness would include their stiffness.
+/// Corrects the dampers: beta K must not include the stiffness of the prestress, which is not damped.
 void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly) {
   assembly.dampers -= scene.damping.beta * assembly::assemble_geometric_stiffness(scene, map).matrix;
 }
 
-/// Data of the run that this one continues, if there is one.
+/// Scales of the run that this one continues, if there is one; otherwise those of the model.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
   const SavedState* before = same_run(scene);
@@ -263,7 +264,7 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
 
 enum class Extent { structure, without_warnings, all };
 
-/// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
+/// Builds the model in the units of the given scene. unit: each of these units, in units of messages.
 Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
   DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
   map.shown_length = unit.length;

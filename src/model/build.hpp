@@ -8,15 +8,16 @@ namespace signorini::model {
 /// The same model without model warnings (model_warnings.hpp), which take as long as all other steps together.
 [[nodiscard]] Model build_without_warnings(const Scene& scene);
 
-/// The structure that a reduction starts from: all degrees of freedom of build_model's M, C and K, whatever [reduction] says. The
-/// dashpots of contacts are no part of it, massless motions stay among the others, and there are no outputs.
+/// The structure before a reduction: M, C and K of build_model() with all degrees of freedom, also if the
+/// scene has [reduction]. It has neither the dashpots of contacts nor a separate basis of massless motions
+/// nor outputs.
 [[nodiscard]] Model build_structure(const Scene& scene);
 
-// Compares two models for equal matrices of their contact states.
-//
-// Equal are M, C, K, forms, stiffnesses and dampings of contacts, and coefficients of friction; mode shapes of one
-// model then are valid for the other. Loads, gaps, surfaces and initial states may differ.
+// Comparison of models whose modes may be shared.
 
+/// True if M, C, K, the forms, stiffnesses and dampings of contacts, and the coefficients of friction are
+/// equal. The modes of the contact states of one model are then valid for the other. Loads, gaps, surfaces
+/// and initial states may differ.
 [[nodiscard]] bool same_contact_states(const Model& a, const Model& b);
 /// True if loads act along the same directions; histories may differ.
 [[nodiscard]] bool same_load_directions(const Model& a, const Model& b);

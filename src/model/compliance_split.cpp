@@ -92,7 +92,7 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
   return s;
 }
 
-/// Refuses dampers on motions along S.
+/// Refuses beta K and dampers on motions along S.
 void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vector<Row>& rows,
                  const SparseMatrix& s) {
   const bool beta = scene.damping.beta > 0.0;

@@ -65,7 +65,7 @@ std::string key_of(const InitialSpec::Component& c) {
   return fmt::format("run.initial.{}.{}", c.node, c.component);
 }
 
-/// State of a run: values of the degrees of freedom with the same names.
+/// Final state of the previous run: values of the degrees of freedom with the same names.
 InitialState saved_state(const Scene& scene, const assembly::DofMap& map) {
   const InitialSpec& spec = scene.initial;
   InitialState state{Vector::Zero(map.size()), Vector::Zero(map.size())};
@@ -84,12 +84,12 @@ InitialState saved_state(const Scene& scene, const assembly::DofMap& map) {
     state.u[i] = value_of(map.dofs[static_cast<std::size_t>(i)].displacement);
     state.v[i] = value_of(map.dofs[static_cast<std::size_t>(i)].velocity);
   }
-  for (const assembly::TiedDof& tied : map.tied) {  // they follow others
+  for (const assembly::TiedDof& tied : map.tied) {  // tied motions follow from degrees of freedom
     values.erase(tied.dof.displacement);
     values.erase(tied.dof.velocity);
   }
-  for (const ContactSpec& contact : scene.contacts)  // sliding points and surfaces; contacts take their
-                                                     // values
+  // Contacts take the values of sliding points and surfaces.
+  for (const ContactSpec& contact : scene.contacts)
     for (const char* of : {".slip", ".slip_rate", ".surface"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
     if (values.contains(name) && !name.starts_with("support "))
@@ -122,7 +122,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
   if (number == assembly::DofMap::fixed && c.value != 0.0)
     throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
   if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
-    return std::nullopt;  // a tied seam
+    return std::nullopt;  // a node of a seam
   if (map.is_tied(number))
     throw SceneError(c.place, key,
                      fmt::format("found a motion of node '{}', which follows from other motions because it "
@@ -132,7 +132,8 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
   return GivenPlace{named->rate, number};
 }
 
-/// True for each degree of freedom whose initial displacement a damper, or a contact's dashpot or friction, needs.
+/// True for each degree of freedom whose initial displacement affects the motion, by a damper, or by the
+/// dashpot or friction of a contact.
 std::vector<bool> begins_from(const Model& model) {
   std::vector<bool> result(static_cast<std::size_t>(model.size()), false);
   for (int k = 0; k < model.damping.outerSize(); ++k)
@@ -199,8 +200,8 @@ InitialState given_state(const Scene& scene, const assembly::DofMap& map) {
 
 namespace {
 
-// Forces that an equilibrium reproduces within this number of roundings of their inputs are converged. Chosen value;
-// each round is one solve with K.
+// Forces have converged if an equilibrium reproduces them within this multiple of the rounding of their
+// inputs. Chosen value; each round is one solve with K.
 constexpr double settled = rounding::many_operations;
 constexpr int rounds = 50;
 

@@ -13,46 +13,48 @@ struct InitialState {
   Vector u, v;  ///< n
 };
 
-/// Values by node, or vectors of a matrix scene; not for initial = "static". Errors: SceneError for a component that
-/// does not exist, or a nonzero value of a fixed one.
+/// The given initial values, by node or as vectors of a scene with matrices; not for initial = "static".
+/// Errors: SceneError for a component that does not exist, or a nonzero value of a fixed component.
 [[nodiscard]] InitialState given_state(const Scene& scene, const assembly::DofMap& map);
 
-/// One sentence for each nonzero value without effect on the motion. Without mass a velocity follows from equilibrium,
-/// and so does a displacement, unless a damper, or the dashpot or friction of a contact, needs it. The model: damping
-/// set, neither reduced nor with shear elements.
+/// Warnings about nonzero initial values without effect on the motion, one sentence each. Without mass
+/// equilibrium determines the velocity. It also determines the displacement, unless a damper, or a dashpot or
+/// friction of a contact, acts there. The model must have its damping, but not be reduced, and not have shear
+/// elements.
 [[nodiscard]] std::vector<std::string> unused_values(const Scene& scene, const assembly::DofMap& map,
                                                      const Model& model);
 
 // Forces on pendulums that the structure presses, for a start in equilibrium.
 //
-//   ( K + sum_k N_k / R_k t_k t_k^T ) u = P - contacts,   N_k = -N of contact k there      (src/contact/curved_surface.hpp)
+//   ( K + sum_k N_k / R_k t_k t_k^T ) u = P - contacts,   N_k = -N of contact k (contact/curved_surface.hpp)
 //
-// N_k depends on u and u on N_k; the fixed-point iteration converges fast, because N_k hardly depends on the lateral
-// stiffness. A continued run uses the N_k of the previous run: K, its damping and the stored energy then are the same.
+// N_k depends on u and u on N_k; the fixed-point iteration converges fast, because N_k hardly depends on the
+// lateral stiffness. A continued run uses the N_k of the previous run, so that K, beta K and the stored
+// energy are the same.
 
 /// True if the scene has pendulums that the structure presses.
 [[nodiscard]] bool has_pressed_pendulums(const Scene& scene);
 
-/// Sets the carried force of each pendulum, one number per contact, and its N_k / R_k in K; other contacts are
-/// unchanged.
+/// Sets the force that each pendulum carries, and its N_k / R_k in K. forces: one number per contact;
+/// contacts that are no pendulums are unchanged.
 void set_pendulum_forces(const Scene& scene, const std::vector<double>& forces, Model& model);
 
-/// Calls `start` with K of the current forces until they converge, and carries them. Errors: SceneError if they do not
-/// converge.
+/// Computes the forces on pendulums by fixed-point iteration, and sets them in the model. start: returns the
+/// model with its static start for given forces. Errors: SceneError if the iteration does not converge.
 void solve_pendulum_start(const Scene& scene, Model& model, const std::function<Model(Model)>& start);
 
-/// Carried forces of the run that this one continues, if it has any.
+/// Forces on pendulums in the run that this one continues; empty: none.
 [[nodiscard]] std::vector<double> saved_pendulum_forces(const Scene& scene);
 
-// Initial = "frictional": loads of each stage, and the initial state that results.
+// Static start with friction, initial = "frictional": loads of each stage, and the resulting initial state.
 //
-//   stage i: dP = sum of its loads d f(0);    without stages: all static loads at once
+//   stage i: dP = sum of its loads d f(0);    without stages: all static loads in one stage
 //   u(0) = u, v(0) = 0, anchors such that T(0) is T at the end of the start
 //
 // model/statics/frictional.hpp increases the loads.
 
-/// Sets u0, v0, statics and the shears of contacts. Errors: SceneError for stages that name no load, omit a static one
-/// or name one twice, and for a start without equilibrium.
+/// Sets u0, v0, statics and the initial shear forces of contacts. Errors: SceneError for stages that name no
+/// load, omit a static load or name a load twice, and for a start without equilibrium.
 void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model);
 
 }  // namespace signorini::model

@@ -171,7 +171,7 @@ class Rescaling {
         it.valueRef() *= of_dof(static_cast<int>(it.row())) / of_dof(j);
   }
 
-  /// *this: for the physical degrees of freedom.
+  /// Scales ties; *this must be for the physical degrees of freedom.
   void operator()(Ties& ties) const {
     const auto first = static_cast<int>(ties.rows.cols());
     for (int j = 0; j < ties.rows.outerSize(); ++j)
@@ -232,7 +232,7 @@ class Rescaling {
     (*this)(s.force, unit::force);
   }
 
-  /// *this: for the physical degrees of freedom; amplitudes of shapes are lengths.
+  /// Scales a reduction; *this must be for the physical degrees of freedom. Amplitudes of shapes are lengths.
   void operator()(Reduction& r) const {
     for (int i = 0; i < r.shapes.rows(); ++i) r.shapes.row(i) *= of_dof(i) / factors_.length;
     for (double* omega : {&r.cutoff, &r.highest_kept, &r.first_truncated, &r.highest_massive})

@@ -4,9 +4,9 @@
 //   time   = 2^j ~ sqrt(mass / stiffness)        largest of each (no stiffness: a quarter of the run)
 //   force  = 2^k ~ mass length / time^2
 //
-// These are powers of two times the scene's units, found from exponents alone. They follow a change of units by powers
-// of two, so all numbers and all results stay bitwise the same. [matrices]: length = 1. Beyond 2^120 or below 2^-120 of
-// the scene's units, the scene's units are used.
+// Units are powers of two times the scene's units, determined by exponents alone. If the scene's units change
+// by powers of two, the internal numbers and all results are bitwise the same. [matrices]: length = 1. If a
+// unit were above 2^120 or below 2^-120 of the scene's unit, the scene's units are used.
 #pragma once
 
 #include "scene/quantities.hpp"
@@ -28,7 +28,8 @@ namespace signorini::model {
 /// A history whose values have the unit `of`.
 [[nodiscard]] History rescaled(History history, const Unit& of, const Factors& factors);
 
-/// Multiplies all numbers by the factors of their units; `unit` is divided by them, `machine` is unchanged.
+/// Multiplies all numbers by the factors of their units; Model::unit is divided by them, internal_units is
+/// unchanged.
 [[nodiscard]] Model rescaled(Model model, const Factors& factors);
 
 // Computed values in the scene's units, for messages.

@@ -14,10 +14,10 @@
 namespace signorini::model {
 namespace {
 
-/// Factor that gives C as much weight as K, where K alone does not resist: half of the digits.
+/// Weight of C relative to K if K does not resist all motions: half of the digits of a double.
 constexpr double by_far = 1e8;
 
-/// The rows and columns with `keep`, scaled to s_i A_ij s_j.
+/// The rows and columns with a position, scaled to s_i A_ij s_j.
 SparseMatrix block(const SparseMatrix& a, const std::vector<int>& position, int size, const Vector& s) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < a.outerSize(); ++k)
@@ -99,8 +99,8 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
             count, ones);
   const SparseMatrix c = block(model.damping, position, count, ones);
   const SparseMatrix symmetric = 0.5 * (c + SparseMatrix(c.transpose()));
-  // If K resists all motions, any positive weights will do; these make both matrices count. If it does not, C must
-  // count for more, because null_motions also returns motions of negative energy.
+  // If K resists all motions, any positive weight is suitable; this one makes C and K equal in size. If it
+  // does not, C needs a larger weight, because null_motions() also returns motions of negative energy.
   const double weight = largest_diagonal(c) > 0.0 && largest_diagonal(k) > 0.0
                             ? largest_diagonal(k) / largest_diagonal(c)
                             : 1.0;
@@ -157,7 +157,8 @@ SparseMatrix part_of(const SparseMatrix& c, const std::vector<int>& list) {
   return part;
 }
 
-/// A basis of the same span; each column has a row in which it is 1 and all others are 0.
+/// Changes z to a basis of the same span in which each column has a row where it is 1 and all others are 0.
+/// Returns these rows.
 std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index j = 0; j < z.cols(); ++j) {
@@ -175,7 +176,7 @@ std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
   return rows;
 }
 
-/// B^T n; terms that cancel become zero.
+/// B^T n, with terms of rounding size set to zero.
 Combination in_basis(const Combination& form, const SparseMatrix& basis) {
   Vector sum = Vector::Zero(basis.cols()), size = sum;
   for (const auto& [i, factor] : form.terms)
@@ -234,7 +235,7 @@ namespace {
 
 constexpr std::size_t rotation = 2, most_listed = 3;
 
-/// Rotations of nodes that elements connect to.
+/// Nodes of elements, and whether an element or a rigid body rotates with them.
 class Turning {
  public:
   explicit Turning(const assembly::DofMap& map) : map_(map), nodes_(map.mesh.nodes.size()) {

@@ -26,22 +26,22 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
 //
 //   C_mm z = 0, z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p          u = B u'
 //
-// beta K damps the bars of a massless frame, but not its rotation as a rigid body about the point with mass. Such a
-// motion follows forces immediately, others with time constants; for integration each needs its own degree of freedom.
-// With u' the row and the column of p vanish from C; K and the forms of contacts and loads follow (B^T K B, B^T n), M
-// is zero there.
+// beta K damps the bars of a massless frame, but not its rotation as a rigid body about the point with mass.
+// The rotation follows forces immediately, other motions follow with time constants; for integration each
+// needs its own degree of freedom. With u' the row and the column of p in C are zero. K and the forms of
+// contacts and loads are transformed (B^T K B, B^T n); M is zero there.
 
 /// Sets Model::basis if needed. The model must be complete, neither reduced nor with shear elements yet.
 void separate_undamped(Model& model);
 
 // Rotations without a connection to any element.
 //
-//   node of elements without rz (bodies, bars, hinged ends), beside springs of rotations or inertia:
+//   node of elements without rz (bodies, bars, hinged ends), with springs of rotations or inertia:
 //   J phi'' + c phi' + k phi = M       of that node alone; no element is connected to it
-//   fix = ["rz"] there                 has no effect; reported where it could be meant to clamp a body of
-//                                      plane elements
+//   fix = ["rz"] there                 has no effect; reported if it could be meant to clamp a body of plane
+//                                      elements
 
-/// One sentence per table of the scene. map: of this scene.
+/// Warnings about them, one sentence per table of the scene. map: of this scene.
 [[nodiscard]] std::vector<std::string> unconnected_rotations(const Scene& scene, const assembly::DofMap& map);
 
 }  // namespace signorini::model

@@ -30,7 +30,7 @@ namespace {
 
 constexpr double greatest_friction = 2.0;
 constexpr double least_drag = 0.01;  // relative, of a velocity, during the run
-constexpr double along = 1e-9;       // relative; part of a motion that a contact must see
+constexpr double along = 1e-9;       // relative; least part of a motion along a contact's normal
 constexpr std::size_t most_named = 3;
 
 /// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
@@ -40,8 +40,8 @@ std::string names(const Model& model, const std::vector<std::size_t>& contacts) 
   return (list.size() == 1 ? "contact " : "contacts ") + base::join_quoted(list, most_named);
 }
 
-/// True if f has values between these starts that exceed those before and after. Evaluated with a clock that begins at
-/// the piece; on the run's clock the starts may coincide.
+/// True if f has values between the starts of pieces `first` and `last` that exceed those before and after.
+/// Times are measured from the start of a piece, because the starts may be equal as times of the run.
 bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
   const std::vector<double>& starts = f.starts();
   struct Known {
@@ -159,7 +159,7 @@ class ModelWarnings {
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
       if (c.normal_force_given() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
-      // A rigid body on rigid ground has its reaction at once.
+      // A rigid contact of a rigid body has its reaction immediately.
       const bool gives = !c.takes_impulses() ||
                          std::any_of(c.normal.terms.begin(), c.normal.terms.end(), [&](const auto& term) {
                            return model_.stiffness.coeff(term.first, term.first) != 0.0;
@@ -329,12 +329,12 @@ std::vector<std::string> model_warnings(const Scene& scene, const assembly::DofM
 
 namespace {
 
-/// Loads that last longer than this fraction of 1/w keep their amplitude: scales are orders of magnitude, accurate
-/// within this factor for longer pulses.
+/// Loads that last longer than this fraction of 1/w count with their amplitude: scales are orders of
+/// magnitude, and need not be more accurate than this.
 constexpr double full_above = 1.0 / 16.0;
 
-/// rad: a motion that rotates by less than 1 rad during the run counts as free, with this value for the limit of its
-/// pulses. A thousandth of the run then counts in full.
+/// w t_end for a free motion, whose phase angle in the run is below 1 rad: with it, a load that acts for a
+/// thousandth of the run counts with its amplitude.
 constexpr double of_free = 64.0;
 
 /// Effective over full amplitude at this frequency.

@@ -1,7 +1,7 @@
-// model_warnings.hpp: model warnings: valid input that probably is a mistake. It is computed as given, with a warning.
+// model_warnings.hpp: warnings about valid input that probably is a mistake; the scene is computed as given.
 //
 //   load without effect                 direction . u = 0 for all u
-//   idle rotations                     massless.hpp
+//   unconnected rotations               massless.hpp
 //   a part leaves all contacts          n . a >= 0 at all of them, a = Z (Z^T M Z)^-1 Z^T P: the free fall
 //                                       of a part (Z: its motions without stiffness) under the static loads
 //   weight applied suddenly at t = 0    a gap of zero, no part at rest in equilibrium
@@ -10,8 +10,8 @@
 //   initial_shear in a static start     a static start has no friction that could carry it
 //   initial values without mass         equilibrium determines them (initial_state.hpp)
 //   different structure                 in the scene of the run that this one continues
-//   a pulse too short for the clock     100 eps (t + t_end)
-//   a support that jumps at t = 0      or whose velocity jumps: the initial state is the one after the jump
+//   a pulse too short for doubles       shorter than 100 eps (t + t_end)
+//   a support that jumps at t = 0       or whose velocity jumps: the initial state is the one after the jump
 //   flutter after a frictional start    contacts slip at their limits (slip_growth.hpp); divergence there
 //                                       is refused
 #pragma once
@@ -26,8 +26,8 @@
 
 namespace signorini::model {
 
-/// One sentence per warning. Errors: SceneError, as above. The model must be complete (damping and initial state set),
-/// but not yet reduced, and without shear elements.
+/// One sentence per warning. The model must be complete (damping and initial state set), but not yet reduced,
+/// and without shear elements. Errors: SceneError for divergence of slip at the friction limits.
 [[nodiscard]] std::vector<std::string> model_warnings(const Scene& scene, const assembly::DofMap& map,
                                                       const Model& model);
 
@@ -35,16 +35,17 @@ namespace signorini::model {
 //
 //   effective amplitude = min( A, c w J ),   A = max |f|,   J = max_t int_t^(t + 1/w) |f| dt,   c = 16
 //
-// An oscillator of frequency w at rest responds with |u| <= min( 2 A, w int |f| dt ) / k. So a load that acts for more
-// than 1/(c w) (a hundredth of the period) counts in full, a shorter one by its impulse. In J each piece of f counts
-// with its largest |f|. w: frequency along the static response u = K^-1 p to the load, w^2 = u.p / u.M u, with
-// initially closed contacts held, or the lowest frequency if there is no response. A motion that rotates by less than 1
-// rad during the run is free: w = 64 / t_end, so a thousandth of the run counts in full.
+// An oscillator of frequency w at rest responds with |u| <= min( 2 A, w int |f| dt ) / k. So a load that acts
+// for more than 1/(c w) (a hundredth of the period) counts with its amplitude, a shorter load with its
+// impulse. In J each piece of f counts with its largest |f|. w: frequency along the static response u = K^-1
+// p to the load, w^2 = u.p / u.M u, with initially closed contacts held, or the lowest frequency if there is
+// no response. A motion with a phase angle below 1 rad in the run is free: w = 64 / t_end, so a load that
+// acts for a thousandth of the run counts with its amplitude.
 
-/// Fractions of each load's largest amplitude.
+/// Effective amplitude of a load, relative to its largest amplitude.
 struct EffectiveLoad {
   double share = 1.0;       ///< effective / full amplitude; exactly 1 for lasting loads
-  double free_share = 1.0;  ///< the same for a free motion over the whole run: J over all of the run
+  double free_share = 1.0;  ///< the same for a free motion, with J over the whole run
 };
 
 struct EffectiveAmplitudes {

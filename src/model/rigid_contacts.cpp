@@ -26,8 +26,8 @@ constexpr double dependent = 1e-12;       // remainder of a unit normal after al
   throw SceneError(spec.place, spec.key(key), why);
 }
 
-/// Friction that depends on the slip rate or on N, and a curved surface, need a contact motion that is known at an
-/// instant.
+/// Refuses friction that depends on the slip rate or on N, and curved surfaces, on degrees of freedom without
+/// mass.
 void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
   const bool varies = contact::friction_varies(contact), curved = contact.curved_surface() != nullptr;
@@ -57,7 +57,7 @@ double terms_of_gap(const Scene& scene, const Model& model, const Contact& conta
   return std::abs(contact.gap) + sum * greatest;
 }
 
-/// True: it touches, and its gap is zero now.
+/// Sets the gap at u0 to zero if it is zero up to rounding. True: the contact touches.
 bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
   const double terms = terms_of_gap(scene, model, contact);
@@ -84,7 +84,8 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   return false;
 }
 
-/// Feet of one body: closing one moves the others.  u -= H (H^T H)^-1 g, twice, so that only a rounding of u remains.
+/// Closes several gaps together, because closing one foot of a body moves the others: u -= H (H^T H)^-1 g,
+/// twice, so that only a rounding of u remains.
 void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   Eigen::MatrixXd normals(model.size(), static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -99,8 +100,8 @@ void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   }
 }
 
-/// Contacts that may close at one displacement: those whose normals are independent of the first one's and of each
-/// other's. A dependent one is redundant if its gap closes with them; otherwise it never closes together with them.
+/// Refuses redundant contacts. A contact whose normal depends on those of other contacts is redundant if its
+/// gap closes together with theirs; otherwise it never closes together with them.
 void check_redundance(const Scene& scene, const Model& model, const std::vector<std::size_t>& rigid,
                       std::size_t first) {
   const auto n = static_cast<Eigen::Index>(model.size());

@@ -1,6 +1,6 @@
 // rigid_contacts.hpp: requirements of rigid contacts on the structure.
 //
-//   mass at the contact; otherwise it uses borrowed springs (model/compliance_split.hpp) and is not checked here
+//   mass at the contact; a contact without mass has springs (compliance_split.hpp) and is not checked here
 //   g(u0) >= 0: no initial penetration
 //   no c, not zero, with sum_i c_i n_i = 0 and sum_i c_i g0_i = 0 over contacts that may close together: such
 //   contacts share one motion, and their individual forces are undetermined
@@ -10,8 +10,8 @@
 
 namespace signorini::model {
 
-/// Errors: SceneError at the contact's place; it proposes law = "compliant". Gaps at u0 that are zero up to rounding
-/// become zero.
+/// Checks these requirements, and sets gaps at u0 to zero that are zero up to rounding. Errors: SceneError at
+/// the contact's place, which proposes law = "compliant".
 void check_rigid_contacts(const Scene& scene, Model& model);
 
 // Contact elements with a tangential dashpot, as parts of the structure.
@@ -25,8 +25,8 @@ void check_rigid_contacts(const Scene& scene, Model& model);
 // run that this one continues. Friction that rises with the slip rate needs the point even with ct = 0: p' follows from
 // T, and p is its integral.
 
-/// For contacts with tangential_damping > 0, or with a spring and rising friction; the rest of the model must be
-/// complete.
+/// Adds the elements of contacts with tangential_damping > 0, or with a tangential spring and rising
+/// friction. The rest of the model must be complete.
 void add_shear_elements(const Scene& scene, Model& model);
 
 }  // namespace signorini::model

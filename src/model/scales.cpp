@@ -16,8 +16,9 @@
 namespace signorini::model {
 namespace {
 
-constexpr double only_rounding = 1e-10;  // relative to the response of the free structure: rounding of the
-                                         // constrained one
+// Relative to the response of the free structure: a smaller response of the constrained structure is
+// rounding.
+constexpr double only_rounding = 1e-10;
 
 bool usable(double x) { return std::isfinite(x) && x > 0.0; }
 
@@ -29,8 +30,8 @@ double first_usable(const Candidate&... candidates) {
   return 1.0;
 }
 
-/// Force on one point per unit of a load's history: the plane vector's length in node scenes, the largest factor in
-/// matrix scenes.
+/// Force on one point for a unit of a load's history: the length of the plane vector, or in scenes with
+/// matrices the largest factor.
 double force_factor(const Combination& direction, const assembly::DofMap& map) {
   double greatest = 0.0, square = 0.0;
   for (const auto& [i, a] : direction.terms) {
@@ -55,8 +56,8 @@ double length_of(const assembly::DofMap& map) {
   return std::sqrt(squared);
 }
 
-/// True for a rigid body that supports hold in part, so that forces act on its rotation alone, as moments; their arm is
-/// the length of the structure.
+/// True for the centre of a rigid body with a free rotation and a supported translation: forces then act as
+/// moments, with the length of the structure as arm.
 bool turns_alone(const assembly::DofMap& map, std::size_t node) {
   const auto& n = map.number[node];
   return map.body[node] >= 0 && n[2] >= 0 && !map.is_tied(n[2]) &&
@@ -121,7 +122,7 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
       force = std::max(force, effective.compressions[k] * history::magnitude(c.normal_force, t_end));
     if (const auto N = c.resting_force(model.u0)) force = std::max(force, -*N);
   }
-  double held = 0.0;  // forces of constrained deformation (heat, supports), for want of others
+  double held = 0.0;  // forces of constrained deformation (heat, supports), used if there are no others
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     const double most = effective.loads[i].share * history::magnitude(load.history, t_end);
@@ -227,8 +228,8 @@ double thrown(const Model& model, const assembly::DofMap& map, const EffectiveAm
          0.5 * acceleration * t_end * t_end;
 }
 
-/// Solver error of a response that contacts prevent completely: rounding of the force's effect on the stiffest degree
-/// of freedom. Rotations over the length of the structure.
+/// Solver error of a response that contacts prevent completely: rounding of the effect of the force on the
+/// stiffest degree of freedom. Rotational stiffnesses are divided by the square of the structure's length.
 double min_response(const Model& model, const assembly::DofMap& map, double force) {
   const double arm = length_of(map);
   double stiffest = 0.0;
@@ -261,7 +262,7 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   const double length = length_of(map);
   const double v0 = assembly::max_translation(model.v0, map);
   const modes::ContactConstraints holding = modes::constrain_contacts(model.contacts, closed);
-  modes::ContactConstraints rested;  // without friction on closed rigid contacts
+  modes::ContactConstraints rested;  // closed rigid contacts without friction
   for (std::size_t k = 0; k < closed.size(); ++k)
     if (closed[k] && model.contacts[k].takes_impulses()) rested.fixed.push_back(model.contacts[k].normal);
   const double omega =

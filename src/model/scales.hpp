@@ -19,8 +19,8 @@
 
 namespace signorini::model {
 
-/// The rest of the model must be complete. All scales are positive and finite; a scale that the scene does not
-/// determine is 1.
+/// All scales are positive and finite; a scale that the scene does not determine is 1. The rest of the model
+/// must be complete. closed: initially closed contacts.
 [[nodiscard]] Scales find_scales(const Model& model, const assembly::DofMap& map,
                                  const std::vector<bool>& closed, double t_end);
 

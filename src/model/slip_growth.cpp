@@ -51,9 +51,9 @@ double min_damping_ratio(const Model& model) {
 namespace {
 
 constexpr int all_up_to = 100, most = 400;  // degrees of freedom; chosen: a few tenths of a second
-constexpr double of_window = 0.5;           // relative to the highest frequency: above, modes left out would
-                                            // contribute
-constexpr double rigid = 1e4;               // relative to the structure's own stiffness along a normal
+// Relative to the highest frequency: above, truncated modes would contribute.
+constexpr double of_window = 0.5;
+constexpr double rigid = 1e4;  // relative to the structure's own stiffness along a normal
 // Relative to |lambda| or sigma: at a double eigenvalue rounding leaves the root of eps of both, 1.5e-8.
 constexpr double no_growth = 1e-6;
 

@@ -9,9 +9,9 @@
 //   nu z = A z,   A = [ -K~^-1 (C + 2 sigma M)   -K~^-1 M ],   K~ = K + sigma C + sigma^2 M
 //                     [  I                        0       ]
 //
-// Up to 100 degrees of freedom all of them are used; up to 400 the 100 lowest modes of the symmetric part, with results
-// up to half of their highest frequency; larger models are not examined. Rigid contacts are springs of 10^4 times the
-// structure's own stiffness here.
+// Models with up to 100 degrees of freedom are examined as they are. With up to 400, the 100 lowest modes of
+// the symmetric part are used, and results up to half of their highest frequency are reported. Larger models
+// are not examined. Rigid contacts are represented by springs of 10^4 times the structure's own stiffness.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@
 
 namespace signorini::model {
 
-// Decay rates of motions, without computing a mode.
+// Decay rates of motions, without computation of modes.
 //
 //   by damping alpha M + beta K   alpha + beta omega^2 at the frequency omega, with the damping ratio
 //                                 (alpha / omega + beta omega) / 2
@@ -43,8 +43,8 @@ struct SlipGrowth {
   std::vector<std::size_t> contacts;  ///< slipping contacts with friction proportional to the normal force
 };
 
-/// The fastest growth, `states` has one entry per contact. The model: before its reduction, damping set, without shear
-/// elements.
+/// The fastest growth; nullopt: none. states: one entry per contact. The model must have its damping, but not
+/// be reduced, and not have shear elements.
 [[nodiscard]] std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<State>& states);
 
 }  // namespace signorini::model

@@ -1,12 +1,12 @@
-// active_guards.hpp: the guards that are active between two restarts.
+// active_guards.hpp: the guards that are active in a segment.
 //
 //   idle      not active: the state has no such guard
 //   armed     was clearly positive; its next zero crossing is an event
 //   waiting   starts at zero, or within its rounding; an event only once it is clearly negative. If
 //             leading_order > 0 it rises like x^leading_order: its lower derivatives are zero
 //
-// A waiting guard becomes armed once it exceeds a level: the rounding of the guard for the exact flow, the possible
-// error of the steps for an integrator.
+// A waiting guard becomes armed once it exceeds a level. For engine `exact` this level is the rounding of the
+// guard, for an integrator the possible error of its steps.
 #pragma once
 
 #include "decide/decision.hpp"
@@ -31,7 +31,7 @@ class ActiveGuards {
   /// The guard is zero again, and its derivatives are unknown.
   void set_waiting(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
   void set_armed(std::size_t slot) { guards_[slot] = {Status::armed, 0}; }
-  /// Takes the guard's value at the end of a step without an event: a guard that started at zero is armed above the
+  /// Called with the guard's value at the end of a step without an event: a waiting guard is armed above the
   /// level, and its derivatives at the start are no longer used.
   void update(std::size_t slot, double value, double level);
 
@@ -44,18 +44,18 @@ class ActiveGuards {
   std::vector<GuardEntry> guards_;
 };
 
-// Guards between restarts: the armed guards, and the one that reaches zero first.
+// Zero crossings of the guards inside the steps of IDA.
 //
 //   armed      g > 0 was clearly observed: its first downward zero crossing is an event
 //   not armed  g started at zero and rises; armed once g >= level, an event once g <= -level
 //   level      re_arm_tolerances times the local error tolerance of g
 //
-// IDA reports only changes of sign between the ends of a step. On a step the solution is a polynomial of degree q <= 5,
-// so is every guard, and its Bernstein coefficients prove that it stays positive or show where it does not: two
-// crossings inside one step are not missed.
+// IDA reports only changes of sign between the ends of a step. On a step the solution is a polynomial of
+// degree q <= 5, and so is every guard. Its Bernstein coefficients prove that it stays positive, or show
+// where it does not, so two crossings inside one step are not missed.
 
-/// A guard that starts at zero is armed again once it exceeds this many local error tolerances: below, its sign is that
-/// of the integration error.
+/// A waiting guard is armed once it exceeds this many local error tolerances: below, its sign is that of the
+/// integration error.
 inline constexpr double re_arm_tolerances = 10.0;
 
 /// Place inside the last step at which a guard reaches zero.
@@ -70,7 +70,8 @@ class GuardMonitor {
   void start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
              std::vector<double> levels, const ForceLayout& layout);
   [[nodiscard]] bool armed(std::size_t slot) const { return active_guards_.armed(slot); }
-  /// The guard reached zero without an event: it waits again, and is an event only once it is below -`level`.
+  /// Called if the guard reached zero without an event: it waits again, and is an event only once it is below
+  /// -`level`.
   void set_waiting(std::size_t slot, double level);
   /// Depth below zero that this guard of the contact may reach before it is an event: 0 once it is armed.
   [[nodiscard]] double allowed_depth(std::size_t contact, const GuardForm& guard) const;

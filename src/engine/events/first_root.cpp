@@ -17,7 +17,7 @@ constexpr double binomial[max_degree + 1][max_degree + 1] = {{1, 0, 0, 0, 0, 0},
                                                              {1, 2, 1, 0, 0, 0}, {1, 3, 3, 1, 0, 0},
                                                              {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1}};
 
-/// Smallest x with p(x) <= 0 on [from, to]; no assumption about p.
+/// Smallest x with p(x) <= 0 on [from, to], for any p.
 std::optional<double> first_nonpositive(const Bernstein& p, double from, double to, double resolution) {
   if (p.positive()) return std::nullopt;
   if (!(p.b[0] > 0.0)) return from;  // also for a NaN, which would be halved endlessly
@@ -117,7 +117,7 @@ std::optional<double> first_root(const Bernstein& p, double resolution) {
 namespace {
 
 constexpr std::size_t size = max_root_degree + 1;
-constexpr double near_root = 1e-6;  // relative: this close, Newton's next step has all digits
+constexpr double near_root = 1e-6;  // relative distance from which one Newton step has all digits
 constexpr double finest = rounding::many_operations;  // width, relative to the whole step
 using Coefficients = std::array<double, size>;
 
@@ -154,7 +154,7 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi, doub
       value = value * x + a[k];
     }
     const double newton = value / slope, step = std::abs(newton);
-    // Newton's steps shrink quadratically until rounding makes them wander.
+    // Newton's steps decrease quadratically until they are rounding.
     if (step <= rounding::eps * x || (last < near_root * x && step > 0.25 * last)) return x;
     (value > 0.0 ? lo : hi) = x;
     if (x - newton > lo && x - newton < hi) {
@@ -208,7 +208,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     return {FirstRoot::Kind::not_finite};  // a NaN would be halved endlessly
   if (a[0] - rest > slack) return {};
 
-  // Intervals not yet settled, the leftmost on top; each halving leaves one behind.
+  // Undecided intervals, the leftmost on top; each halving adds one.
   std::array<Interval, 64> stack;
   std::size_t count = 1;
   stack[0].lo = 0.0;
@@ -281,7 +281,7 @@ double call(double t, void* f) { return (*static_cast<const std::function<double
 
 double root_between(const std::function<double(double)>& f, double lo, double hi, double width) {
   const double first = lo, last = hi, at_first = f(lo), at_last = f(hi);
-  // GSL ends the program if there is no sign change: in that case the state was wrong from the start on.
+  // GSL ends the program if there is no sign change.
   if (!(at_first > 0.0)) return first;
   if (at_last > 0.0) return last;
   const std::function<double(double)> known = [&](double t) {

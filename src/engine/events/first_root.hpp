@@ -3,10 +3,10 @@
 //   p(x) = sum_k a_k x^k = sum_i b_i B_i,n(x) on an interval:   min b_i <= p <= max b_i,
 //   and p has at most as many zeros there as the b_i have changes of sign (Descartes)
 //
-// An interval contains no zero if all b_i > slack. One change of sign from above slack to below -slack means exactly
-// one zero. Otherwise the interval is halved (de Casteljau), which sharpens the bounds quadratically. `slack` bounds
-// the error of p itself: the remainder of the series and the rounding of its terms. So a crossing is found or excluded;
-// only where |p| stays within slack neither can be shown.
+// An interval contains no zero if all b_i > slack. One change of sign from above slack to below -slack means
+// exactly one zero. Otherwise the interval is halved (de Casteljau), which sharpens the bounds quadratically.
+// `slack` bounds the error of p: the remainder of the series and the rounding of its terms. So a crossing is
+// found or excluded, except where |p| stays within slack.
 // Source: Farin, Curves and Surfaces for CAGD, chapter 6 (Bernstein form, variation diminishing).
 #pragma once
 
@@ -21,8 +21,8 @@ namespace signorini::events {
 //
 //   p(x) = sum_i b_i B_i,q(x),  0 <= x <= 1:   min b_i <= p(x) <= max b_i
 //
-// The coefficients bound the polynomial and halving the interval sharpens the bounds, so the first zero of a guard is
-// found or excluded whatever the signs at the ends.
+// The coefficients bound the polynomial, and halving the interval sharpens the bounds. So the first zero of a
+// guard is found or excluded for any signs at the ends.
 
 inline constexpr int max_degree = 5;  // BDF interpolants
 
@@ -57,12 +57,13 @@ struct FirstRoot {
     not_finite,  ///< coefficients or slack are not finite: no statement is possible
   } kind = Kind::none;
   double x = 0.0;
-  std::size_t intervals = 0;  ///< number of intervals examined: the cost
+  std::size_t intervals = 0;  ///< number of examined intervals
 };
 
 inline constexpr std::size_t max_root_degree = 32;
 
-/// a: degree + 1 coefficients, degree <= max_root_degree; p(0) is positive up to slack.
+/// The first zero on [0, 1]. a: degree + 1 coefficients, degree <= max_root_degree; p(0) is positive up to
+/// slack.
 [[nodiscard]] FirstRoot first_root(const double* a, std::size_t degree, double slack);
 
 // Downward zero crossing of a function, bracketed (GSL, Brent's method).

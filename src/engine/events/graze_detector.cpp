@@ -21,8 +21,7 @@ void GrazeDetector::update(const StepHistory& history, double limit) {
   for (std::size_t slot = 0; slot < guards_.size(); ++slot) {
     GuardHistory& guard = guards_[slot];
     if (guard.guard == Guard::none) continue;
-    // If the last value is twice the bend that the older values can cause, the guard stays above half of it on the
-    // step.
+    // If the last value is twice the variation bound, the guard stays above half of this value on the step.
     if (guard.high == guard.level && !guard.low && history.clearly_positive(slot) &&
         history.last(slot) > 2.0 * guard.level)
       continue;
@@ -63,7 +62,7 @@ void GrazeDetector::record(std::size_t slot) {
 
 namespace {
 
-constexpr double near_levels = 1e4;  // chosen: error of a run of that many steps
+constexpr double near_levels = 1e4;  // chosen: possible error of a run of that many steps, in levels
 constexpr int looks_a_step = 8;      // a step's polynomial has at most five turning points
 constexpr std::size_t max_near_hits = 100000;
 
@@ -79,7 +78,7 @@ void NearHitDetector::start(const std::vector<decide::GuardStart>& guards, const
 
 void NearHitDetector::update(const StepHistory& history, double limit) {
   for (GapHistory& gap : gaps_) {
-    // If the last value is twice the bend that the older values can cause, the gap stays above half of it on the step.
+    // If the last value is twice the variation bound, the gap stays above half of this value on the step.
     if (history.clearly_positive(gap.slot) && history.last(gap.slot) > 2.0 * near_levels * gap.level) {
       gap.sample_count = 0;
       gap.high = history.last(gap.slot);

@@ -24,7 +24,7 @@ template <class T>
   base::lanes_at<T>(mean + s).v = sum;
 }
 
-/// bent = 2 bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b  of n scalars
+/// For n scalars: bent = 2 bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b
 SIGNORINI_WIDE_LANES void look_at_all(const Kept& rows, int order, double twice_bend, int degree,
                                       const double* weights, std::size_t n, double* bent, double* mean) {
   std::size_t s = 0;

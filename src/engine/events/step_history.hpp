@@ -2,10 +2,10 @@
 //
 //   p(x) interpolates f(t_n), f(t_n-1), ..., f(t_n-q),   t = t_n-1 + x (t_n - t_n-1)
 //
-// A BDF step of order q defines y between its ends as the polynomial through the last q + 1 accepted values; a scalar
-// that is linear in y is therefore exactly this polynomial, for a few stored numbers. Powers are products, so their
-// polynomial interpolates all values that are kept. (Under a load that is a parabola in time, y has degree 4; every
-// step of order 4 is exact, but a power of degree 5 was not.)
+// A BDF step of order q defines y between its ends as the polynomial through the last q + 1 accepted values.
+// A scalar that is linear in y is exactly the polynomial through its own last q + 1 values. Powers are
+// products, so their polynomial interpolates all stored values. (Example: under a load that is a parabola in
+// time, y has degree 4, which a step of order 4 reproduces, but a power has a higher degree.)
 #pragma once
 
 #include <array>
@@ -21,24 +21,23 @@ class StepHistory {
   explicit StepHistory(std::size_t scalars)
       : scalars_(scalars), values_((max_degree + 1) * scalars), variation_bounds_(scalars), mean_(scalars) {}
 
-  /// Forgets everything and starts at t; returns the place for the scalars' values.
+  /// Deletes all values and starts at t; returns the array for the scalars' values at t.
   double* restart(double t);
-  /// Adds an accepted step that ends at t; returns the place for the scalars' values.
+  /// Adds an accepted step that ends at t; returns the array for the scalars' values at t.
   double* push(double t) { return push(t, t - times_[0]); }
   /// Same, with the step's length from the integrator, free of the rounding of times.
   double* push(double t, double length);
   /// Prepares polynomials on the last step for the given order of the method.
   void prepare(int order);
-  /// True: the polynomial of scalar i is positive, since its last value exceeds the bend that the older values can
-  /// cause. False: undecided.
+  /// True: the polynomial of scalar i is positive, because its last value exceeds variation_bound(). False:
+  /// undecided.
   [[nodiscard]] bool clearly_positive(std::size_t i) const { return value(0, i) > variation_bounds_[i]; }
   /// Bound on the difference between scalar i on the last step and its last value.
   [[nodiscard]] double variation_bound(std::size_t i) const { return variation_bounds_[i]; }
-  /// True: the polynomial of scalar i is monotone on the last step, since its values are too close to a straight line
-  /// for a turning point: with e_b their distances from the line through the last two, and w_ib the weights of
-  /// Bernstein coefficients,
+  /// True: the polynomial of scalar i is monotone on the last step, because its values are too close to a
+  /// straight line for a turning point. False: undecided. With e_b the distances of the values from the line
+  /// through the last two, and w_ib the weights of Bernstein coefficients:
   ///   b_i+1 - b_i = (f_0 - f_1) / q + sum_b (w_i+1,b - w_ib) e_b
-  /// False: undecided.
   [[nodiscard]] bool clearly_monotone(std::size_t i) const;
   /// Integral of power i over the whole last step.
   [[nodiscard]] double integral(std::size_t i) const { return (times_[0] - times_[1]) * mean_[i]; }
@@ -47,7 +46,7 @@ class StepHistory {
   /// Polynomial of power i on the last step.
   [[nodiscard]] Bernstein power(std::size_t i) const { return interpolant(powers_basis_, i); }
   [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
-  /// Last values of all scalars; bends(): their bend().
+  /// Last values of all scalars; variation_bounds(): variation_bound() of all scalars.
   [[nodiscard]] const double* last_values() const {
     return values_.data() + static_cast<std::size_t>(slot_[0]) * scalars_;
   }
@@ -76,8 +75,8 @@ class StepHistory {
 
   std::size_t scalars_;
   std::vector<double> values_;
-  // For all scalars on the last step: twice the bend that older values can cause (the factor 2 covers the rounding of
-  // the sums), and the mean of each power.
+  // variation_bound() of all scalars (a factor 2 covers the rounding of the sums), and the mean of each power
+  // on the last step.
   std::vector<double> variation_bounds_, mean_;
   std::array<int, max_degree + 1> slot_{};        // slot_[b]: storage index of the values b steps back
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
@@ -92,8 +91,8 @@ class StepHistory {
 //   p(x) = Hermite's cubic through g0, h g0', g1, h g1',   0 <= x <= 1
 //   x*   = g0/(g0 - g1)                                    the paper's interpolation, (8) to (10)
 //
-// For the guard T_U - s T the linear interpolation reads t = t0 + dt (s T_U0 - T0)/((T1 - T0) - s (T_U1 - T_U0)). If
-// the equations yield no rate, the rate of the parabola through the last three values is used.
+// For the guard T_U - s T this is t = t0 + dt (s T_U0 - T0)/((T1 - T0) - s (T_U1 - T_U0)). If the equations
+// yield no rate, the rate of the parabola through the last three values is used.
 
 /// A guard at the ends of a step of length h.
 struct GuardCubic {
@@ -111,7 +110,8 @@ struct GuardCubic {
   [[nodiscard]] std::optional<double> interior_minimum() const;
 };
 
-/// Sets the rates from the value `before` at a distance h_before ahead of the step (0: a straight line).
+/// Sets the rates from the value `before` at the time h_before before the step, by a parabola; h_before = 0:
+/// by a straight line.
 void rates_from_values(GuardCubic& path, double h, double before, double h_before);
 
 }  // namespace signorini::events

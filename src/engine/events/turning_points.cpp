@@ -9,7 +9,7 @@
 namespace signorini::events {
 namespace {
 
-/// The slope of a polynomial, and the slope's slope.
+/// The first and second derivative of a polynomial.
 class Slope {
  public:
   Slope(const double* a, std::size_t degree) : degree_(degree) {
@@ -20,7 +20,7 @@ class Slope {
     for (std::size_t k = degree_; k >= 1; --k) slope = slope * x + b_[k];
     return slope;
   }
-  /// Zero of the slope, by Newton steps from a given place; stays between low and high.
+  /// Zero of the first derivative, by Newton steps from a given place, which stay between low and high.
   [[nodiscard]] double zero_from(double at, double low, double high) const {
     for (int newton = 0; newton < 4; ++newton) {
       double slope = 0.0, bend = 0.0;
@@ -38,9 +38,8 @@ class Slope {
   std::array<double, max_root_degree + 1> b_;  // 1 .. degree
 };
 
-/// Approximate place, by bisection, at which a polynomial that is monotone from `end` turns before `next`. Newton steps
-/// from the end itself would stay there if the end is a turning point of the other kind, as after a hit that stops a
-/// slip.
+/// Approximate extreme between `end` and `next`, by bisection. Newton steps from `end` would stay there if it
+/// is an extreme of the other kind, as after an impact that stops a slip.
 double turned_beside(const double* a, std::size_t degree, double end, double next, double inward) {
   const Slope slope(a, degree);
   const double forth = next > end ? inward : -inward;  // sign of the slope at `next`
@@ -148,9 +147,10 @@ void TurningPointDetector::record(const Path& path, std::size_t place, double at
   range.extend(turn);
 }
 
-/// Turning point between an end and the adjacent sample, if the samples are monotone: at a peak the slope at the end
-/// has the opposite sign, or is zero. One-sided differences give the slope to 0.04 of an amplitude whose samples, 0.5
-/// rad apart, differ by 0.12 there: half of that difference excludes a peak.
+/// Finds a turning point between an end and the adjacent sample, if the samples are monotone: the slope at
+/// the end then has the opposite sign, or is zero. For samples 0.5 rad apart, one-sided differences give the
+/// slope with an error of 0.04 amplitudes, while the samples differ by 0.12 amplitudes near an extreme. So a
+/// slope above half of their difference excludes an extreme.
 void TurningPointDetector::find_near_end(std::size_t end, const Path& path, std::size_t place,
                                          const Samples& x, const Samples& value, Ends ends) {
   const bool first = end == 0;
@@ -159,14 +159,14 @@ void TurningPointDetector::find_near_end(std::size_t end, const Path& path, std:
   const double inward = value[next] - value[end], slope = 2.0 * inward - 0.5 * (value[third] - value[end]);
   if (inward == 0.0 && slope == 0.0) return;
   if (inward * slope > 0.0 && std::abs(slope) >= 0.5 * std::abs(inward)) {
-    // The beginning of a part is not observed; the motion before it may have risen up to here.
+    // The beginning of a part is not observed; the motion before it may have been monotone up to here.
     const bool hidden = first && ends == Ends::part;
     if (hidden && (inward < 0.0 ? value[end] > range.greatest : value[end] < range.least))
       record(path, place, x[end]);
     return;
   }
-  // A parabola that turns before `next` exceeds the end by at most 1/8 of the difference between `third` and the end;
-  // the limit is four times that, plus `inward` if the curve is not a parabola.
+  // A parabola with an extreme before `next` exceeds the end by at most 1/8 of the difference between `third`
+  // and the end. The limit is four times that, plus `inward`, because the curve is not exactly a parabola.
   const double beyond = std::abs(inward) + 0.5 * std::abs(value[third] - value[end]);
   if (inward > 0.0 ? value[end] - beyond >= range.least : value[end] + beyond <= range.greatest) return;
   record(path, place, turned_beside(path.a, path.degree, x[end], x[next], inward));
@@ -207,14 +207,14 @@ void TurningPointDetector::find_on_path(const Path& path, std::size_t place, con
   for (std::size_t i = 1; i < sample_intervals; ++i) {
     const double left = value[i] - value[i - 1], right = value[i + 1] - value[i];
     if (left * right > 0.0 || left == right) continue;
-    // The parabola through three values turns here; a tenth more for its error.
+    // Extreme of the parabola through three values, with a margin of a tenth for its error.
     const double rise = -(right + left) * (right + left) / (8.0 * (right - left));
     const double turn = value[i] + 1.1 * rise;
     if (turn >= range.least && turn <= range.greatest) continue;
     const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
     const double at = Slope(path.a, path.degree).zero_from(guess, x[i - 1], x[i + 1]);
     const double there = motion::value_at(path.a, path.degree, at);
-    // The Newton steps may have led away from the turning point.
+    // The Newton steps may have converged to another place.
     record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
   }
   find_near_end(sample_intervals, path, place, x, value, ends);

@@ -2,7 +2,7 @@
 //
 //   f'(x) = 0 for f = N, T, g and the body's ut, where f exceeds its earlier range
 //
-// A turning point beside an end of the step, where the values at the samples are monotone, counts as well.
+// Turning points near an end of the step are also found if the values at the samples are monotone.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,12 @@ class TurningPointDetector {
  public:
   explicit TurningPointDetector(std::size_t contacts) : ranges_(watched_fields.size() * contacts) {}
 
-  /// Called after an instant at which the values may have jumped.
+  /// Called after a decision, at which the values may have jumped.
   void start(const decide::Decision& decision);
-  /// observed: an observer sees the values at the ends of a step. The ends of a part of a step are not observed, except
-  /// the beginning of the first part.
+  /// Ends of an interval at which an observer evaluates the motion. observed: both ends, those of a step;
+  /// first_part: the beginning only; part: none.
   enum class Ends : unsigned char { observed, first_part, part };
-  /// Finds turning points on [x_begin, x_end] of a series of degree max_root_degree at most.
+  /// Finds turning points of all contacts on [x_begin, x_end] of a series of degree max_root_degree at most.
   void find(const std::vector<motion::ContactSeries>& contacts, const motion::Series& series, double x_begin,
             double x_end, Ends ends = Ends::observed);
   /// Same, for one quantity: a_0 + a_1 x + ... on [0, x_end], t = begin + scale x. Called between open() and close().
@@ -39,8 +39,8 @@ class TurningPointDetector {
     [[nodiscard]] double width(double value) const {
       return std::max(greatest, value) - std::min(least, value);
     }
-    /// True if the value exceeds the range by more than its rounding and the rate points back: a turning point was
-    /// passed.
+    /// True if the value exceeds the range by more than its rounding and the rate points back to the range:
+    /// there is a turning point before.
     [[nodiscard]] bool is_exceeded(double value, double rate, double rounding) const {
       return (value - rounding > greatest && rate < 0.0) || (value + rounding < least && rate > 0.0);
     }
@@ -53,17 +53,17 @@ class TurningPointDetector {
   [[nodiscard]] const Range& range(std::size_t contact, motion::ContactSeries::Field field) const {
     return ranges_[range_index(contact, field)];
   }
-  /// Ranges of all contacts, field by field in the order of `watched`.
+  /// Ranges of all contacts: for each contact the fields in the order of watched_fields.
   [[nodiscard]] const Range* ranges() const { return ranges_.data(); }
-  /// Takes the value at the end of a step without a turning point.
+  /// Extends the range to the value at the end of a step without a turning point.
   void extend_range(std::size_t contact, motion::ContactSeries::Field field, double value) {
     ranges_[range_index(contact, field)].extend(value);
   }
   static constexpr std::array<motion::ContactSeries::Field, 4> watched_fields{
       motion::ContactSeries::N, motion::ContactSeries::T, motion::ContactSeries::gap,
       motion::ContactSeries::slide};
-  /// Turning points of the last step: quantity and contact, upwards or downwards, and time. Those of the same kind
-  /// exceed each other, so the last one counts.
+  /// A turning point of the last step. kind: contact, field, and maximum or minimum. Of several turning
+  /// points of one kind the last one is the most extreme.
   struct TurningPoint {
     std::size_t kind = 0;
     double time = 0.0;
@@ -72,14 +72,14 @@ class TurningPointDetector {
   [[nodiscard]] const std::vector<TurningPoint>& turning_points() const { return turning_points_; }
   /// Times of the turning points of the last step, ascending.
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
-  /// A part of a step begins with this value and rate: a turning point if the value exceeds the earlier range and the
-  /// rate points back.
+  /// Turning point at the beginning of a part of a step, where the field has this value and rate: the value
+  /// exceeds the earlier range, and the rate points back to it.
   std::optional<TurningPoint> find_at_start(std::size_t contact, motion::ContactSeries::Field field,
                                             double value, double rate, double time);
 
  private:
-  static constexpr std::size_t sample_intervals =
-      8;  // a step turns by less than 4 rad of any mode that matters
+  // The phase angle of a step is less than 4 rad for all modes with significant amplitudes.
+  static constexpr std::size_t sample_intervals = 8;
   using Samples = std::array<double, sample_intervals + 1>;
   [[nodiscard]] static std::size_t range_index(std::size_t contact, motion::ContactSeries::Field field) {
     const auto place =
@@ -94,7 +94,7 @@ class TurningPointDetector {
     double begin, scale;
   };
   [[nodiscard]] static bool stays_in_range(const Path& path, const Range& range, const Samples& x);
-  /// place: index of the range.
+  /// place: index into ranges_.
   void find_on_path(const Path& path, std::size_t place, const Samples& x, Ends ends);
   void find_near_end(std::size_t end, const Path& path, std::size_t place, const Samples& x,
                      const Samples& value, Ends ends);
@@ -102,7 +102,7 @@ class TurningPointDetector {
   void record(const Path& path, std::size_t place, double at);
 
   std::vector<Range> ranges_;   // ranges so far
-  std::vector<double> values_;  // values at the last instant; empty: the motion has advanced since
+  std::vector<double> values_;  // values at the last decision; empty: the motion has advanced since
   std::vector<TurningPoint> turning_points_;
   std::vector<double> times_;
   bool began_ = false;

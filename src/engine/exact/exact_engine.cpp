@@ -17,18 +17,19 @@ namespace signorini::exact {
 namespace {
 
 constexpr int min_levels = 12, more_levels = 3;
-constexpr double least_share = 1e-6;    // of the greatest motion; above it each one keeps its digits
+constexpr double least_share = 1e-6;    // of the greatest motion; degrees of freedom above it keep all digits
 constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a growing load
 constexpr double flights_a_step = 3.0;
 constexpr double longer = 1.5, much_longer = 4.0;  // than the previous step
 constexpr double least_step = 1.0 / longer;        // lower limit of a random share: steps can still grow
-// With random events, tau apart on average, a step h contains one with the probability 1 - exp(-h/tau), and takes 14
-// levels for half a radian, 18 for one, 30 for four: the least work for an event is at 2 tau. Below `shortest_turn` rad
-// a step takes 12 levels in any case.
+// With random events at a mean distance tau, a step h contains one with the probability 1 - exp(-h/tau). A
+// step takes 14 levels for a phase angle of half a radian, 18 for one, 30 for four. So the work for each
+// event is least at h = 2 tau. Below `shortest_turn` rad a step takes 12 levels in any case.
 constexpr double times_pace = 2.0, shortest_turn = 0.3;
-// A series that outlives its events contains some of them, limited to an angle at which its levels still save time.
+// With local updates a series spans several events, up to a phase angle at which more levels would cost more
+// than they save.
 constexpr double events_a_series = 12.0, longest_turn = 2.0;
-constexpr double least_left = 0.5;     // part of the remaining series, from which on a local update is made
+constexpr double least_left = 0.5;     // least valid part of the remaining series after a local update
 constexpr double fresh = 0.25;         // weight of the last time between events among those before; chosen
 constexpr double max_cancelled = 0.9;  // greatest later term over the greatest first one
 constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
@@ -135,19 +136,19 @@ double ExactEngine::paced_length() const {
   return std::max(times_pace * event_interval_, shortest);
 }
 
-/// Random share of the possible length of a step; 1 without a step_seed. Steps of equal length multiply the motion by
-/// the same matrix, whose entries have the same rounding each time: N steps change the amplitude and phase of an
-/// oscillation by N times one rounding, and every run with the same lengths has the same error. With random lengths the
-/// rounding differs in each step, and N of them add up to sqrt(N). The first step of a segment keeps its length, since
-/// no step repeats it: if a guard leaves zero below rounding, the event of that step is as uncertain as reported, and
-/// no later one.
+/// Random share of the possible length of a step; 1 without a step_seed. Steps of equal length multiply the
+/// motion by the same matrix with the same rounding. So N steps change the amplitude and phase of an
+/// oscillation by N times one rounding, and every run with the same lengths has the same error. With random
+/// lengths the rounding differs in each step, and the sum grows like sqrt(N). The first step of a segment has
+/// its full length, because a guard may leave zero within rounding: its event in that step is then as
+/// uncertain as reported.
 double ExactEngine::share_of_step() {
   if (!random_ || t_ == segment_begin_) return 1.0;
   return std::uniform_real_distribution<double>(least_step, 1.0)(*random_);
 }
 
-/// A few times the shortest flight ahead; 0: none. The rounding of a gap grows with the motion of the whole step, and
-/// must stay small beside the flight's height.
+/// A few times the duration of the shortest flight that begins now; 0: none. The rounding of a gap grows with
+/// the motion on the whole step, and must stay small relative to the height of the flight.
 double ExactEngine::flights_limit() const {
   const decide::Decision& decision = *segment_.decision;
   double shortest = std::numeric_limits<double>::infinity();
@@ -324,7 +325,7 @@ engine::Step ExactEngine::failed(std::string reason) {
   return step_;
 }
 
-/// Reason why no step of this length can be made from here; empty: none.
+/// Reason why no step of this length is possible from here; empty: it is possible.
 std::string ExactEngine::failure_reason(double scale) const {
   if (growth_now_ * motion::resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
@@ -335,8 +336,8 @@ std::string ExactEngine::failure_reason(double scale) const {
   return {};
 }
 
-/// Bound on the remainder of all displacements on [0, x], in norm_: from |x_k| on the series is below a geometric one
-/// with ratio 1/2.
+/// Bound on the remainder of all displacements on [0, x], in norm_: its terms are below those of a geometric
+/// series with ratio 1/2.
 double ExactEngine::series_remainder(double x) {
   double rest = 0.0;
   for (int k = 1; k <= 2; ++k) {
@@ -347,7 +348,7 @@ double ExactEngine::series_remainder(double x) {
   return rest;
 }
 
-/// Same for a locally updated part; the rest of the structure is bounded elsewhere.
+/// Same for a locally updated part.
 double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& near, double x) {
   double rest = 0.0;
   near_column_.setZero(model_.size());
@@ -359,7 +360,8 @@ double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& n
   return rest;
 }
 
-/// Validity of a locally updated part, x at most: by the criteria of weigh(), measure() and expand() for the whole.
+/// Place up to which a locally updated part is valid, x at most: by the criteria of set_weights(),
+/// measure_coefficients() and expand() for the whole structure.
 double ExactEngine::local_radius(const motion::LocalSeries::LocalExpansion& near, double x) {
   const std::vector<int>& dofs = near.where->dofs;
   const Eigen::MatrixXd& u = near.series->u;
@@ -386,7 +388,7 @@ ExactEngine::Earliest ExactEngine::earliest_crossing() {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot)) continue;
     ZeroCrossing& known = crossings_[slot];
-    // A later decision has excluded the crossing found before.
+    // A crossing before the beginning of this step was no event by a later decision.
     const bool past = known.kind != events::FirstRoot::Kind::none && known.at <= begin_x_;
     if (!known.stands || !active_guards_.armed(slot) || past) {
       const events::FirstRoot fall = first_root_of(slot);
@@ -424,7 +426,7 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
     warnings.emplace_back("more guards touch zero; these are not listed");
 }
 
-/// Updates guards that were zero when the segment began, at the end of a step without an event.
+/// Updates waiting guards at the end x of a step without an event.
 void ExactEngine::update_unarmed(double x) {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot) || active_guards_.armed(slot)) continue;

@@ -1,15 +1,17 @@
-// exact_engine.hpp: engine `exact`: the motion in each contact state in closed form, and no missed event.
+// exact_engine.hpp: engine `exact` by Taylor series: the motion in each contact state, and no missed event.
 //
 //   u(t + s x) = sum_k u_k x^k        motion/taylor.hpp; h = s x chosen so that the remainder is below rounding
 //   guard(x)   = sum_k g_k x^k        first root by interval bounds, engine/events/first_root.hpp
 //
-// Between events the system of a contact state is linear with constant coefficients, so its Taylor series has the
-// radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth rate of the state. A
-// step is as long as the series converges to rounding with that bound, and short enough that its terms do not cancel.
-// docs/theory.md gives the argument that no event is missed. A step is computed in vain beyond an event, so a step that
-// begins at an event is limited to twice the recent time between events. On large structures an event in compliant
-// contacts changes only the motion near them as long as the series reaches: the series is updated there, roots found
-// elsewhere stay valid (motion/local_series.hpp), and a series spans several events.
+// Between events the system of a contact state is linear with constant coefficients. Its Taylor series
+// converges for all x, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth rate of the state. A step
+// is as long as the series converges to rounding with that bound, but so short that its terms do not cancel.
+// docs/theory.md proves that no event is missed.
+//
+// The part of a step after an event is wasted, so a step that begins at an event is limited to twice the
+// recent time between events. On large structures an event in compliant contacts changes only the motion near
+// them on a step. The series is then updated there, and roots found elsewhere stay valid
+// (motion/local_series.hpp), so a series spans several events.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +29,13 @@
 
 namespace signorini::exact {
 
-/// Greatest number of terms of a series.
+/// Largest number of levels of a series (motion/taylor.hpp).
 inline constexpr int max_levels = 30;
 
 /// Intended use of the steps.
 struct SeriesOptions {
-  bool local_updates = false;   ///< allows local updates: no listener reads the series
-  std::uint64_t step_seed = 0;  ///< not 0: steps have random lengths (share_of_step)
+  bool local_updates = false;   ///< local updates are allowed: no listener reads the series
+  std::uint64_t step_seed = 0;  ///< not 0: seed of random lengths of steps
 };
 
 class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
@@ -50,7 +52,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   void evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) override;
   void integrate(double from, double to, motion::WorkIntegrals& works) override;
   [[nodiscard]] double residual() override;
-  /// The guard is exact up to rounding, which the decision knows.
+  /// Zero: guards are exact up to rounding, which the decision takes into account.
   [[nodiscard]] double guard_error(const GuardForm&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
@@ -101,12 +103,13 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   PatchedSeries motion_;
   std::optional<motion::LocalSeries>
       local_series_;               // nullopt: each event makes the series of the whole structure anew
-  contact::ContactStates states_;  // states of the segment, if beside_ is used
+  contact::ContactStates states_;  // states of the segment, if local_series_ is used
   bool series_continued_ = false;  // the segment begins within motion_
   double begin_x_ = 0.0;           // beginning of the step in motion_
-  double reach_ = 0.0;             // end of the validity of motion_
+  double reach_ = 0.0;             // end of the validity of motion_, as a place in the series
   double reach_time_ = 0.0;        // time of reach_
-  /// Remainder of a contact's polynomials in displacements, in norm_, and their reach from their origin.
+  /// rest: remainder of the displacements at a contact, in norm_, up to the distance x from the origin of its
+  /// polynomials.
   struct LocalRemainder {
     double rest = 0.0, x = 0.0;
   };
@@ -114,7 +117,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   /// The first zero crossing of a guard in motion_, once found.
   struct ZeroCrossing {
     events::FirstRoot::Kind kind = events::FirstRoot::Kind::none;
-    bool stands = false;  // the search was made for this guard, which was positive
+    bool stands = false;  // the search was made, for a guard that was armed
     double at = 0.0;
   };
   std::vector<ZeroCrossing> crossings_;
@@ -130,7 +133,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   double max_next_step_ = 0.0;   // greatest length of the segment's next step
   double segment_begin_ = 0.0;   // beginning of the segment
   double event_interval_ = 0.0;  // mean time between recent events; 0: none
-  bool paced_ = false;           // no series so far was too short for a step of event_interval_
+  bool paced_ = false;           // event_interval_ limits the steps; no series of this segment was shorter
   double end_x_ = 0.0;           // end of the last step in its series
   engine::Step step_;
   SeriesWorkIntegrals works_;

@@ -12,8 +12,7 @@ namespace signorini::exact {
 namespace {
 
 constexpr int probe_levels = 20;
-constexpr double max_beside =
-    0.1;  // of the square of a growth: steps are five in a hundred shorter at most; chosen
+constexpr double max_beside = 0.1;  // of the square of a growth rate: steps are at most 5 % shorter; chosen
 
 }  // namespace
 
@@ -37,7 +36,7 @@ double FlowGrowth::growth_rate(const motion::StateSystemPtr& system) {
   return near_rate_;
 }
 
-/// Upper limit of a contact's contribution to the square of the growth, by closing, sticking or slipping.
+/// Bound on the change of W^2 if a contact closes, opens, sticks or slips.
 double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) {
   double& known = stiffenings_[c];
   if (known >= 0.0) return known;
@@ -55,7 +54,8 @@ double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) 
   return known = kn * (n + friction * t) * norm_.normal(c) + kt * t * norm_.tangent(c);
 }
 
-/// Growth of states that differ from the nearest known ones in few soft contacts. nullopt: they differ in too many.
+/// Growth rate of states that differ from near_states_ in few compliant contacts. nullopt: they differ too
+/// much.
 std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& system) {
   if (near_states_.empty() || !system.factorised().by_mass) return std::nullopt;
   stiffenings_.resize(near_states_.size(), -1.0);

@@ -2,8 +2,8 @@
 //
 //   |x_(k+1)| <= W s/(k+1) |x_k|      of a Taylor series of scale s, k large, in the norm of flow_growth.hpp
 //
-// W of a state is found from twenty levels of a series. On large structures most states differ from a known one in few
-// soft contacts; in that norm these add at most
+// W of a state is computed from twenty levels of a series. On large structures most states differ from a
+// known state, with rate W_0, in few compliant contacts. In the norm below,
 //   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
 // and this bound is used as long as the sum is small.
 #pragma once
@@ -36,15 +36,15 @@ class FlowNorm {
   Vector product_;
 };
 
-/// Growth rates of states are kept longer than their systems: a rate takes a series to compute and 8 bytes to keep.
+/// Limits of the cache of growth rates; a rate needs a series to compute, and 8 bytes to store.
 inline constexpr base::CacheLimits max_growth_rates{16384, std::size_t{1} << 20};
 
 class FlowGrowth {
  public:
   static constexpr double margin = 1.25;  ///< factor on a growth rate computed from twenty powers of the flow
 
-  /// scales: weights that make the degrees of freedom comparable, filled before of() is called. All arguments except
-  /// t_end must outlive the object.
+  /// scales: weights that make the degrees of freedom comparable, filled before growth_rate() is called. All
+  /// arguments except t_end must outlive the object.
   FlowGrowth(const Model& model, motion::Taylor& taylor, FlowNorm& norm, const std::vector<double>& scales,
              double t_end);
 
@@ -63,7 +63,7 @@ class FlowGrowth {
   const double fastest_;  // bound on all rates of the structure, for scaling
   base::LruCache<std::vector<State>, double> known_{max_growth_rates};
   std::vector<State> near_states_;   // last states whose growth was computed from a series; empty: none
-  double near_rate_ = 0.0;           // growth of near_
+  double near_rate_ = 0.0;           // growth rate of near_states_
   std::vector<double> stiffenings_;  // one for each contact; negative: unknown
 };
 

@@ -2,9 +2,9 @@
 //
 //   u_i(x) = sum_k u_ik (x - o_i)^k,    N and T likewise;    x = (t - t_0)/s
 //
-// A series is made for the whole structure about t_0, o = 0. If an event changes the motion near some contacts, their
-// part is expanded anew about it (motion/local_series.hpp), and the rest stays valid. Shapes: n degrees of freedom, two
-// forces for each contact.
+// A series of the whole structure is expanded about t_0, with o_i = 0. If an event changes the motion near
+// some contacts, that part is expanded anew about the event (motion/local_series.hpp); the rest stays valid.
+// Shapes: n degrees of freedom, two forces for each contact.
 #pragma once
 
 #include <array>
@@ -21,11 +21,12 @@ class PatchedSeries {
  public:
   explicit PatchedSeries(const Model& model);
 
-  /// Series of the whole structure, filled by its owner, which keeps the coefficients until taken().
+  /// Series of the whole structure, filled by the owner of this object, who then calls set_complete().
   motion::Series whole;
-  /// `whole` has been filled: u, v, a and forces are complete up to this degree, max_root_degree at most.
+  /// Called once `whole` is filled: u, v, a and forces are complete up to this degree, max_root_degree at
+  /// most.
   void set_complete(std::size_t degree);
-  /// Replaces a part of the series from x on, up to `reach` further.
+  /// Replaces a part of the series on [x, x + reach].
   void patch(const motion::LocalSeries::LocalExpansion& near, double x, double reach);
   /// Bounds the rates of all contacts up to x from the origin: ContactSeries::bound_rates.
   void bound_rates(double x) {
@@ -37,7 +38,7 @@ class PatchedSeries {
   /// o for each degree of freedom. Empty: all are zero.
   [[nodiscard]] const std::vector<double>& origins() const { return origins_; }
 
-  /// The coefficients about x: whole.levels + 3 for a degree of freedom, whole.levels + 1 for a force.
+  /// Writes the coefficients about x: whole.levels + 3 for a degree of freedom, whole.levels + 1 for a force.
   void displacement(int dof, double x, double* out) const;
   void force(std::size_t slot, double x, double* out) const;
 

@@ -37,8 +37,8 @@ namespace {
 
 constexpr std::size_t block = 16;  // degrees of freedom whose coefficients stay in cache for all times
 
-/// Velocities of up to one block of degrees of freedom at several times; at: the places there, with space for a block
-/// each; a: coefficients of order 0, those of the next order `stride` further.
+/// Velocities of up to one block of degrees of freedom at several times. at: for each time an array for a
+/// block; a: coefficients of order 0, with those of the next order `stride` further.
 SIGNORINI_WIDE_LANES void velocities_of_block(const double* a, std::size_t stride, std::size_t degree,
                                               double scale, const double* at, std::size_t times, double* v) {
   constexpr std::size_t lanes = 4;
@@ -186,7 +186,8 @@ void SeriesWorkIntegrals::add_contact(std::size_t c, const motion::Forcing& forc
   }
 }
 
-/// Work of a curved surface's force in addition to its spring; it counts as work of the loads, also off the surface.
+/// Adds the work of a curved surface's force beyond its spring. It counts as work of the loads, also while
+/// the contact is open.
 void SeriesWorkIntegrals::add_curved_surface(std::size_t c, const motion::Forcing& forcing,
                                              const motion::Series& series, const motion::ContactSeries& path,
                                              std::size_t degree, double from, double to,

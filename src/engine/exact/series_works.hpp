@@ -15,8 +15,8 @@ namespace signorini::exact {
 //
 //   int_0^1 f = sum_i w_i f(x_i), exact for polynomials of degree 2 count - 1
 //
-// The remainder is (count!)^4 / ( (2 count + 1) (2 count)!^3 ) f^(2 count): 2e-16 with six nodes for powers of motions
-// that turn by half a radian, whose rates are up to 1 rad.
+// The remainder is (count!)^4 / ( (2 count + 1) (2 count)!^3 ) f^(2 count). With six nodes it is 2e-16 for
+// powers of motions with phase angles up to half a radian; the phase angle of the power is then up to 1 rad.
 
 struct GaussRule {
   static constexpr std::size_t nodes = 12;
@@ -24,7 +24,8 @@ struct GaussRule {
   std::array<double, nodes> x{}, w{};
 };
 [[nodiscard]] const GaussRule& gauss_rule();
-/// Rule with six nodes, for stretches on which the motion turns by `short_angle` at most. Unit: rad.
+/// Rule with six nodes, for intervals on which the phase angle of the motion is at most `short_angle`. Unit:
+/// rad.
 [[nodiscard]] const GaussRule& short_gauss_rule();
 inline constexpr double short_angle = 0.5;
 

@@ -20,23 +20,23 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int max_retries = 4;  // restarts with a tenth of the first step before giving up
-// Longest step, in radians of a moving surface's oscillation; at order 5 its error is then 1e-7 of the amplitude.
-constexpr double surface_step = 0.25;
-// First step as a fraction of the step whose local error would just be accepted. After a rebound the error of the
-// order-one start stays in the gap for the whole flight, and every impact adds such an error. So with rigid contacts
-// the first step is smaller: that costs five more steps per start and is ten times more accurate (case 04a, measured).
+constexpr int max_retries = 4;         // restarts with a tenth of the first step before giving up
+constexpr double surface_step = 0.25;  // longest step, rad of a surface's oscillation: error 1e-7 at order 5
+// First step as a fraction of the step whose local error would just be accepted. After a rebound the error of
+// the order-one start remains in the gap for the whole flight, and every impact adds such an error. So with
+// rigid contacts the first step is shorter: this takes five more steps per start and is ten times more
+// accurate (case 04a, measured).
 constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
-// Chosen between 0.1 and 0.4: the least error over eight tolerances of a growing and of a damped motion
-// (docs/decisions/ida-restart-order.md). Steps differ by a tenth.
+// `part` in restart_order.hpp. Chosen between 0.1 and 0.4: it has the least error over eight tolerances of a
+// growing and of a damped motion (docs/decisions/ida-restart-order.md). Numbers of steps differ by a tenth.
 constexpr double rehearsed_part = 0.2;
-// Part of the remaining segment: where polynomials are the motion, an observer of the steps sees points inside the
-// segment.
+// Longest step before a segment, as a fraction of the segment: the segment then has several steps even if the
+// polynomials of the jet are the exact motion.
 constexpr double longest_rehearsed = 0.0625;
 constexpr double least_rehearsed =
     1e3 * std::numeric_limits<double>::epsilon();  // relative to the time; IDA's own limit is 100
-constexpr double no_error_test = 1e-15;            // relative to the weights, while IDA rehearses
+constexpr double no_error_test = 1e-15;            // factor on the weights before a segment: tests never fail
 
 constexpr double sharp_newton = 1e-3;  // relative to the tolerance; IDA's default is a third
 
@@ -89,11 +89,12 @@ struct BdfIntegrator::Memory {
     IDASetJacFn(ida, &Memory::jacobian);
     IDASetMaxNumSteps(ida, -1);
     IDASetMaxOrd(ida, max_order);
-    // Refactor at every change of cj: Newton is then exact for these linear systems, and the rows of the contacts hold
-    // to rounding (default: 3 to 4 times the error in energy and more steps, measured).
+    // Factorise at every change of cj: Newton's method is then exact for these linear systems, and the rows
+    // of the contacts hold up to rounding. With the default, the error of the energy is 3 to 4 times as
+    // large, with more steps (measured).
     IDASetDeltaCjLSetup(ida, 0.0);
-    // Rows of friction that depends on the slip rate hold only as well as Newton's method has converged; so do
-    // products.
+    // Rows with friction that depends on the slip rate, or with products, hold only as accurately as Newton's
+    // method has converged.
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
                     [](const Contact& c) { return !c.is_linear(); }))
       IDASetNonlinConvCoef(ida, sharp_newton);
@@ -153,8 +154,8 @@ struct BdfIntegrator::Memory {
     static_cast<Memory*>(self)->message = text;
   }
 
-  /// (Re)starts IDA with the given first step at the segment's beginning, or `steps` such steps before it, which are
-  /// rehearsed.
+  /// Starts IDA with the first step h0 at the segment's beginning, or `steps` such steps before it, whose
+  /// solutions are those of the jet.
   void begin(double h0, int steps = 0) {
     const double before = steps * h0;
     problem.evaluate_jet(*start, -before, 0, NV_DATA_S(y));
@@ -163,8 +164,8 @@ struct BdfIntegrator::Memory {
     IDASetInitStep(ida, h0);
     first = h0;
     IDASetStopTime(ida, segment.end);
-    // Surfaces move in the guards alone, so the error test does not see them; the guards' polynomials must resolve
-    // them.
+    // Motions of surfaces are not part of y, so IDA's error test does not limit the step for them. The
+    // polynomials of the guards must resolve them.
     const double shaking = segment.forcing->surface_omega();
     const double longest = shaking > 0.0 ? surface_step / shaking : 0.0;
     IDASetMaxStep(ida, steps > 0 ? h0 : longest);
@@ -178,8 +179,8 @@ struct BdfIntegrator::Memory {
     IDASetMaxStep(ida, longest);
   }
 
-  /// IDA's steps up to the segment's beginning. Their error tests cannot fail, and they are far above the resolution of
-  /// time.
+  /// Takes IDA's steps up to the segment's beginning. Their error tests cannot fail, and they are far longer
+  /// than the resolution of time.
   void rehearse(int steps) {
     rehearsing = true;
     newton->prescribe_jet(start);
@@ -190,9 +191,9 @@ struct BdfIntegrator::Memory {
     rehearsing = false;
   }
 
-  /// The rehearsed steps, or none: user functions have no past that a step could rehearse, and steps near the
-  /// resolution of time cannot be distinguished from the beginning. Hits of rigid contacts come in sequences that
-  /// shrink: their flights need shorter steps than an error test requires, at any order.
+  /// The steps before the segment, or none. User functions are not defined before the segment, and steps near
+  /// the resolution of time cannot be distinguished from the beginning. Rigid contacts rebound after shorter
+  /// and shorter flights, which need shorter steps than an error test requires, at any order.
   [[nodiscard]] RestartOrder past() {
     if (rehearses)
       if (const RestartOrder r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
@@ -211,8 +212,8 @@ struct BdfIntegrator::Memory {
     return {RestartOrder::order, h};
   }
 
-  /// The order-one start has the error h^2 y''/2 + h^3 y'''/6 ...; returns the step that bounds the first of these, or
-  /// IDA's own choice if the solution does not move.
+  /// The first step of a start at order one: it bounds every term h^k y^(k)/k!, k > 1, of the error. If the
+  /// solution does not move, it is the rest of the segment.
   double first_step() {
     const double remaining = segment.end - start->t;
     double h = remaining;
@@ -231,10 +232,10 @@ struct BdfIntegrator::Memory {
 
   [[nodiscard]] bool massless() const { return problem.layout().massive < problem.layout().dofs; }
 
-  /// One Newton correction of the velocities of massless degrees of freedom in y' at t, with the matrix of the last
-  /// step. The derivative of a step's polynomial is one order less accurate than the polynomial; after a restart its
-  /// error is h u''/2. u itself is as accurate as every other unknown, and C v = P - K u - ... yields v from it.
-  /// Solving for v alone would amplify the error of u by K/C; if h K > C this keeps the polynomial.
+  /// Corrects the velocities of massless degrees of freedom in y' at t, by one Newton step with the matrix of
+  /// the last step. The derivative of a step's polynomial is one order less accurate than the polynomial;
+  /// after a restart its error is h u''/2. The correction uses C v = P - K u - ... Solving this for v alone
+  /// would amplify the error of u by K/C; if h K > C, the Newton step leaves the polynomial unchanged.
   void settle_massless(double t) {
     double *derivative = NV_DATA_S(yp), *change = NV_DATA_S(work);
     const double cj = problem.linear().cj();
@@ -270,8 +271,8 @@ struct BdfIntegrator::Memory {
     }
   }
 
-  /// After a root without an event IDA stops at the further roots of its step and at its end; all these have already
-  /// been processed with their polynomials. Continues to the next step.
+  /// Continues to the next step after a root without an event. IDA stops at the other roots of the step and
+  /// at its end; the polynomials of the step have already been examined there.
   int leave_step(int flag, double far, double& t) {
     for (double end = 0.0; flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN;
          flag = IDASolve(ida, far, &t, y, yp, IDA_ONE_STEP)) {
@@ -299,7 +300,7 @@ struct BdfIntegrator::Memory {
   double t_previous = 0.0;    // beginning of the last accepted step
   double reported_end = 0.0;  // end of the last returned step
   double held_time = 0.0;     // time of y and yp
-  bool rehearsing = false;    // solutions come from the series, and error tests cannot fail
+  bool rehearsing = false;    // steps before a segment: solutions are those of the jet
   bool rooted = false;        // the last returned step ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
@@ -401,8 +402,8 @@ ContactMotion BdfIntegrator::correction(std::size_t contact) const {
 }
 
 double BdfIntegrator::residual() {
-  // The formula's own derivative, y' = y'_predicted + cj (y - y_predicted): IDA returns that of the interpolating
-  // polynomial instead, which does not satisfy the equations.
+  // y' of the BDF formula, y' = y'_predicted + cj (y - y_predicted). IDA returns the derivative of the
+  // interpolating polynomial instead, which does not satisfy the equations.
   double end = 0.0, cj = 0.0;
   N_Vector y_predicted = nullptr, yp_predicted = nullptr, y = nullptr, yp = nullptr, r = nullptr;
   void* data = nullptr;

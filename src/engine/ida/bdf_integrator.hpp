@@ -4,9 +4,10 @@
 //   0 = M v' + C v + K u - P(t) + sum_k ( n_k N_k + t_k T_k )
 //   0 = rows of each contact's state
 //
-// y = [u, v, N, T]; degrees of freedom without mass have no v: their row is the second one, with u' as velocity (index
-// 1). The segment's rows stay in force past an event; guards are IDA's root functions, positive before their event,
-// watched for downward crossings only, and masked (+1) while idle or not armed.
+// y = [u, v, N, T]. Degrees of freedom without mass have no v: their row is the second one, with u' as
+// velocity, and the system has index 1. The rows of a segment are valid until the next one starts, also after
+// an event. Guards are IDA's root functions: positive before their event, with downward crossings only, and
+// set to +1 while idle or not armed.
 #pragma once
 
 #include <memory>
@@ -18,7 +19,7 @@
 
 namespace signorini::ida {
 
-/// A step of IDA; its inside has not yet been examined.
+/// A step of IDA, not yet examined for zero crossings inside it.
 struct BdfStep {
   enum class Kind { accepted, root, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;  ///< ends of the accepted step
@@ -38,18 +39,21 @@ class BdfIntegrator {
   BdfIntegrator(const BdfIntegrator&) = delete;
   BdfIntegrator& operator=(const BdfIntegrator&) = delete;
 
-  /// jet: whole jet at the segment's beginning; watch: armed guards. Both must outlive the segment. Returns the past
-  /// that IDA was given.
+  /// jet: whole jet at the segment's beginning; watch: armed guards. Both must outlive the segment. Returns
+  /// the steps that IDA has taken on the jet before the segment (restart_order.hpp).
   RestartOrder start(const engine::Segment& segment, const motion::Jet& jet,
                      const events::GuardMonitor& watch);
   [[nodiscard]] BdfStep advance();
+  /// u, v and forces at a time of the last step.
   void evaluate(double t, motion::Point& point);
-  /// Keeps the correction of the last step: solution minus prediction. IDA estimates the local error from it; with
-  /// equal steps of order k the error is 1/(k + 1) of it.
+  /// Stores the correction of the last step: solution minus prediction. The local error is proportional to
+  /// it, with equal steps of order k by the factor 1/(k + 1).
   void keep_correction();
-  /// N, T, gap, ut, vn, vt of a contact in that correction; velocities without those of massless parts.
+  /// N, T, gap, ut, vn, vt of a contact in the stored correction; velocities without those of massless parts.
   [[nodiscard]] ContactMotion correction(std::size_t contact) const;
+  /// DenseOutput::residual.
   [[nodiscard]] double residual();
+  /// Adds IDA's counts to the counters.
   void count();
 
  private:

@@ -55,7 +55,8 @@ bool IdaEngine::follows_low_flights(const Model& model) {
   return std::none_of(model.contacts.begin(), model.contacts.end(), contact::friction_varies);
 }
 
-/// Writes guards, powers, and the contacts' quantities at the end of a step, for its polynomials.
+/// Writes guards, powers, and the contacts' quantities at the end of a step to `out`, for the polynomials of
+/// the history.
 void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   const decide::Decision& decision = *segment_.decision;
   const ForceLayout& layout = model_.layout;
@@ -78,8 +79,9 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   powers_.at(*segment_.forcing, t, decision.states, point, powers);
 }
 
-/// Below the mean of tolerance and size half of a height's digits are lost: the series takes lower flights (04a at rtol
-/// 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
+/// Gap below which the series takes a flight: the geometric mean of tolerance and size, below which half of
+/// the digits of a height are lost. In case 04a at rtol 1e-10 impacts are then accurate to 3e-9 s; with the
+/// re-arming level as limit, to 1e-7 s.
 double IdaEngine::flight_level(const Contact& contact, const Vector& u) const {
   double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
   for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
@@ -88,9 +90,9 @@ double IdaEngine::flight_level(const Contact& contact, const Vector& u) const {
   return std::max(std::sqrt(tolerance * size), 2.0 * events::re_arm_tolerances * tolerance);
 }
 
-/// True if there are massless parts and no damper acts on one. Their velocities follow from K v = P' - ...; the
-/// derivative of a step's polynomial has the error h u''/2 after a restart, which is far above the tolerance of
-/// velocities in a short step. If dampers act, C v = P - K u - ... would amplify errors of u by K/C (BdfIntegrator).
+/// True if there are massless parts and no damper acts on one. Their velocities are then computed from
+/// K v = P' - ..., because the derivative of a step's polynomial has the error h u''/2 after a restart, far
+/// above the tolerance of velocities. If dampers act, BdfIntegrator corrects the velocities.
 bool IdaEngine::has_undamped_massless_parts() const {
   if (!consistent_.massless()) return false;
   const std::vector<linear::DofKind>& kinds = segment_.decision->system->kinds();
@@ -116,8 +118,8 @@ void IdaEngine::start(const engine::Segment& segment) {
     const ContactMotion& motion = decision.after[model_.layout.contact_of_guard(slot)];
     double level =
         guard.noise + events::re_arm_tolerances * engine::tolerance(decision.guard(slot), motion, tolerance_);
-    // The decision's zero is limited by the resolution of time, which a stiff contact turns into a force above the
-    // tolerance.
+    // A value that the decision takes as zero may exceed the tolerance: rate times resolution of time, at a
+    // stiff contact.
     if (guard.at_zero) level += 2.0 * std::abs(decision.guard(slot).value(motion));
     levels.push_back(level);
     if (guard.at_zero && guard.kind != Guard::closing) add_zero_start_guard(slot);
@@ -132,7 +134,7 @@ void IdaEngine::start(const engine::Segment& segment) {
   restart_history(jet, bdf_.start(segment, jet, guard_monitor_));
 }
 
-/// Stores the past that IDA was given, and the beginning, for the polynomials of the first steps.
+/// Stores the steps of IDA before the segment, and its beginning, for the polynomials of the first steps.
 void IdaEngine::restart_history(const motion::Jet& jet, const RestartOrder& past) {
   const decide::Decision& decision = *segment_.decision;
   const double t = jet.t;
@@ -164,7 +166,7 @@ void IdaEngine::evaluate(double t, motion::Point& point) {
     point.a.resize(0);  // its entries belong to another time
 }
 
-/// From the equation of motion at the point's own u and v, which remain unchanged.
+/// Computes accelerations from the equation of motion with the point's u and v, which remain unchanged.
 void IdaEngine::accelerate(double t, motion::Point& point) {
   if (flight_ || (point.a.size() > 0 && !consistent_.massless())) return;
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
@@ -268,9 +270,9 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   return first;
 }
 
-/// The limit of friction vanishes with the compression, so that any error of the steps in the friction force of a
-/// sticking contact exceeds the limit before the contact opens. If the limit's own error covers the time between the
-/// two, the contact opens from stick: the slip before is no more than this error.
+/// True if a sticking contact opens without slipping before. The friction limit vanishes with the
+/// compression, so any error of the friction force exceeds the limit shortly before the contact opens. If the
+/// error of the limit explains the time between both zeros, the contact opens from stick.
 bool IdaEngine::opens_instead(const Located& slip, const Located& opening, double x, double h) const {
   const std::size_t contact = model_.layout.contact_of_guard(slip.slot);
   const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
@@ -282,10 +284,10 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
          engine::tolerance(segment_.decision->guard(slip.slot), ContactMotion{}, tolerance_);
 }
 
-/// A guard that started at zero returns to zero if the motion conserves energy (a contact that sticks at its limit, on
-/// its own spring). Its depth below zero is then the error of the steps. A gap that opened and returns to zero is a
-/// landing, however short its flight was. If friction rises with the slip rate, a sinking guard continues against
-/// reversed friction, and no force brings it back.
+/// True if a guard that started at zero only touches zero. It returns to zero if the motion conserves energy
+/// (a contact that sticks at its limit, on its own spring); its depth below zero is then the error of the
+/// steps. A gap that opened and returns to zero is a landing, however short its flight was. If friction rises
+/// with the slip rate, a guard that crosses zero does not return.
 bool IdaEngine::is_touch(std::size_t slot, double x) const {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   if (guard.kind == Guard::closing || !guard.at_zero || !guard_monitor_.armed(slot)) return false;
@@ -313,8 +315,8 @@ void IdaEngine::add_zero_start_guard(std::size_t slot) {
       {slot, engine::tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
 
-/// Adds the correction of each guard that began at zero. A step keeps its tolerance, so one tolerance is the upper
-/// limit; it is also used if the correction is unknown.
+/// Adds the error of the step to the bound of each guard that began at zero. This error is the correction, at
+/// most one tolerance; if the correction is unknown, it is one tolerance.
 void IdaEngine::add_errors() {
   if (zero_start_guards_.empty()) return;
   bdf_.keep_correction();
@@ -327,7 +329,8 @@ void IdaEngine::add_errors() {
   }
 }
 
-/// Possible error of a guard since the segment began: that of its steps, plus one tolerance for the last value.
+/// Bound on the error of a guard since the beginning of the segment: that of its steps, plus one tolerance
+/// for the last value.
 double IdaEngine::allowance(std::size_t slot) const {
   const auto guard = std::lower_bound(zero_start_guards_.begin(), zero_start_guards_.end(), slot,
                                       [](const ZeroStartGuard& g, std::size_t s) { return g.slot < s; });

@@ -1,4 +1,5 @@
-// ida_engine.hpp: engine `ida`: IDA's steps, and proof that no guard reaches zero unnoticed inside one.
+// ida_engine.hpp: engine `ida`: IDA's steps, and proof that no guard reaches zero inside a step without an
+// event.
 //
 //   advance: a step of IDA -> the guards' polynomials on it (step_history.hpp, active_guards.hpp) -> the first
 //            zero crossing, refined with forces recomputed from u and v (locate.hpp)
@@ -19,11 +20,13 @@ namespace signorini::ida {
 
 class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
  public:
-  /// The first three arguments must outlive the object.
+  /// The first three arguments must outlive the object. flight_tolerances: factor on the tolerance of gaps
+  /// that determines which flights are taken by a series (short_flight.hpp).
   IdaEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
             const engine::Tolerance& tolerance, int max_order, double t_end, double flight_tolerances);
 
-  /// True if friction is linear during short flights, so that their series can take them.
+  /// True if no coefficient of friction depends on the slip rate or on N, so that a series can follow short
+  /// flights.
   [[nodiscard]] static bool follows_low_flights(const Model& model);
 
   void start(const engine::Segment& segment) override;
@@ -48,7 +51,7 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
     std::size_t slot;
     double tolerance;  // tolerance of its value
     bool known;        // its change in a step follows from N, T, u and v
-    double off;        // possible error of the steps so far
+    double off;        // bound on the errors of the steps so far
   };
   [[nodiscard]] bool has_undamped_massless_parts() const;
   void fill(double t, const motion::Point& point, double* out);
@@ -77,7 +80,7 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   ShortFlight flights_;
   std::optional<engine::Step> flight_;  // the step taken by a short flight
   engine::Segment segment_;
-  motion::Jet jet_;  // whole jet, if the decision's jet is not
+  motion::Jet jet_;  // whole jet, if the decision's jet is incomplete
   motion::Point point_;
   std::vector<double> integrals_;
   bool accelerations_ = false;                     // at least one guard needs accelerations

@@ -4,9 +4,9 @@
 //   | K  cj M + C  n t | |dv| = |r2|   =>   (cj M + C + K/cj) dv + n dN + t dT = r2 - K r1 / cj
 //   | rows of contacts | |dF|   |r3|        rows of the contacts likewise
 //
-// The residual comes with r1/cj already in r2 and r3 (engine/ida/ida_problem.hpp), so the right-hand side is available.
-// One matrix of the size of the structure plus two rows for each contact, instead of twice that; large structures with
-// compliant contacts and a narrow band need one of the size of the structure (linear/condensed_matrix.hpp).
+// The residual contains the terms of r1/cj in r2 and r3 already (engine/ida/ida_problem.hpp), so it is the
+// right-hand side. The matrix has n + 2 rows per contact instead of 2 n + 2 per contact. For large structures
+// with compliant contacts and a narrow band it has n rows (linear/condensed_matrix.hpp).
 #pragma once
 
 #include <sundials/sundials_linearsolver.h>
@@ -72,7 +72,7 @@ class IdaLinearSolver {
   bool uses_condensed_ = false;                          // the last factors are those of condensed_
   std::vector<Rows> rows_;
   std::vector<linear::Weights> weights_;
-  // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
+  // Degrees of freedom with a prescribed acceleration keep it exactly; an elimination would add rounding.
   std::vector<linear::PrescribedDof> pinned_;
   std::vector<double> held_;  // values of the held accelerations
   std::vector<double> rhs_;

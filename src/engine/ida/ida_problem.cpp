@@ -14,15 +14,16 @@
 namespace signorini::ida {
 namespace {
 
-// IDA's error test bounds the error of one step, but a run adds up thousands: a step may use this part of the requested
-// tolerance. Measured on the reference cases: the sum then stays within a few hundred tolerances over a hundred
-// oscillations, at 1.3 times the steps.
+// Fraction of the requested tolerance that a step may use. IDA's error test bounds the error of one step, but
+// the errors of thousands of steps add up. On the reference cases the sum is then within a few hundred
+// tolerances over a hundred oscillations, with 1.3 times the steps (measured).
 constexpr double local_part = 0.2;
-// Tolerances of forces stay above this many times the magnitudes whose difference the forces are: a tolerance within
-// the rounding of kn g cannot be met. Chosen; changing it moves the limit of rtol 1e-13 (docs/theory.md, Limits).
+// Least tolerance of a force, relative to the terms whose difference it is: a tolerance below the rounding of
+// kn g cannot be met. Chosen; the limit of rtol, 1e-13, depends on it (docs/theory.md, Limits).
 constexpr double rounding_floor = 20.0 * rounding::eps;
-// T of an element beside rate-dependent friction is the rounding of ut - p, and of ut' - p' of a step, throughout;
-// Newton's method requires a thousandth of the tolerance there (bdf_integrator.cpp).
+// Factor on this rounding for T of a contact element in series with rate-dependent friction: T has the
+// rounding of ut - p and of ut' - p'. Newton's method requires a thousandth of the tolerance there
+// (bdf_integrator.cpp).
 constexpr double above_sharp_newton = 100.0;
 
 /// r = y' - v,  u = y - step r
@@ -187,8 +188,9 @@ ContactMotion IdaProblem::change(std::size_t k, const double* of) const {
   return m;
 }
 
-/// s z z' f: the common part of all shares of the forces would otherwise only be extrapolated from step to step, and
-/// its error would grow like a polynomial from the rounding of its first values.
+/// Adds s z z^T f for directions z of forces without effect (linear/redundant_rows.hpp). Otherwise the
+/// component of the forces along z would be extrapolated from step to step, and its error would grow like a
+/// polynomial.
 void IdaProblem::add_shared(const double* y, double* r) const {
   for (const linear::SharedForces& shared : shared_)
     for (std::size_t i = 0; i < shared.rows.size(); ++i)
@@ -277,8 +279,8 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
     const auto i = static_cast<std::size_t>(index);
     if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
   };
-  // One noise level for all: contacts and rows that contain only rounding propagate it. Rotations count as lengths, by
-  // the length unit of the machine units, the extent of the structure.
+  // One noise level for all massless degrees of freedom, because contacts and rows propagate rounding.
+  // Rotations count as lengths, with the internal unit of length, the extent of the structure.
   double length = 0.0, greatest = 0.0;
   for (const Massless& own : massless_) {
     double force = 0.0;

@@ -2,8 +2,8 @@
 //
 //   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   rows of contacts at u - r1/cj
 //
-// Rows are combined in the form that the condensed solver needs (engine/ida/ida_linear_solver.hpp): zero for the same y
-// and y' as without r1/cj, and a solve needs no extra product with K.
+// Rows are combined in the form that the condensed solver needs (engine/ida/ida_linear_solver.hpp). They are
+// zero for the same y and y' as without r1/cj, and a solve needs no additional product with K.
 #pragma once
 
 #include "engine/events/active_guards.hpp"
@@ -24,16 +24,18 @@ class IdaProblem {
   void residual(double t, double step, const double* y, const double* yp, double* r);
   /// Writes the tangents of nonlinear rows (friction that depends on the slip rate) into the linear solver.
   void linearise(double t, const double* y, const double* yp);
-  /// Greatest entry of the residual of the equation of motion. Unit: force.
+  /// Largest magnitude of an entry of the residual of the equation of motion. Unit: force.
   [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
-  /// Error weights; see below. rate: 1/h, for the resolution of time; 0 before the first step is known.
+  /// Writes the error weights of all unknowns: 1 / tolerance, scaled by groups (factor_). rate: 1/h, for the
+  /// resolution of time; 0 before the first step is known.
   void weights(const double* y, double rate, double* w) const;
   /// Scaled guards, one for each slot; masked guards are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;
   /// y (derivative = 0) or y' (1) on the jet's polynomials, x after the jet's instant.
   void evaluate_jet(const motion::Jet& jet, double x, int derivative, double* y) const;
-  /// y^(order) from a jet.
+  /// Writes y^(order) from a jet.
   void fill(const motion::Jet& jet, std::size_t order, double* y) const;
+  /// Reads u, v and forces from IDA's vectors.
   void read(const double* y, const double* yp, motion::Point& point) const;
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
@@ -68,11 +70,11 @@ class IdaProblem {
     return {layout_, f};
   }
 
-  /// Keeps tolerances above the rounding of the forces that determine massless degrees of freedom, and of the contact
-  /// forces on them.
+  /// Raises tolerances to the rounding of the forces that determine massless degrees of freedom, and of the
+  /// contact forces on them.
   void widen_massless(const double* y, double* w) const;
 
-  /// Adds an entry to stops_ if the form moves mass.
+  /// Adds an entry to stopped_masses_ if the form moves mass.
   void add_stopped_mass(const Combination& form, int force);
 
   const Model& model_;
@@ -82,28 +84,28 @@ class IdaProblem {
   const engine::Tolerance tolerance_;
   engine::Segment segment_;
   const events::GuardMonitor* guard_monitor_ = nullptr;
-  // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of the contact's degrees
-  // of freedom another, all others one more, and the mean of every group counts in full: a large structure does not
-  // dilute the few contacts.
+  // IDA's norm is a mean over all unknowns, in which the errors of few contacts on a large structure would
+  // vanish. So each contact has a group of N and T and a group of u and v of its degrees of freedom; all
+  // other unknowns form one more group. The mean of every group counts in full.
   std::vector<double> factor_, atol_;
   std::vector<int> unused_;  // places without a force
-  // Degrees of freedom without mass follow from forces K u alone, which may be differences of large numbers: a degree
-  // of freedom that slides far carries their rounding. Stiffness: that of K and of closed contacts.
+  // Degrees of freedom without mass are determined by forces K u, which may be differences of large numbers:
+  // after a long slide their rounding is large. stiffness: of K and of closed contacts.
   struct Massless {
     int dof = 0;
     double stiffness = 0.0;
     std::vector<std::pair<int, double>> forces;  ///< contact forces on it: unknown, factor
   };
   std::vector<Massless> massless_;
-  // Forces without springs stop a mass: the rounding of a velocity in the last step is corrected within one step, by a
-  // force m v eps / h. No tolerance below that can be met, and a smaller step would only raise it.
+  // Constraint forces that stop a mass m: they correct the rounding of its velocity v within one step, by a
+  // force m v eps / h. A tolerance below that cannot be met, and a smaller step would raise the force.
   struct StoppedMass {
     const Combination* form;
     int force;
     double mass;  ///< moved by the form, from the diagonal of M
   };
   std::vector<StoppedMass> stopped_masses_;
-  std::vector<linear::SharedForces> shared_;  // those of this segment
+  std::vector<linear::SharedForces> shared_;  // of the contact states of this segment
   std::vector<std::size_t> nonlinear_;  // contacts in this segment that slip with rate-dependent friction
   bool rate_dependent_ = false;
   linear::StructuralForces structural_forces_;

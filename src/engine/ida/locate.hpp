@@ -2,9 +2,9 @@
 //
 //   G(t) = guard(u(t), v(t), forces consistent with u(t), v(t) by the equations of the contact state) = 0
 //
-// A root of the interpolated unknowns satisfies the equations of the contact state only to the integrator's tolerance;
-// the state decision needs a time at which its own forces are at their limit, so the root is refined with forces
-// recomputed from the interpolated u and v.
+// At a root of the interpolated unknowns the equations of the contact state hold only to the integrator's
+// tolerance. The decision computes its forces from u and v, and these must be at their limit. So the root is
+// refined with forces that are recomputed from the interpolated u and v.
 #pragma once
 
 #include <vector>
@@ -28,14 +28,17 @@ namespace signorini::ida {
 //   N, T, g and ut are linear in y, so their polynomials through the last steps are those of the step
 //   ut = t.u - s(t) on a moving surface: p(x) - s(t_0 + h x), s in its own series, since no step follows it
 //
-// Searched only if a polynomial may leave its earlier range and is not monotone (by its Bernstein coefficients).
+// A polynomial is searched only if its Bernstein coefficients allow that it leaves its earlier range and is
+// not monotone.
 
 class HistoryTurningPoints {
  public:
-  /// The scalars of the history from `first` on are those of the contacts, in the order of TurningPointDetector::watched.
+  /// The scalars of the history from `first` on are those of the contacts, in the order of
+  /// TurningPointDetector::watched_fields.
   HistoryTurningPoints(std::size_t contacts, std::size_t first)
       : contacts_(contacts), first_(first), detector_(contacts) {}
 
+  /// Number of scalars of the contacts.
   [[nodiscard]] std::size_t count() const {
     return events::TurningPointDetector::watched_fields.size() * contacts_;
   }

@@ -10,12 +10,14 @@
 namespace signorini::ida {
 namespace {
 
-// Orders 3 to 5 are unstable near the imaginary axis. At loose tolerances the error test does not notice growing
-// undamped modes (case 01b at rtol 1e-3: 142 events instead of 10), and order 2 takes at most twice the steps; at
-// tighter tolerances order 5 resolves those modes and needs a third to a ninth of the steps (benchmarks/README.md).
+// rtol above which a lower order may be chosen. Orders 3 to 5 are unstable near the imaginary axis. At loose
+// tolerances the error test does not detect growing undamped modes (case 01b at rtol 1e-3: 142 events instead
+// of 10), and order 2 takes at most twice as many steps. At tighter tolerances order 5 resolves those modes
+// and takes a third to a ninth of the steps (benchmarks/README.md).
 constexpr double loose = 1e-4;
 
-/// Angle of the sector around the negative real axis in which the formula is stable, degrees.
+/// Angle of the sector around the negative real axis in which the BDF formula of this order is stable,
+/// degrees.
 struct Stability {
   int order;
   double angle;

@@ -2,9 +2,10 @@
 //
 //   after a rebound  g = vn t + an t^2/2 + ...  returns to zero at t*, and g < level up to t*
 //
-// An integrator's own polynomial is useless there: its error is as large as the flight is high. The Taylor series about
-// the rebound gives the flight exactly (engine/exact/exact_engine.hpp), so it takes the step to the next hit. Without
-// it a ball at the end of its bounces would penetrate the floor by a tolerance, and further.
+// The error of an integrator's polynomial is as large as the height of such a flight. The Taylor series about
+// the rebound gives the flight exactly (engine/exact/exact_engine.hpp), so the series computes the step to
+// the next impact. Without the series a ball at the end of its bounces would penetrate the floor by a
+// tolerance or more.
 #pragma once
 
 #include <functional>
@@ -16,11 +17,12 @@ namespace signorini::ida {
 
 class ShortFlight {
  public:
+  /// All arguments except t_end must outlive the object.
   ShortFlight(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
               double t_end);
 
-  /// The step to the hit, or to another event before it, if the segment begins with such a flight. level: gap of a
-  /// contact from which on the integrator resolves it.
+  /// The step to the impact, or to another event before it, if the segment begins with such a flight;
+  /// otherwise nullopt. level: gap of a contact above which the integrator resolves a flight.
   [[nodiscard]] std::optional<engine::Step> take(const engine::Segment& segment,
                                                  const std::function<double(const Contact&)>& level);
   /// The motion and the works on the step returned by take().

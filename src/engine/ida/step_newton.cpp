@@ -8,8 +8,8 @@
 namespace signorini::ida {
 namespace {
 
-// Iterations towards the solution along a knee of friction: each one is one scale of slip rates closer, and beyond this
-// many friction is at its limit to the last digit. Elsewhere none is needed.
+// Limit of iterations towards the solution if friction rises with the slip rate. Each iteration reduces the
+// distance by one scale of slip rates; after this number, friction is at its limit to all digits.
 constexpr int most_towards = 40;
 
 StepNewton& newton_of(SUNNonlinearSolver solver) { return *static_cast<StepNewton*>(solver->content); }
@@ -130,10 +130,11 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   return SUN_NLS_CONV_RECVR;
 }
 
-/// True if the correction is rounding. IDA's test does not know the rate of convergence: it accepts 1/20 of the
-/// requested tolerance, and treats changes that no longer shrink as a failure. Along a knee each iteration has its own
-/// tangent, so that a change within the tolerance leaves less than itself; a change that no longer shrinks is the
-/// rounding of large displacements whose difference T is.
+/// True if the correction is rounding. IDA's test does not know the rate of convergence: it accepts 1/20 of
+/// the requested tolerance, and treats corrections that no longer decrease as a failure. Here each iteration
+/// has its own tangent, so the error after a correction within the tolerance is smaller than the correction.
+/// A correction that no longer decreases is the rounding of large displacements whose difference determines
+/// T.
 bool StepNewton::is_rounding(N_Vector weights, double tolerance) const {
   return problem_.has_rate_dependent_friction() && N_VWrmsNorm(change_, weights) <= tolerance;
 }

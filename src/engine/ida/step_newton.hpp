@@ -2,15 +2,17 @@
 //
 //   F(t, y_p + e, y_p' + c_j e) = 0,   e := 0;   e := e - J^-1 F  until IDA's own test has converged
 //
-// With e = 0, F is evaluated at the predictor itself: SUNDIALS' own method adds the zero to both vectors first, keeps a
-// copy of F, changes its sign, and clears and copies the unknown. One iteration is the rule, because J is computed anew
-// with every c_j. J and its factors: engine/ida/ida_linear_solver.hpp; retries, counts and the convergence test as in
-// SUNDIALS (sunnonlinsol_newton.c). If friction rises with a slip rate, J is computed anew with every iteration as
-// well. IDA's test treats corrections that do not shrink as divergence; on the way to the solution each correction is
-// one scale of slip rates, so the test is applied only once a correction is within the tolerance.
+// F is first evaluated at the prediction y_p, y_p'. SUNDIALS' own method adds e = 0 to both vectors, keeps a
+// copy of F, changes its sign, and clears and copies e. Usually one iteration is enough, because J is
+// computed anew for every c_j. J and its factors: engine/ida/ida_linear_solver.hpp; retries, counts and the
+// convergence test as in SUNDIALS (sunnonlinsol_newton.c).
 //
-// While it rehearses, e comes from the polynomials of a jet: IDA then takes steps before the beginning of a segment,
-// without a solve, and begins the segment with a history of a higher order (bdf_integrator.hpp).
+// If friction rises with a slip rate, J is computed anew in every iteration. IDA's test treats corrections
+// that do not decrease as divergence. Here each correction may be as large as one scale of slip rates, so the
+// test is applied only once a correction is within the tolerance.
+//
+// With a prescribed jet, e follows from its polynomials: IDA then takes steps before the beginning of a
+// segment without a solve, and begins the segment with a history of a higher order (restart_order.hpp).
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>
@@ -29,8 +31,8 @@ class StepNewton {
 
   /// For IDASetNonlinearSolver; owned here, freed after the integrator.
   [[nodiscard]] SUNNonlinearSolver solver() const { return solver_; }
-  /// From now on the solutions are those of the jet's polynomials, regardless of the equations; null: solutions of the
-  /// equations again, with J computed anew. The jet must outlive the rehearsal.
+  /// From now on the solutions are those of the jet's polynomials, regardless of the equations. Null:
+  /// solutions of the equations again, with J computed anew. The jet must live until then.
   void prescribe_jet(const motion::Jet* jet) {
     if (jet == nullptr) stale_ = true;
     jet_ = jet;
@@ -40,7 +42,7 @@ class StepNewton {
 
  private:
   int solve(N_Vector e, N_Vector weights, double tolerance, bool setup, void* memory);
-  /// Returns e of the jet's polynomials.
+  /// Sets e from the jet's polynomials.
   int solve_from_jet(N_Vector e);
   /// Iterates from e = 0. setup: computes J first.
   int iterate(N_Vector e, N_Vector weights, double tolerance, bool setup, bool doubtful, void* memory);

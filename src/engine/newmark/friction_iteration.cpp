@@ -16,7 +16,7 @@
 namespace signorini::newmark {
 namespace {
 
-constexpr double unchanged = 1e-12;  // relative to the greatest contact force: a bound has converged
+constexpr double unchanged = 1e-12;  // change of a converged bound, relative to the greatest contact force
 constexpr int slips = 100;           // key: T is given in either direction
 constexpr int stops = 101;           // key: stops within the step, without tangential stiffness
 
@@ -48,7 +48,7 @@ void FrictionIteration::start(const engine::Segment& segment) {
   ++counters.restarts;
 }
 
-/// The greatest contact force at a point, and the error of a bound that has converged there.
+/// The greatest contact force at a point, and the error of a converged bound.
 FrictionIteration::ForceScale FrictionIteration::known_forces(const motion::Point& point) const {
   ForceScale known;
   double noise = 0.0;
@@ -76,7 +76,8 @@ void FrictionIteration::begin_iterates() {
   }
 }
 
-/// Sets the rows of this iterate's states; factorisations are kept by the part of the rows that stands in the matrix.
+/// Sets the rows of this iterate's states; factorisations are kept by the part of the rows that is in the
+/// matrix.
 void FrictionIteration::apply_rows() {
   std::vector<Rows>& rows = step_.own_rows();
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
@@ -101,12 +102,12 @@ void FrictionIteration::apply_rows() {
   step_.set(key_, std::move(rows));
 }
 
-/// State of contact k that follows from the iterate for the given bound.
+/// State of contact k by the motion of the last iterate, with its bound.
 State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
   const ContactIterate& side = iterates_[k];
   const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t1_, end_);
-  // A dashpot presses while it closes, not while the contact approaches.
+  // A dashpot presses only while the contact is closed.
   if (contact.normal_force_given()
           ? is_open(side.state)
           : m.gap > 0.0 || contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
@@ -124,15 +125,15 @@ State FrictionIteration::state_of(std::size_t k) const {
   const double friction = slip_sign(states_[k].state) != 0 ? contact::kinetic_friction(contact)
                                                            : contact::static_friction(contact);
   const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
-  // A contact that rests at its limit keeps resting, whatever the rounding of both forces; one that reaches the limit
-  // slips.
+  // A contact at rest at its limit remains at rest in spite of the rounding of both forces; a contact that
+  // reaches the limit slips.
   const double loose = bound_error_ + rounding::many_operations * terms;
   const bool rests = std::abs(m.T - begin_.T(model_.layout, k)) <= loose;
   if (std::abs(m.T) <= friction * side.normal_force + (rests ? loose : 0.0)) return State::stick;
   return contact::slip_state(m.T);
 }
 
-/// Adopts the states that follow from the iterate. False: they equal the states used to compute it.
+/// Adopts the states by the last iterate. False: they are the states with which it was computed.
 bool FrictionIteration::new_states() {
   bool changed = false;
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
@@ -200,7 +201,7 @@ engine::Step FrictionIteration::advance() {
   step.begin = step.end = t0_;
   step.resolution = motion::resolution_at(t0_, 0.0);
   changed_ = false;
-  if (t0_ >= segment_.end) {  // states were adopted at a break of the forcing
+  if (t0_ >= segment_.end) {  // states were adopted at a discontinuity of the forcing
     std::swap(begin_, end_);
     return step;
   }
@@ -236,8 +237,8 @@ engine::Step FrictionIteration::advance() {
   return step;
 }
 
-/// Velocities of massless degrees of freedom at the end of the step, from the equation of motion differentiated once:
-/// the step's own velocities oscillate about them from end to end.
+/// Computes the velocities of massless degrees of freedom at the end of the step from the time derivative of
+/// the equation of motion. The velocities of the step oscillate about these from one end to the next.
 void FrictionIteration::solve_massless_velocities() {
   if (!consistent_.massless()) return;
   const motion::StateSystemPtr system = systems_.system_of(states_);
@@ -248,8 +249,8 @@ void FrictionIteration::solve_massless_velocities() {
     if (model_.dofs[static_cast<std::size_t>(i)].massless) end_.v[i] = settled.v[i];
 }
 
-/// Accelerations of massless degrees of freedom; the step itself knows those of masses. Inside the step the states are
-/// those of its beginning.
+/// Adds accelerations of massless degrees of freedom; the step yields those of masses. Inside the step the
+/// states are those of its beginning.
 void FrictionIteration::accelerate(double t, motion::Point& point) {
   if (!consistent_.massless()) return;
   const motion::StateSystemPtr system =
@@ -261,8 +262,7 @@ void FrictionIteration::accelerate(double t, motion::Point& point) {
     if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
 }
 
-/// Interpolates linearly between the ends of the step, which keeps |T| <= -f N; forces of a state that is about to
-/// change belong to that state.
+/// Interpolates linearly between the ends of the step, so that |T| <= -f N holds.
 void FrictionIteration::evaluate(double t, motion::Point& point) {
   if (t == t1_ || !(t1_ > t0_)) {
     point = end_;

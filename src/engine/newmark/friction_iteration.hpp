@@ -51,7 +51,7 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   struct ContactIterate {
     State state = State::open;  // state in the last iterate
     double anchor = 0.0;        // p at the beginning of the step
-    double normal_force = 0.0;  // |N| of the last iterate, the bound of |T|
+    double normal_force = 0.0;  // |N| that determines the bound B of |T|
   };
   struct ForceScale {
     double greatest = 0.0, error = 0.0;  // forces

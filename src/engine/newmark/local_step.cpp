@@ -6,11 +6,11 @@
 namespace signorini::newmark {
 namespace {
 
-/// Number of band widths. M^-1 of beams with a consistent mass matrix decays by 2 - sqrt(3) per element, and an element
-/// is about three places of a width of five: it reaches rounding after 28 elements. Chosen; the radius grows if the
-/// decay is slower.
+/// Initial radius in band widths. M^-1 of beams with a consistent mass matrix decays by 2 - sqrt(3) per
+/// element, so it reaches rounding after 28 elements; an element has about three places, and the band a width
+/// of five. Chosen; the radius grows if the decay is slower.
 constexpr std::size_t first_radius = 16;  // widths
-constexpr std::size_t least_parts = 4;    // limit: W is at most this part of the structure
+constexpr std::size_t least_parts = 4;    // W is at most the structure divided by this number
 
 }  // namespace
 
@@ -99,7 +99,7 @@ void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, 
   }
 }
 
-/// b_ := x_W
+/// Solves the equations of W: b_ := x_W. False: elimination loses digits.
 bool LocalStep::solve(const Window& w, const motion::Point& from, double h, const motion::Point& whole,
                       double longer) {
   const std::size_t size = w.end - w.begin, width = rows_.width();

@@ -3,9 +3,9 @@
 //   A_WW x_W = b_W - A_WO y      A, b, x: the step's (newmark_step.hpp), condensed (linear/condensed_matrix.hpp)
 //   y = a0 + h/H (a1 - a0)       motion outside W, from a step of length H with the same beginning
 //
-// W: places of the band up to a radius from the contact's. The influence of the places beyond decays as A^-1 does; the
-// error of y is of second order. The method assumes no bound: the caller checks the result by a whole step, and doubles
-// the radius if that step differs.
+// W contains the places of the band up to a radius from those of the contact. The influence of places outside
+// decays like the entries of A^-1; the error of y is of second order. The error has no proven bound: the
+// caller checks the result by a step of the whole structure, and doubles the radius if that step differs.
 #pragma once
 
 #include "linear/band_factors.hpp"
@@ -19,9 +19,9 @@ class LocalStep {
   /// Both arguments must outlive the object.
   LocalStep(const Model& model, const linear::CondensedRows& rows);
 
-  /// End of the step from `from` at t1 - h to t1, valid only at the contact. rows: in force, with the matrix pattern of
-  /// the constructor's rows; whole: the end of the step of length `longer`. Null: W is too large a part of the
-  /// structure, or elimination loses digits.
+  /// End of the step from `from` at t1 - h to t1, valid only at the contact. rows: rows of the contact
+  /// states, with the matrix pattern of the constructor's rows; whole: the end of the step of length `longer`
+  /// (H) from `from`. Null: W is too large a part of the structure, or elimination loses digits.
   [[nodiscard]] const motion::Point* end(std::size_t contact, const motion::Forcing& forcing,
                                          const std::vector<Rows>& rows, const motion::Point& from, double t1,
                                          double h, const motion::Point& whole, double longer);
@@ -51,7 +51,7 @@ class LocalStep {
   linear::Weights weights_;
   Vector load_, b_;                    // by degree of freedom, valid in W only; by place of W
   std::vector<Places> loads_;          // range of degrees of freedom on which each load acts
-  std::vector<double> by_N_, by_T_;    // one entry for each touch
+  std::vector<double> by_N_, by_T_;    // factors of N and T; one entry for each place on which a contact acts
   std::vector<std::size_t> contacts_;  // contacts in the window
   motion::Point end_;                  // u, v: their known parts, until read
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_halvings = 60;
 constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
-constexpr int max_tangents = 4;                   // a crossing that these do not find is bracketed
+constexpr int max_tangents = 4;                   // after these tangents a crossing is bracketed
 constexpr double spare = 1.0 / 16.0;              // doubling: of the tolerance; below it steps grow again
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
 constexpr double least_part = 1e-12;  // doubling: relative to dt
@@ -60,27 +60,27 @@ void NewmarkEngine::start(const engine::Segment& segment) {
   second_ = false;
   guards_.start(segment);
   guards_.evaluate(end_, t1_);
-  // A sticking contact does not move, so doubling does not see the load on it.
+  // A sticking contact does not move, so doubling does not detect an error of the load on it.
   if (const double omega = doubling_ ? segment.forcing->max_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
   segment_dt_ = doubling_ ? dt_ : segment_step_length(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
-/// Place where a guard that is positive at both ends may reach zero between them, if it is not at the beginning.
+/// StepGuards::dip, if the place is not at the beginning of the step.
 std::optional<double> NewmarkEngine::dip_of(std::size_t slot, double h) const {
   const std::optional<double> x = guards_.dip(slot, h, h_before_);
   return x && *x * h > motion::resolution_at(t0_, h) ? x : std::nullopt;
 }
 
-/// Takes a step of length h from the beginning of this one, to t.
+/// Takes a step of length h from the beginning of this step, to t.
 bool NewmarkEngine::take(double h, double t, bool kept, motion::Point& to) {
   if (!step_.take(*segment_.forcing, begin_, t, h, kept, to)) return false;
   if (solves_massless_velocities_) consistent_.make(segment_.decision->system, *segment_.forcing, t, to);
   return true;
 }
 
-/// The guard at the end of the step redone with length h.
+/// The guard at the end of a step of length h from the same beginning.
 double NewmarkEngine::value_after(std::size_t slot, double h) {
   ++counters.guard_evaluations;
   inner_time_ = nan;
@@ -99,22 +99,22 @@ double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   return guards_.value(slot, t0_ + h, *near);
 }
 
-/// True if the contact has springs. Forces of contacts without springs follow accelerations, and the decision removes
-/// the remainder of their gap, slip rate or force at once: modes above the step keep that impulse, and such impulses
-/// cause the next events.
+/// True if the contact has springs. Forces of contacts without springs follow from accelerations. At an event
+/// the decision sets the remainder of their gap, slip rate or force to zero. Modes faster than the step
+/// retain this impulse, and such impulses cause further events.
 bool NewmarkEngine::is_soft(std::size_t slot) const {
   const Contact& contact = model_.contacts[model_.layout.contact_of_guard(slot)];
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
-/// A guard up to this value is zero: a root search would follow its rounding.
+/// A guard with a value up to this one counts as zero: below, a root search would follow its rounding.
 double NewmarkEngine::zero_of(std::size_t slot) const {
   return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
 
 double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
                                        double floor) {
-  double last = g_lo - floor;  // a singular matrix on the way must not reach the root finder
+  double last = g_lo - floor;  // value for the root finder if a matrix is singular
   const auto value = [&](double h) {
     if (h == lo) return g_lo - floor;
     if (h == hi) return g_hi - floor;
@@ -125,8 +125,8 @@ double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo,
   return events::root_between(value, lo, hi, 0.25 * motion::resolution_at(t0_ + hi, hi));
 }
 
-/// Follows tangents and secants to the zero crossing, from the contact's neighbourhood; a whole step has to confirm the
-/// result. nullopt: not found by this method.
+/// Finds the zero crossing along tangents and secants, with values from the contact's neighbourhood. A step
+/// of the whole structure must confirm the result. nullopt: this method does not find it.
 std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t slot, double h, Tangent first) {
   Tangent next = first;
   double lo = 0.0, hi = h, before = nan, g_before = nan;
@@ -184,8 +184,8 @@ double NewmarkEngine::crossing_near(std::size_t slot, double h) {
 
 bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
 
-/// The paper's single interpolation. If the guard has not reached zero there, the event would not be triggered: the
-/// step grows by twice the next interpolation until it has.
+/// The paper's single interpolation. If the guard is still positive there, no event would be triggered; then
+/// the step is extended by twice the next interpolation until the guard is not positive.
 double NewmarkEngine::linear_root(std::size_t slot, double hi) {
   const events::GuardCubic path = guards_.path(slot, hi);
   const double g_hi = path.g1;
@@ -235,7 +235,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       h = interpolates(slot) ? linear_root(slot, h) : crossing_near(slot, h);
       return true;
     case Candidate::Kind::dip: {
-      // Down and up again within the step: the step redone to the least value decides.
+      // The guard decreases and increases in the step: a step up to its least value decides.
       const double x = candidate.x * h;
       ++counters.rolled_back;
       const double g = value_after(slot, x);
@@ -247,8 +247,9 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       return true;
     }
     case Candidate::Kind::sink: {
-      // The guard began at zero, rose, and reached zero again within the step. If it was decided again and never rose,
-      // it rises by less than its rounding: its root is then where it leaves the rounding.
+      // The guard began at zero, rose, and reached zero again within the step. If the last decision was due
+      // to this guard and it has not risen since, its rise is below rounding. Its root is then where it
+      // leaves the rounding.
       const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
       double hi = h, g_hi = path.g1;
       for (int i = 0; i < max_halvings; ++i) {
@@ -282,7 +283,7 @@ engine::Step NewmarkEngine::failed(std::string reason) const {
 /// Step length at which a step of twice the length changes the result by less than the tolerance.
 double NewmarkEngine::length_by_doubling(double remaining) {
   if (std::exchange(second_, !second_)) return regular_;
-  // A stretch that one step would span is compared with two halves, like any other.
+  // A remainder of one step is also compared with two halves.
   for (double h = std::min(regular_, 0.5 * remaining);; h *= 0.5) {
     if (h < least_part * dt_) return h;
     inner_time_ = nan;
@@ -310,7 +311,7 @@ double NewmarkEngine::length_by_doubling(double remaining) {
   }
 }
 
-/// Ends the step after h instead, which is usually the length of the last trial.
+/// Ends the step after h, which is usually the length of the last trial.
 bool NewmarkEngine::end_after(double h) {
   t1_ = t0_ + h;
   if (tried_ == h)
@@ -374,16 +375,16 @@ engine::Step NewmarkEngine::advance() {
   return step;
 }
 
-/// True if a guard that is positive at both ends is negative at t. If a step is far longer than the periods of the
-/// highest modes, the redone step need not follow the step itself.
+/// True if a guard that is positive at both ends is negative at t. If a step is far longer than the periods
+/// of the highest modes, a shorter step may deviate from it.
 bool NewmarkEngine::violates_guard(double t, const motion::Point& point) const {
   for (std::size_t s = 0; s < guards_.active_guards().size(); ++s)
     if (!guards_.active_guards().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
   return false;
 }
 
-/// The solution inside the last step: the step redone to t. If it strays, the straight line between the ends, on which
-/// every law holds, since all are linear or cones.
+/// The solution inside the last step: a step to t. If it violates a guard, the straight line between the
+/// ends, on which all laws hold, because they are linear or convex cones.
 const motion::Point& NewmarkEngine::point_inside(double t) {
   if (t == t1_) return end_;
   if (t == t0_) return begin_;
@@ -397,7 +398,7 @@ const motion::Point& NewmarkEngine::point_inside(double t) {
 
 void NewmarkEngine::evaluate(double t, motion::Point& point) { point = point_inside(t); }
 
-/// Accelerations of massless degrees of freedom; the step itself knows those of masses.
+/// Adds accelerations of massless degrees of freedom; the step yields those of masses.
 void NewmarkEngine::accelerate(double t, motion::Point& point) {
   if (!solves_massless_velocities_) return;
   const Vector of_step = point.a;
@@ -406,8 +407,8 @@ void NewmarkEngine::accelerate(double t, motion::Point& point) {
     if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
 }
 
-/// Average acceleration from end to end; forces, and what has no mass, along straight lines. Of the curves
-/// through both ends this is the step's own, and costs no factorisation as the step redone does.
+/// Interpolates with the average acceleration of the step; forces and massless degrees of freedom linearly.
+/// This is the curve that the step assumes, and needs no factorisation, unlike a step to t.
 void NewmarkEngine::interpolate(double t, motion::Point& point) {
   if (t == t1_ || t == t0_ || !(t1_ > t0_)) {
     point = t == t0_ && t1_ > t0_ ? begin_ : end_;
@@ -428,7 +429,7 @@ void NewmarkEngine::integrate(double from, double to, motion::WorkIntegrals& wor
   until(to, 1.0);
 }
 
-/// Errors of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
+/// By the errors of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
 double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, std::size_t k) const {
   const Form& form = guard.form;
   if (begin_.a.size() == 0) return 0.0;  // at the start, before any step

@@ -1,15 +1,17 @@
 // newmark_engine.hpp: engine `newmark`: the paper's step-by-step algorithm.
 //
-//   trial step in the state in force (newmark_step.hpp) -> guards at its end -> the first one that reaches zero
-//   -> the step redone to the time of its root -> event
+//   trial step in the current contact states (newmark_step.hpp) -> guards at its end -> the first one that
+//   reaches zero -> the step repeated up to the time of its root -> event
 //
-//   refine = "root"    redone with shorter steps until the guard at their end is zero to the resolution of time (Brent)
-//   refine = "linear"  redone once to the interpolated time, (8) to (10); again only if no event was triggered;
-//                      contacts without springs as with "root"
+//   refine = "root"    repeated with shorter steps until the guard at their end is zero to the resolution of
+//                      time (Brent)
+//   refine = "linear"  repeated once up to the interpolated time, (8) to (10); again only if no event was
+//                      triggered; contacts without springs as with "root"
 //
-// After an event the next step has the full length again: its factorisation is kept by states and length, so only new
-// contact states cost one. Between the ends of a step the solution is the step redone to that time, which satisfies
-// equilibrium and the laws too. Source: Lukashevich et al. 2021, (5) to (11), corrected according to docs/theory.md.
+// After an event the next step has the full length again. Factorisations are kept by states and length, so
+// only new contact states require one. Between the ends of a step the solution is a step up to that time,
+// which also satisfies equilibrium and the contact laws. Source: Lukashevich et al. 2021, (5) to (11),
+// corrected according to docs/theory.md.
 #pragma once
 
 #include <numbers>
@@ -99,12 +101,12 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   motion::Point begin_, end_, inner_, fine_, coarse_;
   Vector a_before_;                  // at the beginning of the previous step; empty: none
   double inner_time_ = 0.0;          // time of inner_; NaN: not set
-  double tried_ = 0.0;               // length of the step that ends at inner_; 0: none
+  double tried_ = 0.0;               // length of the step from begin_ to inner_; 0: none
   double t0_ = 0.0, t1_ = 0.0;       // the last step
   double h_ = 0.0, h_before_ = 0.0;  // its length, and that of the previous step (0: none)
   double regular_ = 0.0;             // length of steps without events
   double segment_dt_ = 0.0;          // same with fixed steps: dt, or the length that a short pulse requires
-  double grid_begin_ = 0.0;          // fixed steps end at counted_from_ + k counted_length_, without drift
+  double grid_begin_ = 0.0;  // fixed steps end at grid_begin_ + grid_steps_ grid_length_, without drift
   double grid_length_ = 0.0;
   long grid_steps_ = 0;
   /// A guard that began at zero and never rose within a step.

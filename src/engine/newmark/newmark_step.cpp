@@ -12,15 +12,16 @@
 namespace signorini::newmark {
 namespace {
 
-// Two lengths (dt, and what doubling compares it with) for each of 16 contact states to which a cycle returns; in
-// bytes as much as state systems may take (motion/state_systems.hpp).
+// Two lengths (dt, and that of the comparison by doubling) for each of 16 contact states of a cycle; the same
+// memory as for state systems (motion/state_systems.hpp).
 constexpr base::CacheLimits max_kept{32, std::size_t{8} << 20};
 
 // Cost ratio of a factorisation of a banded matrix, with the preparation of its factors, to a solve: 0.64 + 0.3 ms to
 // 0.045 ms at 3000 unknowns.
 constexpr double solves_a_factorisation = 20.0;
 constexpr double bytes_a_number = 12.0;  // one number of klu.hpp
-// Refinement continues while each round leaves a tenth; eight rounds of solve and product cost a factorisation.
+// Refinement continues while each round reduces the residual to a tenth; eight rounds cost as much as a
+// factorisation.
 constexpr double least_gain = 0.1;
 constexpr int most_rounds = 8;
 constexpr double left_of_rounding = rounding::eps / 16.0;  // relative error of a refined solution
@@ -75,7 +76,8 @@ void NewmarkStep::set_weights(double h) {
                                                                  : linear::Weights{0.0, 0.0, 1.0};
 }
 
-/// Pivots of other states can be reused if each contact's forces are their own pivots.
+/// Factorises the matrix. Pivots of other contact states can be reused if the forces of each contact are
+/// their own pivots.
 bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
   set_weights(h);
   return matrix.set(*rows_, weights_,
@@ -83,7 +85,7 @@ bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
                     in_rows_.undamped);
 }
 
-/// Differences between the rows in force and the base rows, in the columns of the matrix at its length.
+/// Differences between the current rows and base_rows_, in the columns of the matrix at base_h_.
 std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
   std::vector<linear::ChangedRow> changed;
   const auto n = static_cast<std::size_t>(structure_.size);
@@ -111,7 +113,7 @@ std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
   return changed;
 }
 
-/// False: a factorisation is cheaper.
+/// Updates the base factors to the current rows. False: a factorisation is cheaper.
 bool NewmarkStep::update(double h) {
   if (!economical_ || updated_.base() == nullptr || base_h_ != h) return false;
   if (!updates_) {
@@ -205,8 +207,8 @@ void NewmarkStep::set_residual(const Vector& b, const Vector& x, double h) {
   rest_.noalias() = b - product_;
 }
 
-/// x_ := A^-1 x_ at length h by the factors of the last odd length, starting from the solution there. False: slow
-/// convergence, and x_ is unchanged.
+/// x_ := A^-1 x_ at length h by refinement with the factors of the last irregular length, from its solution.
+/// False: slow convergence; x_ is unchanged.
 bool NewmarkStep::refine(double h) {
   const Eigen::Index n = structure_.size, m = x_.size() - n;
   const auto greatest = [](const auto& of) { return of.size() > 0 ? of.cwiseAbs().maxCoeff() : 0.0; };
@@ -322,7 +324,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   to.forces.resize(x_.size() - from.u.size());
   const double* x = x_.data();
   for (std::size_t i = n; i < static_cast<std::size_t>(x_.size()); ++i) to.forces.data()[i - n] = x[i];
-  // The limit itself, not the result of the solve: no drift.
+  // T at the friction limit is computed from the limit, not taken from the solve, so that it does not drift.
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
       to.forces.data()[model_.layout.tangent(k)] = -tangent.N * to.forces.data()[model_.layout.normal(k)];
@@ -406,7 +408,7 @@ double of_own_steps(const Piece& piece, double begin, double end, double dt) {
 
 /// True for a cubic that stays between its values at both ends, as those between the rows of a table do.
 bool between_rows(const Piece& piece, double begin, double end) {
-  constexpr int looks = 16;  // a cubic that turns inside exceeds its ends at several of these samples
+  constexpr int looks = 16;  // a cubic with an extreme inside exceeds its ends at several of these samples
   if (piece.function || piece.amplitude != 0.0 || piece.coefficients.size() != 4) return false;
   const auto [least, greatest] = std::minmax({piece.value(begin), piece.value(end)});
   for (int i = 1; i < looks; ++i)

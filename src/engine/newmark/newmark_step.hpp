@@ -1,4 +1,5 @@
-// newmark_step.hpp: one step of average acceleration (Newmark, beta = 1/4, gamma = 1/2) in given rows.
+// newmark_step.hpp: one step of average acceleration (Newmark, beta = 1/4, gamma = 1/2) with given rows of
+// contacts.
 //
 //   u1 = u0 + h v0 + h^2/4 (a0 + a1),   v1 = v0 + h/2 (a0 + a1)
 //   M a1 + C v1 + K u1 + sum ( n N1 + t T1 ) = P(t1),   rows of the contacts at t1
@@ -8,12 +9,14 @@
 // The unknown of a degree of freedom is a1, v1 if it has a damper but no mass, u1 if it has neither: no division by h,
 // so a step may be as short as the resolution of time.
 //
-// Large structures (`min_condensed_size`) with compliant contacts and a narrow band are factorised anew for each length
-// that will not recur; for lengths that recur, factors follow changes of state (linear/condensed_matrix.hpp).
-// Factorisations of other structures:
-//   after a change of state at the full length   an update of low rank of the last one (linear/mass_factors.hpp)
-//                                                until its solves have cost as much as a factorisation
-//   at a length near the last odd one            x += A_odd^-1 (b - A x), until only rounding remains
+// Lengths of steps recur, like dt, or are irregular, like those of steps to an event. For large structures
+// (at least min_condensed_size) with compliant contacts and a narrow band, every irregular length has its own
+// factorisation; the factors for recurring lengths are updated after changes of state
+// (linear/condensed_matrix.hpp). Other structures:
+//   after a change of state at a recurring length    an update of low rank of the last factors
+//                                                    (linear/mass_factors.hpp), until its solves have cost
+//                                                    as much as a factorisation
+//   at a length near the last irregular one          x += A_last^-1 (b - A x), until only rounding remains
 #pragma once
 
 #include <optional>
@@ -30,28 +33,29 @@
 
 namespace signorini::newmark {
 
-/// Lengths that differ by less than this part of a step are equal: a slightly longer remainder of a segment is taken in
-/// one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
+/// Lengths that differ by less than this fraction of a step count as equal, so that a slightly longer
+/// remainder of a segment is one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below the
+/// error of a step.
 inline constexpr double length_tolerance = 1e-9;
 
 class NewmarkStep {
  public:
-  /// Identifies the part of the rows that stands in the matrix: equal keys, equal matrices.
+  /// Identifies the part of the rows that is in the matrix: equal keys mean equal matrices.
   using Key = std::vector<int>;
 
   /// widest_band: greatest width for which a matrix is factorised as a band.
   NewmarkStep(const Model& model, const linear::SystemMatrices& structure,
               std::size_t widest_band = linear::CondensedMatrix::max_width);
 
-  /// Puts rows in force.
+  /// Sets the rows of the contacts.
   void set(Key key, std::vector<Rows> rows);
-  /// Same, with shared rows of another owner.
+  /// Same, with rows of another owner.
   void set(Key key, std::shared_ptr<const std::vector<Rows>> rows);
   /// Rows owned by this object: their constants may change without a new factorisation.
   [[nodiscard]] std::vector<Rows>& own_rows() { return *own_rows_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return *rows_; }
-  /// Steps from `from` at t1 - h to `to` at t1. `kept`: steps of this length will recur, so their factorisation is
-  /// kept. False: the matrix is singular.
+  /// Steps from `from` at t1 - h to `to` at t1. `kept`: steps of this length will recur, so the factorisation
+  /// is kept. False: the matrix is singular.
   [[nodiscard]] bool take(const motion::Forcing& forcing, const motion::Point& from, double t1, double h,
                           bool kept, motion::Point& to);
   /// End of such a step at one contact, computed from its neighbourhood: the rest of the point is invalid. whole: the
@@ -62,6 +66,7 @@ class NewmarkStep {
                                                const motion::Point& whole, double longer);
   /// The neighbourhood used by local_end() was too small: doubles its radius.
   void double_radius();
+  /// Adds the numbers of factorisations and solves so far.
   void count(Counters& counters) const;
 
  private:
@@ -98,12 +103,13 @@ class NewmarkStep {
   std::optional<linear::CondensedMatrix> kept_band_;       // band matrix for a length that recurs
   std::optional<linear::CondensedMatrix> irregular_band_;  // for other lengths
   std::optional<LocalStep> local_step_;
-  linear::WoodburyFactors updated_;  // rows in force as changes of base_rows_, both at base_h_
-  std::vector<Rows> base_rows_;      // rows of the base matrix
+  // Factors for the current rows, as changes of base_rows_; both at base_h_.
+  linear::WoodburyFactors updated_;
+  std::vector<Rows> base_rows_;  // rows of the base matrix
   double base_h_ = 0.0;
-  bool updates_ = false;                 // updated_ is in force, for last_h_
-  double spent_ = 0.0;                   // operations that its solves took since the rows changed
-  Vector irregular_x_, rest_, product_;  // the last solution at an odd length; scratch
+  bool updates_ = false;                 // updated_ is in use, for last_h_
+  double spent_ = 0.0;                   // operations of solves with updated_ since the rows changed
+  Vector irregular_x_, rest_, product_;  // the last solution at an irregular length; scratch
   std::vector<linear::Weights> weights_;
   Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
   long solves_ = 0;
@@ -116,15 +122,15 @@ class NewmarkStep {
 //   friction  1/2 (T0 + T1) dp
 //   surface  -1/2 (T0 + T1) ds
 //
-// With these works the energy balance of a step holds to rounding: it is that of the trapezoidal rule, which conserves
-// the energy of a linear system.
+// With these works the energy balance of a step holds up to rounding: the trapezoidal rule conserves the
+// energy of a linear system.
 
 class NewmarkWorkIntegrals {
  public:
   NewmarkWorkIntegrals(const Model& model, const linear::SystemMatrices& structure)
       : model_(model), structure_(structure), du_(model.size()), v_(model.size()) {}
 
-  /// works += factor * the works of the step from `a` at t0 to `b` at t1, in constant contact states.
+  /// works += factor * works of the step from `a` at t0 to `b` at t1, in constant contact states.
   void add(const motion::Forcing& forcing, const contact::ContactStates& states, const motion::Point& a,
            double t0, const motion::Point& b, double t1, double factor, motion::WorkIntegrals& works);
 
@@ -134,17 +140,17 @@ class NewmarkWorkIntegrals {
   Vector du_, v_;
 };
 
-// Steps of a segment that is hardly longer than dt, so that its loads transfer their impulses.
+// Length of the steps of a short segment, with which the impulses of its loads are accurate.
 //
 //   J = int f dt ~ T(1024),   T(n) = h sum'' f(t_i): impulse in n steps of average acceleration
-//   dt    where |T - J| <= int |f| / 16 of its own steps
-//   h     else: the segment in n = 2^k parts, the fewest with |T(n) - J| <= 1e-4 int |f|
+//   dt    if steps of this length have |T - J| <= int |f| / 16
+//   h     otherwise: the segment in n = 2^k parts, the fewest with |T(n) - J| <= 1e-4 int |f|
 //
-// A half sine is zero where it begins and ends: one step from end to end would miss it entirely, two steps lose a
-// fifth. A dt that is short enough for a load is kept, also for tables: a step ends at each row, beyond which no curve
-// goes.
+// A half sine is zero where it begins and ends: one step over all of it has no impulse, two steps lose a
+// fifth. A dt that is short enough for a load is kept. So it is for tables, because a step ends at each of
+// their rows.
 
-/// Longer segments use dt, which integrates half waves of such a length to within a 200th.
+/// Segments of more steps than this use dt: the impulse of a half wave of this length has an error of 1/200.
 inline constexpr double short_segment_steps = 16.0;
 
 /// Length of the steps from `begin` to `end`, at most dt; no history breaks between them. Loads and compressions are

@@ -73,7 +73,7 @@ void StepGuards::gather(std::size_t k) {
   }
 }
 
-/// True if the derivative of the guard follows from displacements, velocities and accelerations.
+/// True if displacements, velocities and accelerations determine the derivative of the guard.
 bool StepGuards::rates_known(std::size_t slot) const {
   const std::size_t k = model_.layout.contact_of_guard(slot);
   const Form& form = segment_.decision->form(slot);

@@ -1,8 +1,9 @@
-// step_guards.hpp: the guards in force, at both ends of a step of newmark.
+// step_guards.hpp: the guards of the current contact states, at both ends of a step of engine `newmark`.
 //
 //   g0, g1, g0', g1'      values; rates if displacements, velocities and accelerations determine them
-//   noticed               guards that are not positive at the end, wait, or may dip in between: Bernstein coefficients
-//                         of the cubic through values and rates, and of the parabola through the last three values
+//   candidates            guards that are not positive at the end, wait (active_guards.hpp), or may reach
+//                         zero in between, by the Bernstein coefficients of the cubic through values and
+//                         rates, and of the parabola through the last three values
 //
 // Most contacts are soft and not driven: their guards are forms of N, T, g, ut and rates of these. The coefficients of
 // such guards are stored contiguously, and gathered anew if a contact's state has changed.
@@ -19,28 +20,29 @@ class StepGuards {
  public:
   explicit StepGuards(const Model& model);
 
-  /// Takes the guards of segment.decision; the decision and the forcing must outlive their use. Evaluates no values:
-  /// the motion is not yet known.
+  /// Takes the guards of segment.decision; decision and forcing must live until the next start. The values
+  /// are set by evaluate().
   void start(const engine::Segment& segment);
   /// Evaluates values and rates at the end of the step. The point, here and in level(), contains accelerations.
   void evaluate(const motion::Point& point, double t);
-  /// Moves on to the next step: values at the end of this step become those at its beginning, and dismissed dips count
-  /// again.
+  /// Begins the next step: values at the end of this step become those at the beginning of the next one, and
+  /// no dip is dismissed.
   void begin_next_step();
 
   [[nodiscard]] const events::ActiveGuards& active_guards() const { return active_guards_; }
   [[nodiscard]] double value(std::size_t slot, double t, const motion::Point& point) const;
-  /// Below this value the guard's sign at `point` is rounding.
+  /// Magnitude up to which the sign of the guard at `point` is not significant, because of rounding.
   [[nodiscard]] double level(std::size_t slot, double t, const motion::Point& point) const;
   /// Values and rates at both ends of a step of length h.
   [[nodiscard]] events::GuardCubic path(std::size_t slot, double h) const {
     return {g0_[slot], g1_[slot], h * rate0_[slot], h * rate1_[slot]};
   }
   [[nodiscard]] bool has_rate(std::size_t slot) const { return has_rate_[slot] != 0; }
-  /// Place where a guard that is positive at both ends may reach zero between them: by its rates there, or by its
-  /// values alone if modes far above the step make the rates useless. h_before: length of the previous step; 0: none.
+  /// Place in the step, 0 to 1, at which a guard that is positive at both ends may reach zero, by its rates
+  /// at the ends. If modes far faster than the step make the rates useless, its values alone are used.
+  /// h_before: length of the previous step; 0: none.
   [[nodiscard]] std::optional<double> dip(std::size_t slot, double h, double h_before) const;
-  /// The redone step did not confirm the guard's dip.
+  /// Excludes the guard's dip from the candidates of this step: a shorter step has not confirmed it.
   void dismiss(std::size_t slot) { dismissed_.push_back(slot); }
   /// Slots that a step of length h has to examine, ascending; all other guards stay positive in it.
   [[nodiscard]] const std::vector<std::size_t>& candidate_slots(double h, double h_before);
@@ -48,11 +50,11 @@ class StepGuards {
   void update_active_guards(double t, const motion::Point& point);
 
  private:
-  /// The nonzero coefficients of a guard, and whether it is one.
+  /// Coefficients of a guard that is a plain form (decide/guard_signs.hpp).
   struct LinearGuard {
     double N = 0.0, T = 0.0, gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, constant = 0.0;
   };
-  /// Data of a contact that weigh() reads.
+  /// Data of a contact for candidate_slots().
   struct ContactGuards {
     bool watched = false;              // at least one guard is in force
     bool is_linear = false;            // guards and rows are forms as above
@@ -77,8 +79,8 @@ class StepGuards {
   contact::ContactStates states_;  // states at the last gather()
   events::ActiveGuards active_guards_;
   std::vector<ContactGuards> contact_guards_;  // one entry for each contact
-  std::vector<double> before_, g0_, g1_, rate0_,
-      rate1_;  // one entry for each slot; before_: at the beginning of the previous step
+  // One entry for each slot; before_: value at the beginning of the previous step.
+  std::vector<double> before_, g0_, g1_, rate0_, rate1_;
   std::vector<char> has_rate_;
   std::vector<std::size_t> waiting_, dismissed_, candidate_slots_;
 };

@@ -11,8 +11,8 @@
 namespace signorini::assembly {
 namespace {
 
-constexpr double printed_digits = 1e-9;  // relative to the largest entry: smaller differences count as
-                                         // symmetric
+// Relative to the largest entry: smaller differences count as symmetric.
+constexpr double printed_digits = 1e-9;
 
 double largest(const SparseMatrix& a) {
   double result = 0.0;

@@ -1,9 +1,9 @@
 // assembly.hpp: mass, stiffness and damper matrices of a structure, and its weight.
 //
-//   M = sum_e M_e + masses,  K = sum_e K_e + springs,  C = dampers,  P_g = M r g,  P_base = -M r a(t)
+//   M = sum_e M_e + masses,  K = sum_e K_e + springs,  C: dampers,  P_g = M r g,  P_base = -M r a(t)
 //   moving supports s(t):  P = -K_fs s - C_fs s' - M_fs s''
 //
-// r g: the acceleration of gravity on all translations, fixed ones included, so that the weight of a beam next to a
+// r: unit translation of all nodes, fixed degrees of freedom included, so that the weight of a beam next to a
 // support is complete. Shapes: n x n, symmetric, both triangles stored.
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace signorini::assembly {
 
-/// Forces on the free degrees of freedom by a unit motion of a support: columns of M_fs, dampers, K_fs.
+/// Forces on the free degrees of freedom by a unit motion of a support: its columns of M_fs, of the dampers,
+/// and of K_fs.
 struct SupportColumns {
   Vector mass, dampers, stiffness;
 };
@@ -25,6 +26,7 @@ struct Assembly {
   std::vector<SupportColumns> moving = {};  ///< one for each of DofMap::supports
 };
 
+/// Matrices of a scene with nodes.
 [[nodiscard]] Assembly assemble_nodes(const Scene& scene, const DofMap& map);
 
 /// Matrices from files. Errors: SceneError for wrong sizes, or if M or K is not symmetric.

@@ -21,7 +21,7 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
     direction = {spec.normal->node, sliding_direction(spec), {}, spec.normal->place, spec.normal->against};
   else
     return {};
-  // Without friction the tangent only measures: what does not exist does not move.
+  // Without friction the tangent is used for outputs only, where absent components are zero.
   const bool measures_only = !spec.capabilities().normal_force_given && !spec.friction.any() &&
                              !(spec.user_law && acts_along_tangent(*spec.user_law));
   return combination(map, direction, spec.key("tangent"), true, measures_only);
@@ -91,8 +91,8 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
                                  contact.normal_force.value(t), t));
 }
 
-/// At a node of a seam that a support fixes along the tangent (a plane of symmetry) there is no slip: the support
-/// carries T.
+/// Removes friction at a node of a seam that a support fixes along the tangent (a plane of symmetry): there
+/// is no slip, and the support carries T.
 void leave_out_held_friction(const Scene& scene, std::size_t k, Contact& contact) {
   const bool of_seam = std::any_of(scene.seams.begin(), scene.seams.end(), [k](const SeamSpec& seam) {
     return k >= seam.first_contact && k < seam.first_contact + seam.nodes.size();

@@ -95,7 +95,7 @@ void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool,
   map.supports.push_back(i);
 }
 
-/// A fixed and a moving support of the same component would contradict each other.
+/// Refuses a fixed and a moving support of the same component.
 void check_moving(const Scene& scene, const DofMap& map) {
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -109,7 +109,7 @@ void check_moving(const Scene& scene, const DofMap& map) {
   }
 }
 
-/// Numbers the elements' own degrees of freedom: "A-B.A.rz", a hinged end.
+/// Numbers the elements' internal unknowns: "A-B.A.rz", a hinged end.
 void add_own(DofMap& map) {
   for (const element::MeshPiece& piece : map.mesh.pieces) {
     const std::string& from = map.mesh.node(piece.from).name;

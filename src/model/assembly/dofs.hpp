@@ -2,10 +2,11 @@
 //
 //   node i, component c (0 ux, 1 uy, 2 rz)  ->  number, or `absent`, or `fixed`
 //
-// A degree of freedom exists only if a member, mass, spring or contact needs it: beams need ux, uy and rz of all their
-// nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the components of their directions.
-// Supports fix existing ones. Numbers follow the order of the nodes, then come the rotations of members' hinged ends.
-// Moving supports are numbered separately. Numbers from size() on are tied: motions of a rigid body's nodes (ties.hpp).
+// A degree of freedom exists only if a member, mass, spring or contact needs it. Beams need ux, uy and rz of
+// all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the components of
+// their directions. Supports fix existing degrees of freedom. Numbers follow the order of the nodes; then the
+// rotations of members' hinged ends follow. Moving supports are numbered separately. Numbers from size() on
+// are tied: motions of a rigid body's nodes and of seams (ties.hpp).
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 
 namespace signorini::assembly {
 
-/// Term of a tied motion: factor times a degree of freedom, or times a moving support (its code).
+/// Term of a tied motion: factor times a degree of freedom, or times a moving support (DofMap::support_code).
 struct TiedTerm {
   int number = 0;
   double factor = 1.0;
@@ -36,22 +37,21 @@ struct DofMap {
 
   element::Mesh mesh;                      ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
-  std::map<std::pair<std::size_t, std::size_t>, int>
-      internal;                            ///< elements' own unknowns: element, index into unknowns()
-  std::vector<std::array<int, 3>> moving;  ///< per mesh node: index into `supports` that it follows, or
-                                           ///< `absent`
-  std::vector<std::size_t> supports;       ///< moving supports: indices into Scene::supports
+  /// Numbers of elements' internal unknowns, by element and index into unknowns().
+  std::map<std::pair<std::size_t, std::size_t>, int> internal;
+  /// Per mesh node and component: index into `supports` of the support that it follows, or `absent`.
+  std::vector<std::array<int, 3>> moving;
+  std::vector<std::size_t> supports;  ///< moving supports: indices into Scene::supports
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> locations;  ///< per degree of freedom: mesh node, component
   std::vector<int> body;                       ///< per mesh node: index into Scene::rigid, or `absent`
-  std::vector<element::AxialForces>
-      axial_forces;                    ///< per element: its frozen axial forces (prestress.hpp); empty:
-                                       ///< none
-  std::vector<double> body_stiffness;  ///< per rigid body: stiffness of its frozen forces (prestress.hpp);
-                                       ///< empty: none
-  std::vector<TiedDof> tied;           ///< for the numbers size(), size() + 1, ...
+  /// Per element: its axial prestress (prestress.hpp); empty: none.
+  std::vector<element::AxialForces> axial_forces;
+  /// Per rigid body: geometric stiffness of its prestress (prestress.hpp); empty: none.
+  std::vector<double> body_stiffness;
+  std::vector<TiedDof> tied;  ///< for the numbers size(), size() + 1, ...
   std::vector<signorini::Column> columns;
-  double shown_length = 1.0;  ///< length shown in names of motions, per length here
+  double shown_length = 1.0;  ///< factor from lengths here to those in names of motions
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool is_matrix_scene() const { return number.empty(); }
@@ -59,19 +59,20 @@ struct DofMap {
   [[nodiscard]] static int support_code(int i) { return -3 - i; }
   [[nodiscard]] static int support_of_code(int code) { return -3 - code; }
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
-  /// True if all nodes move with one rigid body and no unknown is the element's own: the element is not strained.
+  /// True if all nodes move with one rigid body and the element has no internal unknowns: it is not strained.
   [[nodiscard]] bool within_body(const element::FiniteElement& e) const;
   /// True if all of these mesh nodes move with one rigid body.
   [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
-  /// Makes component c of a mesh node follow these terms.
+  /// Makes component c of a mesh node a combination of these terms.
   void tie(int node, std::size_t c, std::vector<TiedTerm> terms);
-  /// Meaning of a number: degrees of freedom and codes of moving supports; empty if fixed or absent.
+  /// The motion with this number as a combination of degrees of freedom and moving supports; empty if fixed
+  /// or absent.
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
   /// form += factor times the motion with this number; terms of moving supports are dropped.
   void add(Vector& form, int n, double factor) const;
-  /// Value of a numbered motion for x (size()).
+  /// Value of a numbered motion for the degrees of freedom x, of length size().
   [[nodiscard]] double value(const Vector& x, int n) const;
-  /// Numbers, `fixed`, `absent`, or codes of moving supports.
+  /// For each component of a node: its number, `fixed`, `absent`, or the code of a moving support.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
   [[nodiscard]] element::AxialForces axial_forces_in(std::size_t element) const {
     return axial_forces.empty() ? element::AxialForces{} : axial_forces[element];
@@ -86,26 +87,30 @@ struct DofMap {
 /// The tangent of a normal: n = (nx, ny) has t = (ny, -nx); both unit vectors.
 [[nodiscard]] std::array<double, 2> tangent_of(const std::array<double, 2>& normal);
 
-/// The vector along which a contact of a node scene slides; zero if it has neither tangent nor normal.
+/// The direction along which a contact of a scene with nodes slides; zero if it has neither tangent nor
+/// normal.
 [[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
 
+/// Numbers the degrees of freedom of a scene with nodes.
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
-/// mesh: mesh of the scene, or one with additional element types.
+/// Same with a given mesh: that of the scene, or one with additional element types.
 [[nodiscard]] DofMap number_nodes(const Scene& scene, element::Mesh mesh);
 /// Throws the error for a moment or a rotation at a node without rotation.
 [[noreturn]] void refuse_missing_rotation(const SourcePlace& place, const std::string& key,
                                           const std::string& node);
+/// Numbers the degrees of freedom of matrices from files.
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
 
-/// A direction as a form on the numbered degrees of freedom, minus the counterpart's. Fixed components are dropped; an
-/// absent one is an error with its name, unless `skip_absent`. `unit`: normalise the plane vector.
+/// A direction as a form on the degrees of freedom, minus that of its counterpart. Fixed components are
+/// dropped. An absent component is an error at `key`, unless `skip_absent`. unit: the plane vector is
+/// normalised.
 [[nodiscard]] Combination combination(const DofMap& map, const Direction& direction, const std::string& key,
                                       bool unit, bool skip_absent = false);
 
 // Place in the scene file from which a degree of freedom comes.
 //
 //   a named node       its line in [nodes]
-//   an inner node      the member that it stands on, as does the rotation of a hinged end
+//   an inner node      its member, also for the rotation of a hinged end
 //   matrices           the stiffness
 
 [[nodiscard]] SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof);

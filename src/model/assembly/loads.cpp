@@ -112,7 +112,7 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
   return load;
 }
 
-/// Rounding of node coordinates in the forces of an element, in eps: its directions are differences of coordinates.
+/// Relative rounding of an element's direction, in multiples of eps: it is a difference of coordinates.
 double rounded_by_places(const DofMap& map, const element::FiniteElement& e) {
   double reach = 0.0, least = std::numeric_limits<double>::infinity();
   for (const int i : e.nodes()) {
@@ -181,7 +181,7 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
   }
 }
 
-/// A stretched spring pulls its node back, against its direction.
+/// Adds the loads by preloads: a spring in tension pulls its node back, against its direction.
 void add_preloads(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& spring = scene.springs[i];
@@ -398,7 +398,7 @@ Vector static_load(const std::vector<Load>& loads, int n) {
     load.direction.add_to(p, value);
     for (const auto& [dof, factor] : load.direction.terms) size[dof] += std::abs(factor * value);
   }
-  // Loads that cancel to rounding drive nothing.
+  // Sums of loads that are zero up to rounding are set to zero.
   return (p.array().abs() > rounding::many_operations * size.array()).select(p, 0.0);
 }
 

@@ -25,19 +25,20 @@ namespace signorini::assembly {
 [[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
 /// Name of a member's strain load: temperature or initial strain.
 [[nodiscard]] std::string name_of_strain(LoadKind kind, int member);
-/// Nodal forces of a unit traction.
+/// Force on a node, for a unit amplitude.
 struct NodeForce {
   int node = 0;
   std::array<double, 2> force{0.0, 0.0};
 };
+/// Nodal forces of a traction or pressure with unit amplitude.
 [[nodiscard]] std::vector<NodeForce> traction_forces(const Scene& scene, const element::Mesh& mesh,
                                                      const LoadSpec& spec);
 /// Name of a spring's preload, springs counted from 0.
 [[nodiscard]] std::string name_of_preload(std::size_t spring);
-/// Unit of Load::of_history.
+/// Load::history_unit of this type.
 [[nodiscard]] Unit unit_of_history(LoadType type);
-/// Gravity first (if it acts), then the loads in the order of the file, strains of members, base motion, and
-/// displacements of moving supports. Errors: SceneError.
+/// All loads of the scene: gravity first (if it acts), then the loads in the order of the file, strains of
+/// members, base motion, and displacements of moving supports. Errors: SceneError.
 [[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly);
 
 /// Prescribed motion of support i of DofMap::supports; a continued run begins at the support's last position.

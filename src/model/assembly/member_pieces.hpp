@@ -16,13 +16,14 @@ namespace signorini::assembly {
                                                                        const SourcePlace& place,
                                                                        const std::string& key);
 
-/// Components along x and y of a unit distributed load on an element; backwards: given against the element's direction.
+/// Components along x and y of a distributed load of unit amplitude on an element. backwards: the piece is
+/// given against the element's direction.
 [[nodiscard]] std::array<double, 2> along_line(const LoadSpec& spec, const element::Axis& axis,
                                                bool backwards);
 
 // Data for drawings of deformed shapes.
 //
-//   position on a beam = x + u,  u between the ends: linear along it, cubic across (as its stiffness assumes)
+//   position on a beam = x + u,  u between the ends: linear along the beam, cubic across it
 
 /// Fills drawing, drawn_nodes and drawn_contacts of a node scene; the contacts must exist already.
 void add_drawing(const Scene& scene, const DofMap& map, Model& model);

@@ -131,7 +131,7 @@ class Split {
     const Parts coupled({&model.mass, &model.damping, &model.stiffness}, forms);
     std::vector<std::size_t> part_of_set(coupled.count(), none);
     for (std::size_t k = 0; k < forms.size(); ++k) {
-      // A form without terms goes with the first degree of freedom.
+      // A form without terms belongs to the part of the first degree of freedom.
       const int dof = forms[k].terms.empty() ? 0 : forms[k].terms.front().first;
       std::size_t& part = part_of_set[coupled.part_of(dof)];
       if (part == none) {

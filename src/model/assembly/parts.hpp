@@ -2,8 +2,8 @@
 //
 //   P^T A P = diag(A_1, A_2, ...)   for all given matrices at once; every form acts on one part only
 //
-// A hundred blocks on a floor are a hundred structures: an O(n^3) cost becomes the sum of n_i^3, and a frequency that
-// all parts share is found once in each.
+// A hundred blocks on a floor are a hundred structures: a cost O(n^3) becomes the sum of n_i^3, and a
+// frequency that all parts have in common is found once in each.
 //
 //   const Parts parts({&mass, &k}, fixed);
 //   for (const Part& part : parts) use(part.matrix(mass), part.forms(fixed));
@@ -24,9 +24,10 @@ class Part {
 
   [[nodiscard]] const std::vector<int>& dofs() const;
   [[nodiscard]] int size() const { return static_cast<int>(dofs().size()); }
-  /// n_i x n_i
+  /// The rows and columns of this part, n_i x n_i.
   [[nodiscard]] SparseMatrix matrix(const SparseMatrix& a) const;
-  /// Forms that act on this part, on its own numbers, in their order. A form without terms is on no part.
+  /// Forms that act on this part, in terms of its own numbers, in their order. A form without terms acts on
+  /// no part.
   [[nodiscard]] std::vector<Combination> forms(const std::vector<Combination>& forms) const;
 
  private:
@@ -51,25 +52,26 @@ class Parts {
   friend class Part;
   std::vector<std::vector<int>> dofs_;
   std::vector<std::size_t> part_of_;  // one per degree of freedom
-  std::vector<int> place_in_;         // its number in its part
+  std::vector<int> place_in_;         // per degree of freedom: its number in its part
   std::vector<Part> parts_;
 };
 
-/// Groups of forms that act on common degrees of freedom, directly or through others: ascending indices, groups in the
-/// order of their first forms. A form without terms is a group of its own.
+/// Groups of forms that act on common degrees of freedom, directly or through other forms. Indices in a group
+/// ascend, and groups are in the order of their first forms. A form without terms is a group of its own.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_forms(const std::vector<Combination>& forms);
 
-/// Groups of contacts whose forces are coupled through M, C, K and other contacts, in the same order.
+/// Groups of contacts whose forces are coupled through M, C, K and other contacts; order as in
+/// coupled_forms().
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model);
 
 // Some rows and columns of a sparse matrix.
 //
 //   S = [e_i1 e_i2 ...],   S^T A S = A(i, i),   S x scatters x to its original positions
 
-/// Columns are unit vectors; n x m, m being the number of indices.
+/// S, n x m, m being the number of indices.
 [[nodiscard]] SparseMatrix selection(const std::vector<int>& indices, int n);
 
-/// Selection of the degrees of freedom with mass > 0, or of the others.
+/// S of the degrees of freedom with mass > 0, or of those without.
 [[nodiscard]] SparseMatrix select_by_mass(const SparseMatrix& mass, bool with_mass);
 
 /// Number of degrees of freedom with mass.
@@ -79,13 +81,13 @@ class Parts {
 //
 //   M, C, K, n_k, t_k:   block by block (parts.hpp);   P_i: restriction of P(t) to block i
 //
-// The contacts of one part are coupled with each other; the last part is everything without contacts. A part has the
-// loads that act on it; loads that act nowhere belong to the first part. Scales, frequencies and factors are those of
-// the whole model, so that decisions are the same as in the whole model.
+// The contacts of one part are coupled with each other; the last part is everything without contacts. A part
+// has the loads that act on it; loads without effect belong to the first part. Scales, frequencies and
+// factors are those of the whole model, so that decisions are the same as in the whole model.
 
 struct PartModel {
-  Model model;                        ///< data needed by a run: without outputs, foreign names and drawing
-  std::vector<int> dofs;              ///< its degrees of freedom in the whole model, ascending
+  Model model;            ///< data needed by a run: without outputs, names of other parts and drawing
+  std::vector<int> dofs;  ///< its degrees of freedom in the whole model, ascending
   std::vector<std::size_t> contacts;  ///< its contacts in the whole model, ascending
 };
 

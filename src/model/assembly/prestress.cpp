@@ -15,7 +15,7 @@
 namespace signorini::assembly {
 namespace {
 
-constexpr double no_force = 1e-9;  // relative to the forces on a body: error of a solve in a sum that is zero
+constexpr double no_force = 1e-9;  // relative to the forces on a body: solver error of a sum that is zero
 
 using Plane = std::array<double, 2>;
 
@@ -25,7 +25,8 @@ std::array<double, 2> unit_of(const Plane& v) {
   return length > 0.0 ? Plane{clean[0] / length, clean[1] / length} : Plane{0.0, 0.0};
 }
 
-/// Forces on the nodes, without those of supports and without internal forces of bodies.
+/// Computes the prestress from forces on the nodes, without those of supports and without internal forces of
+/// bodies.
 class PrestressAssembly {
  public:
   PrestressAssembly(const Scene& scene, const DofMap& map, const Model& model, const StaticForces& standing)
@@ -145,7 +146,8 @@ class PrestressAssembly {
             forces[static_cast<Eigen::Index>(j)];
   }
 
-  /// True for a spring within the body: it turns with it, and its two forces have no moment.
+  /// True for a spring between nodes of one body: it rotates with the body, and its two forces have no
+  /// moment.
   [[nodiscard]] bool is_within_body(const Spring& spring) const {
     return !spring.against.empty() &&
            map_.in_one_body({map_.mesh.by_name.at(spring.node), map_.mesh.by_name.at(spring.against)});

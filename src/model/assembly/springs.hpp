@@ -18,6 +18,7 @@ struct LineSpring {
   double stiffness = 0.0;
 };
 
+/// K plus the stiffness of the springs.
 [[nodiscard]] SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs);
 
 /// Springs of all contacts, as if closed and sticking.
@@ -52,11 +53,12 @@ class SymmetricSolver {
   std::unique_ptr<Impl> impl_;
 };
 
-/// L L^T of a symmetric positive definite sparse matrix in a fill-reducing order: A = F F^T.
+/// A = F F^T of a symmetric positive definite sparse matrix, by L L^T in a fill-reducing order.
 class CholeskyFactor {
  public:
   explicit CholeskyFactor(const SparseMatrix& a);
   ~CholeskyFactor();
+  /// False if A is not positive definite.
   [[nodiscard]] bool ok() const;
   [[nodiscard]] Vector times(const Vector& x) const;                    ///< F x
   [[nodiscard]] Vector solve_factor(const Vector& x) const;             ///< F^-1 x
@@ -69,11 +71,10 @@ class CholeskyFactor {
 
 // Refuses scenes whose stiffness ratio overflows when squared.
 //
-//   k_max / k_min <= sqrt(greatest double) = 1.34e154,     k: EA/L of members, EI/L^3, springs, contacts   [force/length]
+//   k_max / k_min <= sqrt(greatest double) = 1.34e154,   k: EA/L, EI/L^3, springs, contacts [force/length]
 //
-// Frequencies scale with sqrt(k), energies and Rayleigh quotients with k^2 / k'^2; beyond this limit they overflow or
-// underflow in any units. Such a number is a typing error; a rigid body, or no member at all, would express its
-// intention.
+// Energies and Rayleigh quotients contain ratios k^2 / k'^2; beyond this limit they overflow or underflow in
+// any units. Such a stiffness is a typing error, or stands for a rigid body or for no member at all.
 
 /// Errors: SceneError at the member, spring or contact whose stiffness has the larger exponent in magnitude.
 void check_stiffness_range(const Scene& scene, const DofMap& map);

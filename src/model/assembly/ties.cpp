@@ -54,7 +54,8 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
                    fmt::format("node '{}' is part of rigid body '{}': {}", s.node, body.name, why));
 }
 
-/// Adds one support to the constraints of the body; `turn` is set if it fixes rz together with another one.
+/// Adds one support to the constraints of the body; `turn` is set if it fixes rz together with another
+/// support.
 void add_body_constraint(const Scene& scene, const RigidBody& body, const BodyConstraint& hold, std::size_t c,
                          BodyMotion& motion, std::optional<BodyConstraint>& turn) {
   std::optional<BodyConstraint>& before = motion.constraints[c];
@@ -114,7 +115,7 @@ std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, 
 void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map) {
   int& moving = map.moving[place_of_node(node)][c];
   std::vector<TiedTerm> terms = terms_of(body, node, c, map);
-  // A node fixed by the support itself follows it; with an arm it is a different motion.
+  // A node at the support follows it exactly; with an arm the motion also contains a rotation.
   const bool follows = body.constraints[c] && body.constraints[c]->moving >= 0 && terms.size() == 1;
   moving = follows ? DofMap::support_of_code(terms[0].number) : DofMap::absent;
   if (terms.empty() || follows) {

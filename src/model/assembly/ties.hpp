@@ -1,14 +1,17 @@
-// ties.hpp: rigid bodies, whose nodes move with a centre; small rotations.
+// ties.hpp: tied motions: nodes of rigid bodies, which move with a centre (small rotations), and nodes of
+// seams.
 //
 //   ux_P = ux_C - rz (y_P - y_C),   uy_P = uy_C + rz (x_P - x_C),   rz_P = rz_C          u = T q
 //
-// q has the centre's degrees of freedom, M = T^T M_full T, and so K, C, loads and the forms of contacts. A support
-// on any node of a body takes from q: with A held in x and B in y,
+// q contains the degrees of freedom of the centre C instead of those of the nodes P: M = T^T M_full T, and
+// likewise K, C, loads and the forms of contacts. A support at any node of a body removes a degree of freedom
+// from q. With A supported in x and B in y,
 //
 //   ux_P = -rz (y_P - y_A),   uy_P = rz (x_P - x_B),
 //
-// Two nodes held in x at different heights, or in y at different x, also fix rz. A moving support contributes its
-// motion, s - rz (y_P - y_A). Motions that are no degrees of freedom any more are tied, the centre's included.
+// Two nodes supported in x at different heights, or in y at different x, also fix rz. A moving support
+// contributes its motion, s - rz (y_P - y_A). All motions of a body that are no degrees of freedom are tied,
+// also those of the centre.
 #pragma once
 
 #include <optional>
@@ -20,7 +23,7 @@ namespace signorini::assembly {
 
 /// A component of a body's motion that a support fixes, with the coordinate across it.
 struct BodyConstraint {
-  double coordinate = 0.0;            ///< coordinate of the held node: y for ux, x for uy
+  double coordinate = 0.0;            ///< coordinate of the supported node: y for ux, x for uy
   int moving = DofMap::absent;        ///< index into DofMap::supports
   std::size_t support = 0, node = 0;  ///< index into Scene::supports, mesh node
 };
@@ -43,16 +46,18 @@ void tie(const std::vector<BodyMotion>& bodies, DofMap& map);
 [[nodiscard]] std::vector<std::pair<int, std::size_t>> constrained_components(const Scene& scene,
                                                                               const DofMap& map, int body);
 
-/// A form on degrees of freedom and codes of moving supports.
+/// A form on degrees of freedom and moving supports.
 struct Elongation {
   std::vector<int> numbers;
   Vector factors;
 };
 
-/// A form that is summed number by number; terms that cancel become zero.
+/// A form that is the sum of motions with given numbers; coefficients that are zero up to rounding become
+/// zero.
 class TiedForm {
  public:
   explicit TiedForm(const DofMap& map) : map_(map) {}
+  /// Adds factor times the motion with this number (DofMap::terms).
   void add(int number, double factor);
   /// True if a moving support contributes.
   [[nodiscard]] bool follows_support() const { return follows_; }
@@ -70,13 +75,13 @@ class TiedForm {
   bool follows_ = false;
 };
 
-/// The unknowns of an element with tied nodes: they are T times other unknowns.
+/// The unknowns of an element with tied nodes: T times degrees of freedom and motions of supports.
 struct TiedElement {
   TiedElement(const DofMap& map, const int* numbers, std::size_t count);
   std::vector<int> numbers;  ///< degrees of freedom, codes of moving supports
   Eigen::MatrixXd t;         ///< count x numbers
 
-  /// T^T A T for symmetric A, bitwise symmetric; terms that cancel become zero.
+  /// T^T A T for symmetric A, bitwise symmetric; entries that are zero up to rounding become zero.
   [[nodiscard]] Eigen::MatrixXd transform(const Eigen::MatrixXd& a) const;
 };
 
@@ -92,8 +97,9 @@ void name_tied_dofs(const DofMap& map, Model& model);
 //
 //   u_k = sum_l w_kl u_l     along x and y,     w_kl = M_kl / D_k (mesh/mortar.hpp)
 //
-// Dual mortar: forces on the slave are transferred to the master by T^T f, so a constant stress passes a straight seam
-// exactly. If the master itself is tied (rigid body, moving support), the slave follows the same motion.
+// Dual mortar method: forces on a slave node k are transferred to master nodes l by T^T f, so a constant
+// stress crosses a straight seam exactly. If a master node is tied (rigid body, moving support), the slave
+// node follows that motion.
 
 /// Marks the motions of tied nodes as absent, before other motions are numbered. Errors: SceneError for nodes that are
 /// moved by supports, rigid bodies or other seams.

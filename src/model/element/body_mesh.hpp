@@ -13,6 +13,7 @@
 
 namespace signorini::element {
 
+/// The material of a body's elements.
 [[nodiscard]] PlaneMaterial material_of(const BodySpec& body);
 
 /// Appends the elements of a body, an index into Scene::bodies. Errors: SceneError.

@@ -2,10 +2,10 @@
 //
 //   forces on its unknowns:  k u + k_g u + m (a - r g) - (distributed load) - (forces of a strain of its member)
 //
-// k, m, k_g: stiffness(), mass(), geometric(); r: translation(). Unknowns are ux, uy, rz of its nodes, or the element's
-// own. An element lies in the plane and has an extent, its length or its area; density() is mass per extent, so
-// density() g is the distributed weight. Bars and beams are lines (line_elements.hpp); element_kinds.cpp converts
-// members to elements.
+// k, m, k_g: stiffness(), mass(), geometric_stiffness(); r: translation(). Unknowns are ux, uy, rz of its
+// nodes, and internal unknowns. An element lies in the plane and has an extent, its length or its area;
+// density() is mass per extent, so density() g is the distributed weight. Bars and beams are lines
+// (line_elements.hpp); element_kinds.cpp converts members to elements.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,9 +25,9 @@ using PlaneVector = std::array<double, 2>;  // along x and y
 struct ElementUnknown {
   std::size_t local_node = 0;  ///< index into nodes()
   std::size_t component = 0;   ///< 0 ux, 1 uy, 2 rz
-  bool internal =
-      false;  ///< unknown of the element, not of the node: the rotation of a hinged end; only in pieces of
-              ///< members
+  /// True: an unknown of the element, not of the node: the rotation of a hinged end. Only in pieces of
+  /// members.
+  bool internal = false;
 };
 
 /// Frozen axial forces at both ends of an element, tension positive (assembly/prestress.hpp).
@@ -36,8 +36,9 @@ struct AxialForces {
   [[nodiscard]] bool is_zero() const { return a == 0.0 && b == 0.0; }
 };
 
-/// A section force or a stress as a linear functional: factors, by unknown, of the forces on the element's unknowns and
-/// of the acceleration; of a load q = (x, y) per extent; of the displacements (contribution of frozen forces).
+/// A section force or a stress as a linear functional. forces, acceleration: factors of the forces on the
+/// element's unknowns and of their accelerations; load: factors of a load (x, y) per extent; deflection:
+/// factors of the displacements, by the prestress.
 struct SectionForce {
   explicit SectionForce(std::size_t unknowns)
       : forces(ElementVector::Zero(static_cast<Eigen::Index>(unknowns))),
@@ -48,7 +49,7 @@ struct SectionForce {
   ElementVector deflection;
 };
 
-/// A straight line between two nodes, for drawing; beam: drawn bent.
+/// A line between two nodes, by their indices in nodes(), for drawing. bends: it is drawn as a cubic.
 struct ElementLine {
   std::size_t from = 0, to = 1;
   bool bends = false;
@@ -65,17 +66,17 @@ class FiniteElement {
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
   [[nodiscard]] int member() const { return member_; }
   [[nodiscard]] virtual std::vector<ElementUnknown> unknowns() const = 0;
-  /// True if the element has unknowns of its own.
+  /// True if an unknown is internal.
   [[nodiscard]] virtual bool has_internal_unknowns() const { return false; }
 
-  /// Length or area; mass per extent.
+  /// Length or area. density(): mass per extent.
   [[nodiscard]] virtual double extent() const = 0;
   [[nodiscard]] virtual double density() const = 0;
 
   // Matrices in the scene's axes, symmetric to rounding; forces on unknowns by displacements or accelerations.
   [[nodiscard]] virtual ElementMatrix mass() const = 0;
   [[nodiscard]] virtual ElementMatrix stiffness() const = 0;
-  /// True if frozen forces have a stiffness; otherwise run.geometric is refused.
+  /// True if prestress has a stiffness; otherwise run.geometric is refused.
   [[nodiscard]] virtual bool has_geometric_stiffness() const { return false; }
   [[nodiscard]] virtual ElementMatrix geometric_stiffness(const AxialForces& forces) const;
   /// Axial forces under given displacements of the unknowns, a strain of its member, a load per extent, and a body
@@ -88,8 +89,8 @@ class FiniteElement {
   /// Work, on the given motion, of the forces of a unit strain (heat).
   [[nodiscard]] virtual double strain_work(const ElementVector& motion) const = 0;
 
-  /// A section force at a position along its length. Elements without sections have none, and members never consist of
-  /// them.
+  /// A section force at a position along the length. For elements of members only: other elements have no
+  /// sections.
   [[nodiscard]] virtual SectionForce section_force(OutputQuantity quantity, const PlaneVector& at,
                                                    const AxialForces& forces) const;
 

@@ -45,8 +45,8 @@ const Section& find_section(const Scene& scene, const Member& member, const std:
   return *it;
 }
 
-/// Point at the fraction s of a piece from a to b: on the straight line, or on the arc, which is on the right if it
-/// turns left.
+/// Point at the fraction s of a piece from a to b: on the straight line, or on the arc. An arc that bends to
+/// the left lies on the right of the line.
 std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const Member& member, double s) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   if (!member.bend) return {a.x + s * dx, a.y + s * dy};

@@ -22,7 +22,7 @@ struct MemberLine {
 };
 [[nodiscard]] std::vector<MemberLine> lines_of(const Member& member);
 
-// A member of bars or beams: a chain of pieces, each with elements of equal length.
+// Members of bars or beams: chains of pieces, each with elements of equal length.
 
 /// Appends the inner nodes, pieces and elements of a member. Errors: SceneError.
 void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number);

@@ -12,7 +12,8 @@ Axis axis_between(double dx, double dy) {
 LineShapes hermite_shapes(double s, bool hinged_a, bool hinged_b) {
   const double s2 = s * s, s3 = s2 * s;
   LineShapes h{1.0 - 3.0 * s2 + 2.0 * s3, s - 2.0 * s2 + s3, 3.0 * s2 - 2.0 * s3, s3 - s2};
-  // Hinge at a (no moment): rotation_a = 3/2 (b - a) - rotation_b / 2; hinges at both ends: rotation_a = rotation_b = b - a.
+  // Hinge at a (no moment): rotation_a = 3/2 (b - a) - rotation_b / 2. Hinges at both ends:
+  // rotation_a = rotation_b = b - a.
   if (hinged_a && hinged_b) return {1.0 - s, 0.0, s, 0.0};
   if (hinged_a)
     return {h.a - 1.5 * h.rotation_a, 0.0, h.b + 1.5 * h.rotation_a, h.rotation_b - 0.5 * h.rotation_a};
@@ -69,8 +70,8 @@ LineElement::Ends LineElement::deflection(OutputQuantity quantity, double part,
     return force * slope(s);
   };
   if (quantity == OutputQuantity::V) return pull(part);
-  const double half = 0.5 * part, gauss = half / std::sqrt(3.0);  // cubic integrand: two Gauss points are
-                                                                  // exact
+  // Cubic integrand: two Gauss points are exact.
+  const double half = 0.5 * part, gauss = half / std::sqrt(3.0);
   return half * axis().length * (pull(half - gauss) + pull(half + gauss));
 }
 
@@ -98,7 +99,7 @@ SectionForce LineElement::section_force(OutputQuantity quantity, const PlaneVect
     load = {-0.5 * x * x * s, 0.5 * x * x * c};
     shapes = deflection_double_integral(part);
   }
-  if (data_.mass == MassKind::lumped) {  // the half at a lies before the cut
+  if (data_.mass == MassKind::lumped) {  // the half at a lies before the section
     acceleration = -0.5 * density() * l * forces;
     acceleration[2] = 0.0;
   } else {

@@ -6,7 +6,8 @@
 //   V(x) =  f_ay + int_0^x p_y            V = dM/dx
 //   M(x) = -m_a  + int_0^x V              positive: tension on the right-hand side, y < 0
 //
-// With frozen axial forces (run.geometric) N v' is added to V, which stays normal to the bent axis, so that V = dM/dx.
+// With axial prestress (run.geometric) N v' is added to V, which is normal to the deformed axis, so that
+// V = dM/dx.
 //
 // Loads between the ends are the distributed load q and, with a consistent mass, -rho times the acceleration,
 // interpolated like the element's displacements: linear along the line (for a bar also across it), cubic across. A
@@ -33,11 +34,11 @@ struct LineData {
   Axis axis{};
   double EA = 0.0, EI = 0.0, mass_per_length = 0.0;
   MassKind mass = MassKind::consistent;
-  bool hinged_a = false, hinged_b = false;  ///< the end has a rotation of its own
+  bool hinged_a = false, hinged_b = false;  ///< the rotation of the end is internal
 };
 
-/// Displacement in one direction at a position between the ends, by displacements and rotations of the ends; or its
-/// integrals.
+/// Factors of the displacements and rotations of both ends in the displacement at a position between them, or
+/// in its integrals.
 struct LineShapes {
   double a = 0.0, rotation_a = 0.0, b = 0.0, rotation_b = 0.0;
 };
@@ -111,7 +112,7 @@ using BeamMatrix = Eigen::Matrix<double, 6, 6>;
 /// Mass matrix in the scene's axes of a beam that spans (dx, dy).
 [[nodiscard]] BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind);
 
-/// The flexibility of its bend is included in EI.
+/// A beam; EI includes the flexibility of a pipe bend.
 class BeamElement final : public LineElement {
  public:
   using LineElement::LineElement;
@@ -133,9 +134,9 @@ class BeamElement final : public LineElement {
 //
 //   K = EA/L [ e e^T  -e e^T; -e e^T  e e^T ],   M = rho L/6 [2 I  I; I  2 I],   e = (dx, dy)/L
 //
-// in the scene's axes. The mass acts in both directions; otherwise a bar would have no rotational inertia. A lumped
-// mass is rho L/2 at each end. The matrices have the unknowns of line_elements.hpp, with zero rows and columns of the rotations;
-// the element itself has only ux and uy of both ends.
+// in the scene's axes. The mass acts in both directions; otherwise a bar would have no rotational inertia. A
+// lumped mass is rho L/2 at each end. The matrices have the unknowns of beams, with zero rows and columns for
+// the rotations; the element itself has only ux and uy of both ends.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.4 and 11.2.
 
 /// Stiffness of a bar that spans (dx, dy); force per length.

@@ -17,10 +17,11 @@ struct MeshNode {
   bool listed = true;       ///< it has columns in history.csv; false inside a body's mesh
 };
 
-/// Mass of an element that is moved to other nodes: unknowns of its nodes by those of `nodes`.
+/// Mass of an element that is moved to other nodes: its mass matrix becomes weights^T m weights
+/// (body_mesh.hpp).
 struct MovedMass {
   std::vector<int> nodes;   ///< nodes of the mesh, two unknowns each
-  Eigen::MatrixXd weights;  ///< unknowns of the element x 2 nodes
+  Eigen::MatrixXd weights;  ///< W: unknowns of the element x (2 nodes)
 };
 
 /// A piece of a member of bars or beams between two named nodes; an arc has inner nodes, its elements are chords.
@@ -33,7 +34,7 @@ struct Mesh {
   std::vector<MeshNode> nodes;
   std::vector<std::shared_ptr<const FiniteElement>> elements;
   std::vector<MeshPiece> pieces;
-  std::unordered_map<std::size_t, MovedMass> moved;  ///< by element: contact_mass = "none"
+  std::unordered_map<std::size_t, MovedMass> moved;  ///< by element, with contact_mass = "none"
   int named = 0;                                     ///< the first `named` nodes are those of the file
   std::unordered_map<std::string, int> by_name;      ///< indices of named nodes
 

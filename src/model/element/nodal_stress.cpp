@@ -14,13 +14,13 @@
 namespace signorini::element {
 namespace {
 
-// Limits for the growth sum |c_j| >= 1 of errors at the points in the sum at a node. Chosen values, on which
-// body_stresses depends: at an inner node of squares the sum is 1 (plane) and below 1.5 (parabola); at a boundary, a
-// line through two evenly spaced points has 2, a plane 2.5 at a corner.
+// Limits for sum |c_j| >= 1, by which errors at the points grow in the sum at a node. Chosen values; the
+// tests body_stresses depend on them. At an inner node of squares the sum is 1 (plane) or below 1.5
+// (parabola); at a boundary it is 2 for a line through two evenly spaced points, and 2.5 for a plane at a
+// corner.
 constexpr double inside = 1.5, most_amplified = 10.0;
 constexpr double alike = 1e-6;  // relative to sum |c_j|: patches that are mirror images
-constexpr double met =
-    1e-9;  // relative to 1: fitting conditions; elements may be larger than those of their ring
+constexpr double met = 1e-9;    // residual of the conditions for c, relative to 1
 
 /// Monomials 1, x, y, for quadratic elements also x^2, x y, y^2.
 Eigen::VectorXd powers(double x, double y, bool quadratic) {

@@ -21,7 +21,7 @@
 
 namespace signorini::element {
 
-/// Factors of the displacements of a node.
+/// Factors of ux, uy of a node in the stresses.
 struct StressTerm {
   int node = 0;  ///< node of the mesh
   Eigen::Matrix<double, 3, 2> rows;

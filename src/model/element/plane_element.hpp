@@ -12,8 +12,8 @@
 // negative.
 // Stresses are evaluated at Barlow's points and extrapolated to the nodes; their error there has nearly the order of
 // the displacements, one better than that of direct strains.
-// Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211;
-// Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4 (1976) 245.
+// Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth.
+// Eng. 10 (1976) 1211; Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4 (1976) 245.
 #pragma once
 
 #include "mesh/shape_functions.hpp"
@@ -21,7 +21,7 @@
 
 namespace signorini::element {
 
-/// Young's modulus etc.: force/length^2 and mass/length^3.
+/// Units: E force/length^2, density mass/length^3.
 struct PlaneMaterial {
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
   bool plane_strain = false;  ///< plane strain; false: plane stress
@@ -47,7 +47,7 @@ class PlaneElement final : public FiniteElement {
 
   [[nodiscard]] PlaneShape shape() const { return shape_; }
   [[nodiscard]] const PlaneMaterial& material() const { return material_; }
-  /// sigma_x, sigma_y, tau_xy at (a, b) by the unknowns, without heat: 3 x unknowns.
+  /// Factors of the unknowns in sigma_x, sigma_y, tau_xy at (a, b), without thermal stresses: 3 x unknowns.
   [[nodiscard]] Eigen::MatrixXd stress_rows(double a, double b) const;
   /// Points of highest accuracy: the centre of t3 and q4, 3 points of t6, 2 x 2 of q8.
   struct StressSample {

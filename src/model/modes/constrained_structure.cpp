@@ -8,8 +8,8 @@
 namespace signorini::modes {
 namespace {
 
-constexpr double fixed_twice = 1e-12;  // relative to the largest compliance: the motion is already fixed by
-                                       // another contact
+// Relative to the largest compliance: below it, another contact already fixes the motion.
+constexpr double fixed_twice = 1e-12;
 
 }  // namespace
 

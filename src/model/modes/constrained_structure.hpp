@@ -34,7 +34,7 @@ class ConstrainedStructure {
 [[nodiscard]] SparseMatrix with_constraint_springs(const SparseMatrix& k,
                                                    const std::vector<Combination>& forms);
 
-/// Q^T A Q for symmetric A, without entries below the rounding of their terms: such an entry would be nothing but
+/// Q^T A Q for symmetric A, without entries below the rounding of their terms: such an entry is nothing but
 /// rounding.
 [[nodiscard]] SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q);
 

@@ -16,13 +16,13 @@ namespace signorini::modes {
 namespace {
 
 constexpr double without_mass = 1e-12;  // relative to the largest inertia of a rigid-body motion of size 1
-constexpr double hardly_any = 1e-13;    // relative to the largest 1/omega^2: rounding for a motion without
-                                        // mass
-constexpr double no_part = 1e-9;        // relative to a motion's largest entry
-constexpr double shift_of_free = 1e-8;  // relative to the largest K_ii/M_ii: free motions keep half of the
-                                        // digits
-constexpr double still_near = 1e-11;    // relative change of omega^2 per round, while shifts approach it
-constexpr double still_high = 1e-12, still_each = 1e-9;  // else: relative to the largest, and to each one
+// Relative to the largest 1/omega^2: rounding for a motion without mass.
+constexpr double hardly_any = 1e-13;
+constexpr double no_part = 1e-9;  // relative to a motion's largest entry
+// Relative to the largest K_ii/M_ii: free motions keep half of the digits.
+constexpr double shift_of_free = 1e-8;
+constexpr double still_near = 1e-11;  // relative change of omega^2 per round, while shifts approach it
+constexpr double still_high = 1e-12, still_each = 1e-9;  // without shifts: relative to the largest; to each
 
 NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
                     const SparseMatrix& damping) {
@@ -57,7 +57,8 @@ FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
   return {heavy, null * pairs.vectors.leftCols(without), count_unstable(k, heavy)};
 }
 
-/// Number of motions with mass when forms are fixed: n - rank F - number of massless motions that respect F.
+/// Number of motions with mass if the forms F are fixed: n - rank F - number of massless motions that respect
+/// F.
 int motions_with_mass(const SparseMatrix& mass, const std::vector<Combination>& fixed) {
   const int heavy = assembly::degrees_with_mass(mass);
   if (fixed.empty()) return heavy;
@@ -98,7 +99,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   if (rest.cols() == 0) return result;
   const base::EigenPairs pairs =
       base::generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
-  // All further ones have no mass, whatever rounding produced.
+  // All further modes have no mass; their values are rounding.
   const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
   count = std::min(count, with_mass);
   for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
@@ -123,9 +124,9 @@ SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motion
   return with_constraint_springs(k, forms);
 }
 
-/// Shifted inverse iteration with a subspace. Long structures have their lowest frequencies so close together (a chain
-/// of n masses on springs: 1/n^2 of their size) that K^-1 hardly separates them. Once rough values are known, a shift
-/// just below the lowest one does.
+/// Shifted inverse iteration with a subspace. The lowest frequencies of long structures are so close together
+/// (a chain of n masses on springs: 1/n^2 of their size) that K^-1 hardly separates them. Once rough values
+/// are known, a shift just below the lowest one separates them.
 class Subspace {
  public:
   Subspace(const SparseMatrix& k, const SparseMatrix& mass, const std::vector<Combination>& fixed,
@@ -170,7 +171,7 @@ class Subspace {
     double gap = std::max(found[0] - lowest, 1e4 * noise());
     for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
       ConstrainedStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
-      if (!closer.definite()) continue;  // Ritz values exceed the true ones by more than the gap
+      if (!closer.definite()) continue;  // the error of the Ritz values exceeds the distance of the shift
       shift_ = gap - lowest;
       solver_ = std::move(closer);
       return;

@@ -32,7 +32,7 @@ struct Frequencies {
                                              const SparseMatrix& stiffness, const ContactConstraints& holding,
                                              int count);
 
-/// The springs along the normals of all contacts, tangents free.
+/// Constraints along the normals of all contacts, with free tangents.
 [[nodiscard]] ContactConstraints constrain_normals(const std::vector<Contact>& contacts);
 
 // Number of modes below a frequency, without computing them.
@@ -42,8 +42,8 @@ struct Frequencies {
 // Sylvester's law of inertia. Massless degrees of freedom, on which K is positive definite, contribute no negative
 // pivots. Source: Bathe, Finite Element Procedures, section 11.4 (Sturm sequence check).
 
-/// Counts multiplicities and free motions. `square` = s > 0; if K - s M is singular to rounding, modes up to 1e-5 of s
-/// above it are counted. -1: no factorisation near s is accurate.
+/// Number of modes with omega^2 < square, by multiplicity, free motions included. square = s > 0. If K - s M
+/// is singular up to rounding, modes up to s (1 + 1e-5) are counted. -1: no factorisation near s is accurate.
 [[nodiscard]] int count_modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square);
 
 }  // namespace signorini::modes

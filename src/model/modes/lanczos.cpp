@@ -98,7 +98,7 @@ constexpr double vector_tolerance =
 constexpr int widest_block = 100;
 constexpr int most_rounds = 50;
 
-/// The modes of `pairs` up to the limit and the lowest of the others, sorted.
+/// The modes of `pairs` up to the limit, and the next one, sorted.
 base::EigenPairs sorted(const base::EigenPairs& pairs, double limit) {
   std::vector<Eigen::Index> order;
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j) order.push_back(j);
@@ -135,7 +135,7 @@ base::EigenPairs lanczos(int count, const assembly::SymmetricSolver& solver, con
   return shift_invert_modes(count, std::min(2 * count + 20, heavies), mass, shift, inverse);
 }
 
-/// Grows span {X, A X, A^2 X, ...} in the M-complement of `known`, and reads modes off it.
+/// Modes from the space spanned by X, A X, A^2 X, ..., M-orthogonal to `known`.
 class BlockKrylov {
  public:
   BlockKrylov(const assembly::SymmetricSolver& solver, const SparseMatrix& mass, const Eigen::MatrixXd& known,

@@ -13,15 +13,16 @@ namespace signorini::modes {
 
 using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
-/// Relative accuracy `tolerance`. Returns the best estimate if the iteration does not converge.
+/// The largest eigenvalue, with the relative accuracy `tolerance`; the best estimate if the iteration does
+/// not converge.
 [[nodiscard]] double largest_eigenvalue(int n, const Operator& apply, double tolerance);
 
 /// The algebraically largest eigenvalues, descending; fewer or none if the iteration does not converge. A single start
 /// vector finds each repeated eigenvalue once.
 [[nodiscard]] Vector largest_eigenvalues(int n, int count, const Operator& apply);
 
-/// The `count` lowest modes as far as a single start vector finds them: omega^2 and M-orthonormal shapes, not sorted,
-/// from a Krylov space of dimension `width`; none if the iteration does not converge. `inverse`: (K + shift M)^-1.
+/// The `count` lowest modes, repeated ones once: omega^2 and M-orthonormal shapes, not sorted, from a Krylov
+/// space of dimension `width`; none if the iteration does not converge. `inverse`: (K + shift M)^-1.
 [[nodiscard]] base::EigenPairs shift_invert_modes(int count, int width, const SparseMatrix& mass,
                                                   double shift, const Operator& inverse);
 
@@ -30,16 +31,17 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 //   K phi = omega^2 M phi,   Phi_free^T M phi = 0
 //   A = (K + s M)^-1 M,   A phi = phi / (omega^2 + s)
 //
-// One Lanczos run (Spectra) of the required size. A single start vector finds one motion of each repeated frequency;
-// the missing ones are found by block Krylov iteration M-orthogonal to the known ones (Golub and Van Loan, Matrix
-// Computations, section 10.3.6), with blocks as wide as the number of missing modes.
+// One Lanczos run (Spectra) finds one mode of each repeated frequency. The others are found by block Krylov
+// iteration, M-orthogonal to the known modes (Golub and Van Loan, Matrix Computations, section 10.3.6), with
+// blocks as wide as the number of missing modes.
 
 /// Subtracts from x its part along the M-orthonormal columns of the basis, twice because of rounding.
 void deflate(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x);
 
-/// The `below` lowest modes that are not free, then the first one above them: omega^2 ascending, and M-orthonormal
-/// shapes, n x (below + 1). `limit` (omega^2) separates the two. Fewer columns if some were not found. `free`: all
-/// M-orthonormal free motions, n x f; `shift` = s, K + s M positive definite.
+/// The `below` lowest modes that are not free, and the next one: omega^2 ascending, and M-orthonormal shapes,
+/// n x (below + 1); fewer columns if some were not found. limit: omega^2 of the first ones are below it, that
+/// of the last one above. free: all M-orthonormal free motions, n x f; shift: s, with K + s M positive
+/// definite.
 [[nodiscard]] base::EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass,
                                             const SparseMatrix& stiffness, const Eigen::MatrixXd& free,
                                             double shift);

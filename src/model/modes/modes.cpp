@@ -17,7 +17,7 @@
 namespace signorini::modes {
 namespace {
 
-constexpr double digits_of_highest = 1e-4;  // relative, of the highest square: it only scales steps
+constexpr double digits_of_highest = 1e-4;  // relative error of the highest omega^2, which only scales steps
 
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 

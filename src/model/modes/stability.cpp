@@ -16,8 +16,8 @@
 namespace signorini::modes {
 namespace {
 
-constexpr double no_factor = 1e-12;   // relative to the largest |nu|: rounding for a motion without geometric
-                                      // stiffness
+// Relative to the largest |nu|: below it, nu is the rounding of a motion without geometric stiffness.
+constexpr double no_factor = 1e-12;
 constexpr double least_share = 1e-7;  // smallest s: below it K + s K_g equals K in half of the digits
 
 /// K and K_g without their common null motions.
@@ -27,8 +27,8 @@ struct Pencil {
   [[nodiscard]] SparseMatrix at(double s) const { return elastic + s * geometric; }
 };
 
-/// Fixes the common null motions that respect the constraints, each where it moves most; they have no energy, so the
-/// factors do not change.
+/// Fixes the common null motions that respect the constraints, each at its largest entry. They have no
+/// energy, so the factors do not change.
 Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
                    const std::vector<Combination>& fixed) {
   const SparseMatrix elastic = fixed.empty() ? loose : with_constraint_springs(loose, fixed);
@@ -153,7 +153,7 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
 namespace {
 
 constexpr double no_inertia = 1e-14;  // relative to the terms of x.Mx: rounding
-constexpr double no_faster = 1e-9;    // relative change of a rate; its motion then has half as many digits
+constexpr double no_faster = 1e-9;    // relative change of a converged rate; its motion has half the digits
 
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = statics::null_motions(k);  // includes motions of negative energy

@@ -17,7 +17,8 @@
 
 namespace signorini::modes {
 
-/// The lowest `count` of all lambda, ascending; a single 0: unstable under arbitrarily small forces.
+/// The `count` lowest lambda, ascending. A single 0: the structure is unstable under arbitrarily small
+/// forces.
 [[nodiscard]] std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
                                                const ContactConstraints& holding, int count);
 
@@ -25,7 +26,7 @@ namespace signorini::modes {
 //
 //   K x = -sigma^2 M x,   u ~ exp(sigma t)
 //
-// Only matrices from files and frozen forces (run.geometric) can produce such a K; members, springs and contacts have
+// Only matrices from files and prestress (run.geometric) lead to such a K; members, springs and contacts have
 // no negative energy.
 
 struct Growth {
@@ -33,7 +34,7 @@ struct Growth {
   Vector motion;
 };
 
-/// True if the strain energy is negative beyond the rounding of its evaluation.
+/// True if the strain energy of the motion is negative beyond the rounding of its evaluation.
 [[nodiscard]] bool has_negative_energy(const SparseMatrix& k, const Vector& motion);
 
 /// The fastest growing motion; nullopt if no motion has negative energy. Damping is neglected.

@@ -132,7 +132,8 @@ class Maker {
     output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
-  /// N u / R in addition to the scene's spring N_0 / R, which is in the row; the model's N_K u / R is damped by beta.
+  /// Adds N u / R minus the term of the scene's spring N_0 / R, which is in the row. The model's N_K u / R is
+  /// damped by beta.
   void restore(const PhysicalRow::CurvedContact& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
     const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].pendulum_surface;
@@ -206,7 +207,7 @@ class Maker {
     return {piece, backwards};
   }
 
-  /// row += requested quantity at the position x on the k-th element of the way.
+  /// row += requested quantity at the position x on the k-th element of the path.
   void cut(const OutputSpec& spec, const char* key, const MemberPath& way, std::pair<std::size_t, double> at,
            const SectionQuantity& wanted, PhysicalRow& row) const {
     const MemberForces cuts(scene_, map_);
@@ -232,7 +233,7 @@ class Maker {
                       factors);
   }
 
-  /// The requested quantity at one point of a stretch.
+  /// The requested quantity at one point of a path.
   Output point(const OutputSpec& spec, const char* key, const MemberPath& way,
                std::pair<std::size_t, double> at, const SectionQuantity& wanted) const {
     Output linear;
@@ -251,7 +252,7 @@ class Maker {
     return {spec.fibre};
   }
 
-  /// Both fibres at one place.
+  /// Adds the outputs of the fibres of one section.
   void section_extremes(const OutputSpec& spec, Output& output) const {
     const MemberPath along = way(spec, 0, "at");
     for (const Fibre fibre : fibres_of(spec)) {
@@ -375,8 +376,8 @@ class Maker {
       const Output& term = named(part.name, before);
       const double factor = part.factor;
       if (!scene::same_unit(scene::product_of_units(term.unit, part.unit),
-                            output.unit))  // only possible in a scene made
-                                           // in code
+                            // units can differ only in a scene made in code
+                            output.unit))
         refuse(spec, "terms",
                fmt::format("'{}' has another unit than '{}'", part.name, spec.terms.front().name));
       add(output.u, term.u, factor);

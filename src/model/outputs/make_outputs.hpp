@@ -1,15 +1,17 @@
 // make_outputs.hpp: the outputs of a scene as functionals of the computed model.
 //
 //   displacement   d.u            velocity  d.v          acceleration  d.a + d.r a_b(t)
-//   member_force   a cut of a finite element (element/element.hpp); stress: of its N and M (structure_rows.hpp)
-//   stress         of a body: a component in axes along `direction` and across (element/nodal_stress.hpp)
-//   envelope       cuts at the points of each element: the largest along the way
+//   member_force   N, V or M in a section of a member (element/element.hpp)
+//   stress         of a member: from N and M in a section (structure_rows.hpp); of a body: a component in
+//                  axes along `direction` and across (element/nodal_stress.hpp)
+//   envelope       the largest value in all sections of a part of a member
 //   contact        N, T, gap = g0 + n.u, slip = t.u - s(t) - T / kt, loss
 //   spring         preload + k d.u + c d.v
 //   combination    sum_i c_i r_i
 //
-// All except contact outputs are formed with the physical degrees of freedom, and then converted to the computed ones:
-// S^T x for a reduced model, B^T x if massless motions have a basis of their own.
+// All except contact outputs are first formed with the physical degrees of freedom. They are then converted
+// to the computed degrees of freedom: S^T x for a reduced model, B^T x if massless motions have a basis of
+// their own.
 #pragma once
 
 #include "model/assembly/dofs.hpp"

@@ -24,7 +24,7 @@ double size_of_body(const assembly::DofMap& map, const std::vector<int>& nodes,
   return size > 0.0 ? size : 1.0;
 }
 
-/// Resultants of a unit force along component c at a node; the moment over the body's size.
+/// Resultants of a unit force along component c at a node; the moment is divided by the size of the body.
 Eigen::Vector3d resultant(const assembly::DofMap& map, int node, std::size_t c,
                           const element::MeshNode& centre, double size) {
   const element::MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(node)];

@@ -1,7 +1,8 @@
 // reactions.hpp: reaction of a support at a node of a rigid body.
 //
-//   G l = F,   F = ( sum fx, sum fy, sum of (r - r_c) x f + m ) of inertia and inner forces less loads at the nodes
-//   l = (G^T G)^-1 G^T F
+//   G l = F,   F = ( sum fx, sum fy, sum of (r - r_c) x f + m ),   l = (G^T G)^-1 G^T F
+//
+//   f, m: inertia and internal forces at the nodes, minus loads
 //
 // G has a column for each support: (1, 0, -(y - y_c)), (0, 1, x - x_c), (0, 0, 1). Up to three independent supports can
 // be distinguished. Moments are divided by the size of the body.
@@ -23,13 +24,14 @@ struct BodyReaction {
 /// Mesh nodes of a body.
 [[nodiscard]] std::vector<int> nodes_of_body(const assembly::DofMap& map, int body);
 
-/// Errors: SceneError if the supports of the body are statically indeterminate.
+/// Adds the requested reaction to the row. Errors: SceneError if the supports of the body are statically
+/// indeterminate.
 void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const StructureRows& rows,
                        const BodyReaction& asked, PhysicalRow& row);
 
 // Forces of springs with a preload, in the undeformed structure and at the start.
 //
-//   cold  F_c = preload        at the start  F = preload + k d.u0        variability |F_c - F| / |F|
+//   cold  F_c = preload        at t = 0  F = preload + k d.u0        variability |F_c - F| / |F|
 
 /// Sets Model::hangers; u0 has the physical degrees of freedom.
 void find_hangers(const Scene& scene, const assembly::DofMap& map, Model& model);

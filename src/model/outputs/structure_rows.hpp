@@ -4,8 +4,8 @@
 //   reaction of a support  R = sum of f + springs + masses + ( N n + T t ) of contacts - forces at the node
 //   sum over the supports  R = inertia - loads + springs and contacts to the ground
 //
-// a_b: acceleration of the base, g: gravity. For node scenes; degrees of freedom moved by a support follow its history,
-// fixed ones are zero.
+// a_b: acceleration of the base, g: gravity. For scenes with nodes. Degrees of freedom moved by a support
+// follow its history, fixed ones are zero.
 #pragma once
 
 #include "model/assembly/loads.hpp"
@@ -37,19 +37,21 @@ class StructureRows {
 
   /// row += cu u + (cv + rayleigh) v + ca a for a number of DofMap::numbers_at().
   void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca, double rayleigh = 0.0) const;
-  /// Acceleration of the base and gravity as an acceleration of all nodes: row += x times it along x, y along y.
+  /// Adds the acceleration of the base, minus gravity, times the factor x along x and y along y.
+  /// gravity = false: without gravity.
   void add_base_acceleration(PhysicalRow& row, double x, double y, bool gravity = true) const;
-  /// Adds the cut of an element.
+  /// Adds a section force of an element.
   void add_section_force(PhysicalRow& row, std::size_t element, const element::SectionForce& cut) const;
   /// factors . (sigma_x, sigma_y, tau_xy) at a node of a body, an index into Scene::bodies (nodal_stress.hpp),
   /// including stiffness-proportional damping: sigma = D (B (u + beta v) - alpha T e).
   void add_stress(PhysicalRow& row, std::size_t body, int node, const Eigen::RowVector3d& factors) const;
-  /// The force in a spring times a factor, preload and damper included: positive if its node has moved along its
-  /// direction.
+  /// Adds the force in a spring times a factor, preload and damper included. It is positive if the node has
+  /// moved along the spring's direction. rotation: the spring acts on the rotation.
   void add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const;
-  /// Reaction at component c (0 x, 1 y, 2 rotation) of a node.
+  /// Adds the reaction at component c (0 x, 1 y, 2 rotation) of a node, times a factor.
   void add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const;
-  /// Loads minus inertia, springs and contacts to the ground: along x or y.
+  /// Adds loads minus inertia, minus the forces of springs and contacts to the ground, along x (c = 0) or y
+  /// (c = 1).
   void add_total(PhysicalRow& row, std::size_t c) const;
 
  private:
@@ -80,11 +82,11 @@ class StructureRows {
 
 // N, V, M and stresses along a piece of a member.
 //
-//   stress = N / area -+ i M / modulus      - on the left of the way, + on its right, where M > 0 is tensile
+//   stress = N / area -+ i M / modulus      - on the left of the path, + on its right, where M > 0 is tensile
 //
-// i: stress intensification, as given, or that of the member's bend.
+// i: stress intensification factor, as given, or that of the pipe bend.
 
-/// A way from node to node; the piece may have the opposite direction.
+/// A path from node to node along a piece. backwards: the piece has the opposite direction.
 struct MemberPath {
   const element::MeshPiece* piece = nullptr;
   bool backwards = false;
@@ -97,7 +99,7 @@ struct SectionQuantity {
   std::optional<double> intensification = {};
 };
 
-/// The quantity that an output requests, for one fibre.
+/// The quantity of an output, for one fibre.
 [[nodiscard]] SectionQuantity section_quantity(const OutputSpec& spec, Fibre fibre);
 
 /// Number of points of an element whose interpolation polynomial is the quantity (base/curves.hpp).
@@ -107,14 +109,14 @@ class MemberForces {
  public:
   MemberForces(const Scene& scene, const assembly::DofMap& map) : scene_(scene), map_(map) {}
 
-  /// The k-th element on the way.
+  /// Index of the k-th element on the path.
   [[nodiscard]] static std::size_t element_of(const MemberPath& way, std::size_t k);
-  /// Cut at a position x of the k-th element on the way, 0 to 1. Errors: SceneError under `key` for a section with
-  /// unknown stress properties.
+  /// The quantity at a position x, 0 to 1, of the k-th element on the path. Errors: SceneError under `key`
+  /// for a section with unknown stress properties.
   [[nodiscard]] element::SectionForce section_force(const MemberPath& way, std::size_t k, double x,
                                                     const SectionQuantity& wanted, const SourcePlace& place,
                                                     const std::string& key) const;
-  /// k and x at a station of the whole piece.
+  /// k and x at a station of the whole piece, 0 to 1.
   [[nodiscard]] static std::pair<std::size_t, double> place_of(const MemberPath& way, double station);
 
  private:

@@ -12,12 +12,12 @@
 namespace signorini::reduce {
 namespace {
 
-constexpr int dense_at_most = 5000;    // the same, where the cutoff leaves a third of all modes or more
+constexpr int dense_at_most = 5000;    // limit of the dense solver if a third of all modes or more is kept
 constexpr int most_modes = 5000;       // that can be kept
-constexpr double roundings = 1e-12;    // of the terms of a sum, that count as zero
-constexpr double shift_share = 1e-3;   // of omega^2 of the first mode left out, or of the highest one
-constexpr double least_shift = 1e-11;  // of the greatest K_ii/M_ii, with free motions: digits that remain
-constexpr int corrections = 6;         // each leaves shift/omega^2 < shift_share of what was missing
+constexpr double roundings = 1e-12;    // relative to the terms of a sum: below it the sum is zero
+constexpr double shift_share = 1e-3;   // of omega^2 of the first truncated mode, or of the highest one
+constexpr double least_shift = 1e-11;  // relative to the largest K_ii/M_ii, with free motions
+constexpr int corrections = 6;         // each reduces the error by shift/omega^2 < shift_share
 constexpr double margin = 1e-6;  // relative, of omega^2, between a mode and where modes below are counted
 
 double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiffness) {
@@ -27,7 +27,7 @@ double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiff
   return greatest;
 }
 
-/// All modes: massless degrees of freedom are condensed, then shapes completed.
+/// All modes: massless degrees of freedom are condensed, and the shapes extended to them.
 base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   const SparseMatrix h = assembly::select_by_mass(mass, true), l = assembly::select_by_mass(mass, false);
   const SparseMatrix m = h.transpose() * mass * h, k = h.transpose() * stiffness * h;

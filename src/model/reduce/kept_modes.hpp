@@ -25,7 +25,7 @@ namespace signorini::reduce {
 /// Degrees of freedom with mass up to which all modes are computed, whatever the cutoff.
 inline constexpr int all_modes_up_to = 400;
 
-/// Why a structure cannot be reduced so.
+/// Thrown with the reason why a structure cannot be reduced with this cutoff.
 struct NotReducible : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -36,11 +36,12 @@ struct KeptModes {
   int free = 0;                  ///< number of free motions among them
   int truncated_modes = 0;       ///< modes with mass above the cutoff
   double first_truncated = 0.0;  ///< rad per time; 0: none
-  double shift = 0.0;  ///< shift of omega^2 with which K + shift M is regular; far below the modes left out
+  double shift = 0.0;            ///< makes K + shift M regular; far below omega^2 of the truncated modes
 };
 
-/// `free`: all null motions of K, n x f; each must have mass. K must be positive semidefinite. Throws NotReducible if
-/// there are more modes than the limit, or if fewer were found than counted.
+/// All modes with omega <= cutoff. free: all null motions of K, n x f; each must have mass. K must be
+/// positive semidefinite. Throws NotReducible if there are more modes than the limit, or if fewer are found
+/// than counted.
 [[nodiscard]] KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                                     const Eigen::MatrixXd& free);
 
@@ -51,7 +52,7 @@ class ResidualFlexibility {
  public:
   /// Mass and modes are kept by reference. Throws NotReducible where K is singular beyond the free motions.
   ResidualFlexibility(const SparseMatrix& mass, const SparseMatrix& stiffness, const KeptModes& modes);
-  /// G_res f; n. Exactly 0 where no mode is left out and all degrees of freedom have mass.
+  /// G_res f; n. Exactly 0 if no mode is truncated and all degrees of freedom have mass.
   [[nodiscard]] Vector response(const Vector& f) const;
 
  private:
@@ -65,12 +66,12 @@ class ResidualFlexibility {
   assembly::SymmetricSolver solver_;
 };
 
-// Shapes for the static compliance of the modes left out.
+// Shapes for the static compliance of the truncated modes.
 //
 //   massive:   Ritz vectors of (K, M) in the span of G_res f_h,   psi^T M psi = 1,  psi^T K psi = omega_h^2
 //   massless:  K-orthonormal, in the span of G_res f, K-orthogonal to the massive ones
 //
-// A direction gets no shape of its own if its residual compliance, beyond that of earlier shapes, is below 1e-12 of its
+// A direction has no shape of its own if earlier shapes represent its residual compliance up to 1e-12 of its
 // compliance in all modes.
 
 /// A direction along which a force acts.
@@ -90,19 +91,20 @@ struct StaticShapes {
 [[nodiscard]] StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffness,
                                          const KeptModes& modes, const std::vector<ActingForce>& forces);
 
-// Is a damping matrix from a file alpha M + beta K?
+// Test whether a damping matrix from a file is alpha M + beta K.
 //
 //   | C - alpha M - beta K |_ij <= 1e-9 ( |C| + |alpha M| + |beta K| )_ij   for all ij,   alpha, beta >= 0
 //
-// 1e-9: programs write matrices with at least ten digits. A reduced model then damps its modes by alpha and beta. With
-// C itself its static shapes would have dampers with time constants far below those of the modes.
+// 1e-9: programs write matrices with at least ten digits. If it is, a reduced model damps its modes by alpha
+// and beta. With C itself its static shapes would have dampers with time constants far below those of the
+// modes.
 
 struct RayleighFactors {
   double alpha = 0.0;  ///< 1/time
   double beta = 0.0;   ///< time
 };
 
-/// All matrices symmetric, of one size. nullopt: C is not of that form, or zero.
+/// alpha and beta of C; all matrices are symmetric and of one size. nullopt: C is not of that form, or zero.
 [[nodiscard]] std::optional<RayleighFactors> rayleigh_factors(const SparseMatrix& damping,
                                                               const SparseMatrix& mass,
                                                               const SparseMatrix& stiffness);

@@ -19,14 +19,15 @@ namespace signorini::reduce {
 namespace {
 
 constexpr double nothing = 1e-14;      // relative part of a form on a shape of size 1 that is rounding
-constexpr double quick_damper = 1e-6;  // time constant of a static shape times the first frequency left out
+constexpr double quick_damper = 1e-6;  // time constant of a static shape times the first truncated frequency
 constexpr double over_damped = 2.0;    // beta times a frequency: above this value a mode is overdamped
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction", why);
 }
 
-/// Every massless motion must have a static response, and every other one a mode.
+/// Refuses structures that cannot be reduced: every massless motion must have a static response, every other
+/// motion a mode.
 void check_reducible(const Scene& scene, const Model& model) {
   std::vector<int> light;
   for (int i = 0; i < model.size(); ++i)
@@ -53,8 +54,8 @@ void check_reducible(const Scene& scene, const Model& model) {
                         "to compare with the cutoff; leave [reduction] out");
 }
 
-/// Shapes that follow a support immediately are computed without their damping, which must be that of the elastic
-/// stiffness alone.
+/// Refuses moving supports with beta K and prestress: shapes that follow a support immediately are computed
+/// without their damping, which must be that of the elastic stiffness alone.
 void check_frozen(const Scene& scene, const Model& model) {
   const bool follows = std::any_of(model.loads.begin(), model.loads.end(),
                                    [](const Load& load) { return load.kind == LoadKind::support_rate; });
@@ -136,8 +137,8 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
     const double size = c.cwiseAbs().maxCoeff();
     b.damping += (c.array().abs() > nothing * size).select(c, 0.0);
   }
-  // A dashpot that only a static shape moves, and that relaxes much faster than any mode left out, would make the
-  // equations stiff without any other effect.
+  // A dashpot that only a static shape moves, and that relaxes much faster than any truncated mode, would
+  // make the equations stiff without any other effect.
   const double first = modes.first_truncated;
   for (Eigen::Index j = b.heavy; j < b.shapes.cols(); ++j) {
     if (first > 0.0 && b.damping(j, j) * first <= quick_damper) {
@@ -262,10 +263,9 @@ Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, con
 }
 
 /// Error bound of a form that was zero, after its motion was written as u = R q and q was recomputed from u:
-///
 ///   many_operations sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|
-///
-/// The second term belongs to the shapes that the reduced form N omits, because they move along n only by rounding.
+/// The second sum belongs to shapes that the reduced form N omits, because they move along n only by
+/// rounding.
 double noise_of(const Basis& b, const Combination& physical, const Combination& reduced, const Vector& q) {
   const Vector n = assembly::dense_vector(physical, static_cast<int>(b.shapes.rows()));
   const Vector left_out =
@@ -275,7 +275,8 @@ double noise_of(const Basis& b, const Combination& physical, const Combination& 
          left_out.cwiseAbs().dot(size);
 }
 
-/// A saved state of a reduced run has closed gaps and closing velocities only to rounding; they are set to zero again.
+/// Sets gaps and their rates to zero again that were zero in a reduced run: a saved state contains them only
+/// up to rounding.
 void close_saved(const Model& model, const Basis& b, const std::vector<Contact>& contacts, const Vector& q,
                  const Vector& w, std::vector<double>& gap, std::vector<double>& rate) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -287,8 +288,8 @@ void close_saved(const Model& model, const Basis& b, const std::vector<Contact>&
   }
 }
 
-/// Amplitudes of the initial state: modes by the work of M, static shapes by that of K, so a static state is
-/// reproduced. The remainder is reported.
+/// Sets the amplitudes of the initial state: those of modes by products with M, those of static shapes by
+/// products with K, so that a static state is reproduced. The remainder is reported.
 void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model& model,
                   const std::vector<Contact>& contacts, Reduction& facts) {
   const Eigen::Index size = b.shapes.cols();

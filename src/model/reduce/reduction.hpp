@@ -12,17 +12,17 @@
 // Psi is K-orthogonal to G_res f_h, and f_h . Psi = (G_res f_h)^T K Psi = 0: a direction that needs mass is never
 // coupled to a massless shape.
 //
-// C is R^T C R, without the part alpha M on Psi, whose mass is neglected, too. Psi is rotated so that the dampers give
-// each shape its own time constant, or none.
+// C is R^T C R with R = (Phi, Psi_h, Psi), without the part alpha M on Psi, whose mass is neglected as well.
+// Psi is rotated so that the dampers give each shape its own time constant, or none.
 //
-// beta K acts on Psi only if it overdamps every mode left out. A mode left out,
+// beta K acts on Psi only if it overdamps every truncated mode. A truncated mode,
 //
 //   z'' + beta omega^2 z' + omega^2 z = f,
 //
-// oscillates if beta omega <= 2. Its inertia, which is neglected, then delays z longer than beta does, 1/omega >=
-// beta/2. With beta alone a shape would respond to a jump of f with z' = f/(omega^2 beta) and z'' = z'/beta, which grow
-// as the damping decreases. So the shape responds immediately, as without damping. With beta omega > 2 z follows f with
-// the time constant beta, and so does the shape.
+// oscillates if beta omega <= 2. The response time 1/omega by its inertia, which is neglected, is then longer
+// than beta/2. With beta alone a shape would respond to a jump of f with z' = f/(omega^2 beta) and
+// z'' = z'/beta, which grow as the damping decreases. So in this case the shape responds immediately, as
+// without damping. With beta omega > 2, z follows f with the time constant beta, and so does the shape.
 //
 // Each shape is scaled to a largest translation of 1 (rotations by the scene's scales), so that tolerances of
 // displacements apply to its amplitude.
@@ -34,13 +34,14 @@
 
 namespace signorini::reduce {
 
-/// dampers: C without alpha M + beta K; n x n. dashpots: the same without the correction of beta K for frozen forces
-/// (run.geometric), which is omitted with beta K. Errors: SceneError if a motion without mass has no stiffness, if K
-/// has negative energy, and if a direction that needs mass would have none.
+/// Reduces a model. dampers: C without alpha M + beta K; n x n. dashpots: the same without the correction of
+/// beta K for prestress (run.geometric); used on shapes without beta K. Errors: SceneError if a motion
+/// without mass has no stiffness, if K has negative energy, and if a direction that needs mass would have
+/// none.
 void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix& dashpots, Model& model);
 
-/// True if shapes without mass are damped by beta; first_left_out: Reduction's (0: no mode is left out, so they belong
-/// to massless parts of the structure itself).
+/// True if beta damps the shapes without mass. first_left_out: frequency of the first truncated mode, rad per
+/// time; 0: no mode is truncated, and the shapes belong to massless parts of the structure.
 [[nodiscard]] bool static_shapes_are_damped(double beta, double first_left_out);
 
 }  // namespace signorini::reduce

@@ -4,19 +4,19 @@
 //   K u + sum_k ( n_k N_k + t_k T_k ) = P(l),    P(l) = P_before + l dP,   0 <= l <= 1
 //   n . u - N / kn = -gap,   t . u - T / kt = p   on closed contacts; 1 / k = 0 on rigid ones
 //
-// For given states everything is linear in l, so a change of state is found as the root of a line. At a change, the
-// rates along l determine the next states: with opening x, slip rate p' = a - b,
+// For given states everything is linear in l, so a change of state is the zero of a linear function. At a
+// change, the rates along l determine the next states, with the opening rate x and the slip rate p' = a - b:
 //
 //   touching, N = 0        -N'           _|_ x >= 0
 //                          -f N' -+ T'   _|_ a, b >= 0
 //   at its limit, T = s f |N|    -f N' - s T'  _|_ s p' >= 0
 //
-// This is one linear complementarity problem of all contacts that touch or are at their limit (quasi_static_rates.hpp). If
-// there is no solution, or no stiffness left, the continuation would be dynamic, and the start is refused. If there are
-// several solutions, one is taken and reported.
+// This is one linear complementarity problem of all contacts that touch or are at their limit
+// (quasi_static_rates.hpp). If there is no solution, or a motion without stiffness, the continuation would be
+// dynamic, and the start is refused. If there are several solutions, one is taken and reported.
 //
-// If closed contacts at their limits leave a motion without resistance, many slips are possible with the same forces;
-// the smallest one is taken (smallest_motion.hpp) and reported in StaticStart::doubts.
+// If closed contacts at their limits do not resist some motion, many slips are possible with the same forces.
+// The smallest one is taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
 #pragma once
 
 #include <vector>
@@ -41,15 +41,15 @@ struct FrictionalEquilibrium {
   std::vector<LimitMargin> margins;  ///< one per contact
 };
 
-/// Starts from u = 0 without load. Errors: SceneError at `place` with the stage, the fraction reached, and the
-/// unconstrained motion.
+/// Applies the stages, from u = 0 without load. Errors: SceneError at `place` with the stage, the fraction
+/// reached, and the unconstrained motion.
 [[nodiscard]] FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
                                                            const std::vector<Contact>& contacts,
                                                            const std::vector<Stage>& stages,
                                                            const assembly::DofMap& map,
                                                            const SourcePlace& place);
 
-/// Adds one more stage with another stiffness.
+/// Applies one more stage with another stiffness.
 [[nodiscard]] FrictionalEquilibrium continue_loading(FrictionalEquilibrium from,
                                                      const SparseMatrix& stiffness,
                                                      const std::vector<Contact>& contacts, const Stage& stage,

@@ -50,8 +50,9 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   return x * base::symmetric_eigen(0.5 * (projected + projected.transpose())).vectors;
 }
 
-/// True if no eigenvalue is near the limit of is_null, many_operations |x|^T |a| |x| / |x|^2: a has no negative pivot after ten
-/// times this value is subtracted, and the error of a factorisation is below one time.
+/// True if no eigenvalue is near the limit of is_null(), many_operations |x|^T |a| |x| / |x|^2. The test: a
+/// has no negative pivot after ten times this limit is subtracted; the error of the factorisation is below
+/// the limit.
 bool surely_constrained(const SparseMatrix& a) {
   const auto n = a.rows();
   const double most = (a.cwiseAbs() * Vector::Ones(n)).maxCoeff();

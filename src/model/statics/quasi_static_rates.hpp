@@ -5,13 +5,13 @@
 // Lemke's method is tried first. With friction M is not copositive-plus, and the method may end in a ray although there
 // is a solution. Then all combinations of the contacts' alternatives are tried:
 //
-//   touching      w = 0 of           at its limit   w = 0 of
+//   touching      w = 0 for          at its limit   w = 0 for
 //   stick         none               stick          none
 //   slip +, -     that slip          slip           that slip
 //   open          opening and slip, whose sign is free: N' = 0, T' = 0
 //
-// If several hold, the one with the smallest |z| is taken: it is independent of the scene's orientation, reflection and
-// numbering.
+// If several combinations hold, the one with the smallest |z| is taken: it is independent of the scene's
+// orientation, reflection and numbering.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,13 +28,13 @@ struct QuasiStaticRates {
   bool ambiguous = false;  ///< other rates satisfy the conditions, too
 };
 
-/// q: its largest entry has magnitude one. Unknowns of one contact are adjacent, its opening first. nullopt if no
-/// combination holds, or if there are more than max_combinations.
+/// The rates z. q: its largest entry has magnitude one. Unknowns of one contact are adjacent, its opening
+/// first. nullopt: no combination holds, or there are more than max_combinations.
 [[nodiscard]] std::optional<QuasiStaticRates> quasi_static_rates(const Eigen::MatrixXd& m,
                                                                  const Eigen::VectorXd& q,
                                                                  const std::vector<Unknown>& unknowns);
 
-/// Chosen value: a start tries this number in less than a second.
+/// Chosen value: this number of combinations takes less than a second.
 inline constexpr std::size_t max_combinations = 20'000;
 
 // State of a contact during quasi-static loading, and its distance from the limits.
@@ -47,9 +47,9 @@ struct LimitMargin {
   State state = State::open;
   double gap = 0.0, N = 0.0, T = 0.0;
   double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
-  double given_gap_rate = 0.0;    ///< rate of the given gap, without displacements, while an interference is
-                                  ///< fitted
-  int normal = -1, tangent = -1;  ///< rows in force
+  /// Rate of the given gap, without displacements, while an interference is applied.
+  double given_gap_rate = 0.0;
+  int normal = -1, tangent = -1;  ///< indices of active constraint rows; -1: none
 };
 
 /// State before any load.
@@ -62,7 +62,8 @@ struct LimitMargin {
 
 /// Threshold below which a force is zero, for the largest force so far.
 [[nodiscard]] double force_tolerance(double greatest);
-/// zero: threshold of forces; travelled: sum of the magnitudes of the gap's terms.
+/// True if the contact has neither a gap nor a compression. zero: threshold of forces; travelled: sum of the
+/// magnitudes of the gap's terms.
 [[nodiscard]] bool touching(const Contact& contact, const LimitMargin& standing, double zero,
                             double travelled);
 

@@ -37,9 +37,9 @@ Eigen::VectorXd smallest_motion(const Eigen::MatrixXd& b, const Eigen::VectorXd&
 
 bool has_other_motions(const Eigen::MatrixXd& b, const Eigen::VectorXd& r,
                        const std::vector<AdmissibleDirection>& ways) {
-  constexpr double moves = 1e-6;  // relative to the trial displacement: far above rounding; the trial motion
-                                  // is nowhere nearly orthogonal to an admissible cone
-                                  // of ways so nearly square
+  // Relative to the trial displacement. Chosen: far above rounding; the trial motion is not nearly orthogonal
+  // to an admissible cone.
+  constexpr double moves = 1e-6;
   Eigen::VectorXd draft(b.cols());
   for (Eigen::Index j = 0; j < draft.size(); ++j)
     draft[j] = (1.0 + 0.37 * static_cast<double>(j)) / b.col(j).norm();  // a generic direction

@@ -1,11 +1,12 @@
-// smallest_motion.hpp: the smallest of all possible motions.
+// smallest_motion.hpp: the smallest of all possible motions of contacts.
 //
 //   r = g + B c,   s_i r_i >= 0 where only the direction s_i is admissible;   least |r - a|, a = B b
 //
 //   r = a + (I - P)(g - a) + P S z,   P: onto the columns of B,   0 <= z  _|_  S r >= 0
 //
-// r: slips and openings of contacts (lengths or rates), so the result is independent of the scene's orientation,
-// reflection and numbering. The solution is one linear complementarity problem, P S being symmetric and semidefinite.
+// r: slips and openings of contacts (lengths or rates), so that the result is independent of the scene's
+// orientation, reflection and numbering. S: columns for rows with one admissible direction, with entry s_i.
+// This is one linear complementarity problem with a symmetric and semidefinite matrix S^T P S.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,25 +17,26 @@
 
 namespace signorini::statics {
 
-/// Admissible directions of one of several contacts along its row.
+/// Admissible directions of a contact along one of its rows.
 enum class AdmissibleDirection : signed char { negative = -1, both = 0, positive = 1 };
 
-/// Returns r; b: rows x motions, columns independent; g: one possible r; about: motions, one entry per column of b.
+/// Returns r. b: B, rows x motions, columns independent; g: one possible r; ways: one entry per row; about:
+/// vector b of the equation, one entry per motion.
 [[nodiscard]] Eigen::VectorXd smallest_motion(const Eigen::MatrixXd& b, const Eigen::VectorXd& g,
                                               const std::vector<AdmissibleDirection>& ways,
                                               const Eigen::VectorXd& about);
 
-/// True if there are others than r.
+/// True if r is not the only possible motion.
 [[nodiscard]] bool has_other_motions(const Eigen::MatrixXd& b, const Eigen::VectorXd& r,
                                      const std::vector<AdmissibleDirection>& ways);
 
-// Slips and openings that motions without resistance leave undetermined.
+// Slips and openings that are undetermined, because some motions have no resistance.
 //
-//   rates + Z c,   K_held Z = 0: fixed by the rows that may not move;   the smallest of all slips and openings
+//   rates + Z c,   Z: motions without stiffness that move only these rows;   c: smallest slips and openings
 //
-// Forces do not change (smallest_motion.hpp).
+// Forces do not depend on c.
 
-/// An unknown of the complementarity problem: moves `row` by sign z; its condition is in terms of rates.
+/// An unknown z of the complementarity problem (quasi_static_rates.hpp): a rate that moves `row` by sign z.
 struct Unknown {
   std::size_t contact;
   int row;
@@ -47,9 +49,9 @@ struct SlipDistribution {
   const assembly::DofMap& map;
   const std::vector<ConstraintRow>& rows;
   const std::vector<Unknown>& unknowns;
-  const std::vector<double>& conditions;  ///< one per unknown, complementary to it; force
+  const std::vector<double>& conditions;  ///< w, one per unknown, complementary to it; force
   Eigen::VectorXd z;                      ///< one per unknown; force
-  double greatest_force;                  ///< largest rate of a force in the rows
+  double greatest_force;                  ///< largest rate of a force on the rows
 };
 
 struct SmallestSlips {
@@ -59,7 +61,7 @@ struct SmallestSlips {
   Vector motion;  ///< a motion without resistance; n
 };
 
-/// Adds the smallest such motion to the rates (n).
+/// Adds the motion Z c with the smallest slips to the rates (n).
 [[nodiscard]] SmallestSlips smallest_slips(const SlipDistribution& given, Vector& rates);
 
 }  // namespace signorini::statics

@@ -89,14 +89,14 @@ std::vector<assembly::LineSpring> ConstraintRows::springs() const {
 namespace {
 
 constexpr double min_norm_friction = 1e-3;  // relative to a row's largest entry: limit for a pivot
-constexpr double holds = 1e-6;  // value of a tangent on a motion of size 1: below it the contact does not
-                                // hold the motion
-constexpr double firmly = 4.0;  // times the destabilising stiffness, so that it is held even if two share a
-                                // row
+// Slip by a motion of size 1: if it is smaller, the contact does not hold the motion.
+constexpr double holds = 1e-6;
+// Times the destabilising stiffness, so that it is held even if two share a row.
+constexpr double firmly = 4.0;
 constexpr double weak_share = 1e-10;  // relative to the diagonal: leaves six digits and fixes loose motions
-constexpr double undriven = 1e-9;     // relative to the largest load times motion: less work does not drive a
-                                      // free motion
-constexpr int together_up_to = 300;   // degrees of freedom; above, part by part
+// Relative to the largest load times motion: less work does not drive a free motion.
+constexpr double undriven = 1e-9;
+constexpr int together_up_to = 300;  // degrees of freedom; above, part by part
 
 /// Completes the independent rows (p x m) by unit rows. Each row takes the first column with a sufficient pivot, so
 /// that a contact holds the horizontal motion rather than a combination with a rotation.
@@ -150,8 +150,8 @@ double structural_stiffness(const SparseMatrix& k, const Combination& form) {
   for (const auto& [i, a] : form.terms)
     if (a != 0.0) against = std::max(against, -firmly * k.coeff(i, i) / (a * a));
   if (sum > 0.0) return std::max(sum / (length * length), against);
-  const double largest = k.diagonal().cwiseAbs().maxCoeff();  // no stiffness there: the largest of the
-                                                              // structure
+  // If there is no stiffness along the form, the largest one of the structure is used.
+  const double largest = k.diagonal().cwiseAbs().maxCoeff();
   return largest > 0.0 ? largest / length : 1.0 / length;
 }
 

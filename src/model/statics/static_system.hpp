@@ -1,8 +1,8 @@
 // static_system.hpp: equilibrium of a structure with given closed contacts.
 //
-//   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at the holders h
-//   rigid ones: n . u = -g0 by a multiplier N, P - n N
-//               kn then is as stiff as the structure; it does not affect the solution
+//   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at contacts h that fix free motions
+//   rigid contacts: n . u = -g0 by a multiplier N, P - n N; their kn is that of the structure, and does not
+//                   affect the solution
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace signorini::statics {
 
-// A structure with the constraint rows that are in force.
+// A structure with constraint rows.
 //
 //   K u + sum_j d_j F_j = P,    d_j . u - c_j F_j = r_j        c_j = 0: rigid
 //
@@ -30,7 +30,8 @@ struct ConstraintRow {
   bool rigid = false;
 };
 
-/// True if rigid rows that are not loose also prevent the motion along this row. Its force then is not unique.
+/// True if other rigid rows that are not loose also prevent the motion along this row. Its force is then not
+/// unique.
 [[nodiscard]] bool is_also_constrained(const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose,
                                        std::size_t row);
 
@@ -38,12 +39,12 @@ class ConstraintRows {
  public:
   ConstraintRows(const SparseMatrix& k, std::vector<ConstraintRow> rows);
 
-  /// True if the matrix is positive definite: there is no unconstrained motion.
+  /// True if the matrix is positive definite: every motion has stiffness.
   [[nodiscard]] bool regular() const { return regular_; }
   /// Number of rows.
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
-  /// u and the forces F, one per row, for loads and for given r. Requires regular().
+  /// u and the forces F, one per row, for loads P and given r. Requires regular().
   [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const;
 
  private:
@@ -61,7 +62,7 @@ class ConstraintRows {
   std::vector<Vector> responses_;
 };
 
-/// A spring constant along the form, as stiff as the structure.
+/// The structure's own stiffness along the form, as a spring constant.
 [[nodiscard]] double structural_stiffness(const SparseMatrix& k, const Combination& form);
 
 struct StaticProblem {
@@ -70,7 +71,7 @@ struct StaticProblem {
   const std::vector<Contact>& contacts;
   const assembly::DofMap& map;
   double rigid_stiffness_factor = 1.0;  ///< stiffness of rigid contacts, in units of the structure's own
-  bool forces = false;  ///< request: contacts that hold loose motions must carry no other forces
+  bool forces = false;                  ///< true: forces must not include the weak support of mechanisms
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return !contacts[k].normal_force_given(); }
@@ -86,22 +87,22 @@ struct StaticProblem {
   [[nodiscard]] Vector right_side(const std::vector<bool>& closed) const;
 };
 
-/// A free motion and the contact whose ut = 0 fixes it (-1: none, it stays at zero).
+/// A free motion, and the contact whose condition ut = 0 fixes it (-1: none, the motion is zero).
 struct FreeMotion {
   Vector motion;
   int contact_index = -1;
 };
 
-/// The free motions of the null space `null` (n x m), one per holding contact: contacts in file order, closed ones and
-/// sliders first, open ones last unless `pressed_only`. Motions are scaled to t_h . motion = 1 at their own contact and
-/// 0 at the others.
+/// A basis of the null space `null` (n x m), with the contact that fixes each motion. Contacts are taken in
+/// file order: closed ones and sliders first, then open ones unless `pressed_only`. A motion has the slip 1
+/// at its own contact and 0 at the other contacts of the basis.
 [[nodiscard]] std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem,
                                                              const Eigen::MatrixXd& null,
                                                              const std::vector<bool>& closed,
                                                              bool pressed_only = false);
 
-/// The displacement with the free motions held, and -N of every contact; for closed rigid contacts the required
-/// reaction, with either sign.
+/// The displacement with the free motions fixed, and -N of every contact; for closed rigid contacts the
+/// required reaction, with either sign.
 struct ConstrainedState {
   Vector u;
   std::vector<double> reactions;
@@ -110,9 +111,9 @@ struct ConstrainedState {
                                                  const std::vector<bool>& closed,
                                                  const std::vector<FreeMotion>& held);
 
-/// Work of the loads on a free motion, at the displacement u of solve_constrained: zero in equilibrium. k and p: matrix() and
-/// right_side() of the problem. Work below rounding, or below 1e-9 of the largest load times the largest displacement,
-/// counts as zero.
+/// Work of the loads on a free motion, at the displacement u of solve_constrained(): zero in equilibrium. k
+/// and p: matrix() and right_side() of the problem. Work below rounding, or below 1e-9 of the largest load
+/// times the largest displacement, counts as zero.
 [[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
                                   const Vector& motion, const Vector& u);
 
@@ -121,7 +122,7 @@ struct ConstrainedState {
 //   a slider    its given normal force at t = 0
 //   others      reaction in static equilibrium, if the run begins with it
 
-/// Unit: force. nullopt if the run begins with a given motion and the contact is no slider.
+/// -N of a contact, force. nullopt: the run begins with a given motion, and the contact is no slider.
 [[nodiscard]] inline std::optional<double> static_reaction(const Model& model, std::size_t contact) {
   const Contact& c = model.contacts[contact];
   if (c.normal_force_given()) return c.normal_force.value(0.0);

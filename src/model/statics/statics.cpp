@@ -202,8 +202,8 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
 
 namespace {
 
-constexpr double no_stiffness = 1e-12;  // relative to the diagonal: makes the matrix regular, and is
-                                        // negligible beside contact springs
+// Relative to the diagonal: it makes the matrix regular, and is negligible relative to contact springs.
+constexpr double no_stiffness = 1e-12;
 
 std::vector<bool> closed_at(const StaticProblem& problem, const Vector& u) {
   std::vector<bool> closed(problem.contacts.size(), false);

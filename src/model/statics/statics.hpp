@@ -2,16 +2,20 @@
 //
 //   K u = P - sum_k n_k N_k,   N_k = kn_k min(g_k, 0),   g_k = g0_k + n_k . u
 //
-// It is the minimum of the convex, piecewise quadratic energy u K u / 2 - P u + sum kn min(g, 0)^2 / 2, found by
-// Newton's method with an exact line search, which cannot cycle, starting with all contacts closed.
+// The solution is the minimum of the convex, piecewise quadratic energy
 //
-// A null motion of K + sum_closed kn n n^T on which the loads do no work is free: it is fixed by ut = 0 at the first
-// suitable contact in file order. A null motion on which the loads do work is refused. Sliders carry nothing here, but
-// can fix a free motion. A contact without normal force is open if the structure does not reach it, whatever the sign
-// of its rounded reaction.
+//   u K u / 2 - P u + sum kn min(g, 0)^2 / 2.
 //
-// With geometric stiffness (run.geometric) K may have negative energy while contacts are open, and Newton's method may
-// have no minimum to find. It then starts with the contacts that are closed without geometric stiffness.
+// It is found by Newton's method with an exact line search, which cannot cycle, starting with all contacts
+// closed.
+//
+// A null motion of K + sum_closed kn n n^T on which the loads do no work is free: it is fixed by ut = 0 at
+// the first suitable contact in file order. A null motion on which the loads do work is refused. Sliders have
+// no force here, but can fix a free motion. A contact without normal force is open if the structure does not
+// reach it, whatever the sign of its rounded reaction.
+//
+// With geometric stiffness (run.geometric) K may have negative energy while contacts are open, and the energy
+// no minimum. Newton's method then starts with the contacts that are closed without geometric stiffness.
 #pragma once
 
 #include <vector>
@@ -30,13 +34,13 @@ struct Equilibrium {
 
 struct EquilibriumSearch {
   const char* key = "run.initial";  ///< key for messages
-  bool mechanisms = false;          ///< unrestrained motions are allowed if no load drives them
-  /// One per contact: initial guess of the closed contacts; K need not be semidefinite without them.
+  bool mechanisms = false;          ///< true: mechanisms are allowed if no load does work on them
+  /// Initial guess of the closed contacts, one entry per contact; K need not be semidefinite without them.
   std::optional<std::vector<bool>> closed = {};
 };
 
-/// Errors: SceneError at `place` that names unrestrained motions, driven motions, and contacts that would be in
-/// tension.
+/// The equilibrium under a load. Errors: SceneError at `place` that names mechanisms, motions on which the
+/// loads do work, and contacts that would be in tension.
 [[nodiscard]] Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
                                            const std::vector<Contact>& contacts, const assembly::DofMap& map,
                                            const SourcePlace& place, const Units& units,
@@ -48,7 +52,7 @@ struct EquilibriumSearch {
 //
 // The last term only keeps every Newton matrix regular while contacts open and close.
 
-/// closed[k] for every contact (false for sliders).
+/// closed[k] for every contact in the equilibrium (false for sliders).
 [[nodiscard]] std::vector<bool> closed_supports(const StaticProblem& problem);
 
 }  // namespace signorini::statics

@@ -1,7 +1,8 @@
-// complex_lanes.hpp: complex numbers whose products are four multiplications.
+// complex_lanes.hpp: complex numbers whose products are four multiplications, and vectorised sums of them.
 //
-// std::complex must treat infinities in products and quotients, which costs several times the arithmetic; here
-// infinities do not occur. The functions at the end allow kernels to be written once for real and complex numbers.
+// std::complex must treat infinities in products and quotients, which takes several times as long as the
+// arithmetic. Infinities do not occur here. Functions like inverse() and size_of() allow a kernel to be
+// written once for real and complex numbers.
 #pragma once
 
 #include <cmath>
@@ -49,7 +50,7 @@ template <class R>
 [[nodiscard]] inline bool is_zero(Complex a) { return a.re == 0.0 && a.im == 0.0; }
 [[nodiscard]] inline double real_part(double a) { return a; }
 [[nodiscard]] inline double real_part(Complex a) { return a.re; }
-/// Contribution of a mode to a real quantity: itself, or itself and its conjugate.
+/// Contribution of a mode's term to a real quantity: the term, or the sum of the term and its conjugate.
 [[nodiscard]] inline double real_contribution(double a) { return a; }
 [[nodiscard]] inline double real_contribution(Complex a) { return 2.0 * a.re; }
 [[nodiscard]] inline Complex complex_sqrt(Complex a) {
@@ -64,18 +65,20 @@ template <class R>
 //
 //   one_i = 1/(l - D_i),   two_i = one_i^2,   sum_i one_i w_i,   sum_i two_i w_i
 //
-// Lists of real and imaginary parts; sums are taken in four parts.
+// Real and imaginary parts are in separate arrays. Every sum is computed as four partial sums.
 
-/// base + tiny: the poles; home_base + home_tiny: the pole from which own is measured. re, im: 1/(l - D_i).
+/// Writes 1/(l - D_i) to re, im. base + tiny: the poles D_i; home_base + home_tiny: the pole `home`.
 void inverse_distances(const double* base, const double* tiny, std::ptrdiff_t n, double home_base,
                        double home_tiny, const Complex& own, double* re, double* im);
+/// Writes the squares of n complex numbers.
 void square_all(const double* re, const double* im, std::ptrdiff_t n, double* square_re, double* square_im);
 /// sum_i (re_i + i im_i) w_i
 [[nodiscard]] Complex weighted_sum(const double* re, const double* im, const double* w, std::ptrdiff_t n);
-/// out_i = sum_a small_a side_ia / (D_i - l), side by columns of n.
+/// out_i = sum_a small_a side_ia / (D_i - l); side: n x rank, by columns.
 void cauchy_vector(const double* base, const double* tiny, std::ptrdiff_t n, double home_base,
                    double home_tiny, double own, const double* small, const double* side, std::ptrdiff_t rank,
                    double* out);
+/// sum_i (re_i + i im_i)
 [[nodiscard]] Complex complex_sum(const double* re, const double* im, std::ptrdiff_t n);
 
 }  // namespace signorini::modal

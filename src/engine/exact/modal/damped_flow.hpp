@@ -60,13 +60,13 @@ class DampedFlow final : public ModalFlow {
   long made_before_;
 };
 
-// Test that modes reproduce motions converted to them.
+// Test of the accuracy of complex modes: a motion converted to modes and back is unchanged.
 //
 //   | Re X y - q |,  | Re X L y - q' |   for   y = Y_q q + Y_r q',   relative to a motion of size 1
 
-/// Converts a motion within the constraints, each mode of which has an energy of about 1, to modes and back: sets
-/// round_trip, and failure if the loss is too large or the modes are nearly dependent. Modes and pencil are both
-/// rotated.
+/// Converts a motion that satisfies the constraints, with an energy of about 1 in each mode, to modes and
+/// back. Sets round_trip, and failure if the error is too large or the modes are nearly dependent. The modes
+/// must have the rotations of the pencil.
 void test_round_trip(const DampedPencil& pencil, DampedModes& modes);
 
 }  // namespace signorini::modal

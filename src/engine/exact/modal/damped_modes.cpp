@@ -87,7 +87,7 @@ void Search::merge_roots() {
   roots_ = std::move(parted);
 }
 
-/// Shapes in all modes, from the null vectors of T; right: null if the shape is known otherwise.
+/// Extends null vectors of T to all modes; right: null if the shape is already known.
 void Search::spread(const Local& local, Wide l, const SmallVector<Wide>* right, const SmallVector<Wide>& left,
                     Vectors& out) const {
   const auto near = [&](Index j) { return std::find(local.near.begin(), local.near.end(), j); };
@@ -134,7 +134,7 @@ Wide Search::product(Wide l, const Vectors& left, const Vectors& right) const {
 
 std::complex<double> narrow(Wide a) { return {static_cast<double>(a.re), static_cast<double>(a.im)}; }
 
-/// Scales to x of length 1 and y^T L' x = 1.
+/// Stores a root with its vectors, scaled so that |x| = 1 and y^T L' x = 1.
 void Search::keep(Wide l, const Vectors& v, Wide product, DampedModes& out) {
   Long size = 0, left = 0, from = 0;
   for (const Wide x : v.x) size += x.re * x.re + x.im * x.im;
@@ -208,7 +208,7 @@ bool Search::add_seen(const Root& root, DampedModes& out) {
   return true;
 }
 
-/// Adds the two roots of a mode that no term sees, and the mode's excitation.
+/// Adds the two roots of a mode that is coupled to no term, and the mode's excitation.
 bool Search::add_unseen(Index j, DampedModes& out) {
   const Long c = pencil_.decay()[j], d = pencil_.omega_squared()[j], inside = c * c / 4 - d;
   std::vector<Wide> roots;

@@ -1,4 +1,5 @@
-// damped_modes.hpp: complex modes of a structure in its open modes, with springs, dashpots and constraints.
+// damped_modes.hpp: complex modes of a structure with springs, dashpots and constraints, in its unconstrained
+// modes.
 //
 //   q_j'' + c_j q_j' + d_j q_j + sum_a u_ja lambda_a = p_j
 //   lambda_a = (k_a + c_a d/dt) v_a . q     or, where a is rigid,   v_a . q = 0
@@ -7,11 +8,12 @@
 //   T = | 1 + kappa_a sum_j v_ja u_jb / P_j    -kappa_a v_ja |      j outside G in sums, inside in columns
 //       | u_jb                                  P_j          |      kappa_a = k_a + l c_a
 //
-// If a is rigid, the 1 is absent and kappa = 1: the limit of infinite stiffness. G contains the modes whose P_j is
-// small, which avoids divisions by small differences. Roots start from a dense problem in doubles and are refined by
-// Newton steps on T in extended precision; shapes follow from its null vectors. A mode that no term sees (v_j = 0) has
-// its own two roots. Modes of equal poles are rotated so that the terms see as few as possible; equal roots take all
-// null vectors of T. Nearly equal roots with a common shape are a failure.
+// If a is rigid, the 1 is absent and kappa = 1: the limit of infinite stiffness. G contains the modes whose
+// P_j is small, which avoids divisions by small differences. Initial values of the roots are those of a dense
+// problem in doubles. Newton steps on T in extended precision refine them; shapes follow from the null
+// vectors of T. A mode without coupling to any term (v_j = 0) has two roots of its own. Modes of equal poles
+// are rotated so that as few as possible are coupled to terms; equal roots have all null vectors of T. Nearly
+// equal roots with a common shape are a failure.
 //
 //   motion   q = Re sum_k shape_k y_k,  y_k' = l_k y_k + from_rate_k . p,   y = from_q q + from_rate q'
 //
@@ -24,14 +26,15 @@
 
 namespace signorini::modal {
 
-/// u: direction of the force, v: form that the force follows; both in all modes.
+/// A spring with dashpot, or a constraint. u: direction of its force, v: form on which the force depends; one
+/// entry for each mode.
 struct ModalTerm {
   Eigen::VectorXd u, v;
   double stiffness = 0.0, damping = 0.0;
   bool rigid = false;
 };
 
-/// Limit for the columns of T: terms and modes in G.
+/// Limit for the number of terms.
 inline constexpr std::size_t max_damped_terms = 9;
 
 struct DampedModes {
@@ -44,7 +47,7 @@ struct DampedModes {
   double round_trip = 0.0;             ///< greatest error of a motion of size 1 after a round trip
 };
 
-/// square, decay: d_j, ascending, and c_j.
+/// Complex modes. square, decay: d_j, ascending, and c_j.
 [[nodiscard]] DampedModes damped_modes(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
                                        const std::vector<ModalTerm>& terms);
 

@@ -9,13 +9,13 @@
 namespace signorini::modal {
 namespace {
 
-/// Limit for the amplification of rounding in the response of a slow mode, or one near resonance, to a force: the same
-/// limit as for the closed form of works (modal_works.cpp).
+/// Limit for the amplification of rounding in the response to a force, for a slow mode or a mode near
+/// resonance. The same limit holds for the closed form of works (modal_works.cpp).
 constexpr double max_loss = 1e3;
 
 }  // namespace
 
-/// u_c: the displacement held by constraints, in open modes.
+/// u_c: the displacement that constraints prescribe, in unconstrained modes.
 Eigen::MatrixXd DampedMotion::constraint_displacements(const engine::Segment& segment,
                                                        const Vector& q) const {
   const auto rigid = static_cast<Eigen::Index>(state_->rigid.size());
@@ -35,7 +35,8 @@ Eigen::MatrixXd DampedMotion::constraint_displacements(const engine::Segment& se
   return state_->static_shapes * asked;
 }
 
-/// Forces of loads, and of contacts whose forces follow no term.
+/// Forces that do not depend on the motion: loads, and such parts of contact forces. One row for each
+/// unconstrained mode, one column for each function of the time basis.
 Eigen::MatrixXd DampedMotion::forces() const {
   const double t = decision_->jet.t;
   Eigen::MatrixXd p = Eigen::MatrixXd::Zero(basis_.omega_squared().size(), time_.size());
@@ -59,7 +60,7 @@ Eigen::MatrixXd DampedMotion::forces() const {
   return p;
 }
 
-/// u_c'' + C u_c' + K u_c, including springs and dashpots of contacts.
+/// u_c'' + C u_c' + K u_c for the displacement `held`, including springs and dashpots of contacts.
 Eigen::MatrixXd DampedMotion::inertia_of(const Eigen::MatrixXd& held) const {
   const Eigen::MatrixXd rate = time_.derivative(held);
   Eigen::MatrixXd p = time_.derivative(rate) + system_.decay().asDiagonal() * rate +

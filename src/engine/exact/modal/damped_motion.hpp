@@ -1,11 +1,11 @@
 // damped_motion.hpp: the motion of a segment in complex modes, and every quantity on it in closed form.
 //
 //   q = Q b(x) + Re sum_k shape_k y_k,   y_k(x) = e^(l_k x) y_k(0),   x = t - t0
-//   f = Re sum_k row_k y_k + course . b(x)          gaps, slides, forces, guards
+//   f = Re sum_k row_k y_k + time_coefficients . b(x)          gaps, slides, forces, guards
 //
-// Q is the response to forces and moving constraints: the response of each mode to them (time_basis.hpp), and the
-// displacement u_c held by constraints. The force of a constraint is that of the modes plus that of the forces acting
-// on it:
+// Q is the response to loads and moving constraints: the response of each mode (time_basis.hpp), and the
+// displacement u_c that constraints prescribe. The force of a constraint is the sum of those of the modes,
+// and the reaction to the loads p:
 //   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p
 #pragma once
 
@@ -17,6 +17,7 @@
 
 namespace signorini::modal {
 
+/// A quantity f of the equation above.
 struct ModalQuantity {
   Eigen::VectorXcd row;
   TimeCoefficients time_coefficients;
@@ -71,7 +72,7 @@ class DampedMotion {
   }
   /// Quantity of a form on a contact.
   [[nodiscard]] ModalQuantity quantity_of(const Form& form, std::size_t contact) const;
-  /// Quantity of a form on the structure, given in open modes.
+  /// Quantity of a form on the structure, given in unconstrained modes.
   [[nodiscard]] ModalQuantity quantity_of(const Vector& form) const {
     return {state_->modes.shape.transpose() * form, forced_response_.transpose() * form};
   }
@@ -79,7 +80,7 @@ class DampedMotion {
   [[nodiscard]] double value(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseProduct(at.y).sum().real() + f.time_coefficients.dot(time_.at(at.time));
   }
-  /// Bounds of the modes with |l| > omega, as in ModalFlow.
+  /// Same meaning as ModalFlow::fast_mode_bound, for the modes with |l| > omega.
   [[nodiscard]] engine::FastModeBound fast_mode_bound(const ModalPoint& from, double time,
                                                       double omega) const;
   /// Sum of the magnitudes of the terms of f.

@@ -14,7 +14,7 @@ using Long = DampedPencil::Long;
 constexpr Long near_pole = 0.03L;      // limit for |P_j| relative to |l|^2 + d_j of the modes in G; chosen
 constexpr std::size_t max_near = 3;    // limit for the modes in G
 constexpr double equal_poles = 1e-13;  // relative distance at which poles are equal up to rounding
-constexpr double unseen_part = 1e-13;  // equal poles: residual of a mode that no term sees
+constexpr double unseen_part = 1e-13;  // equal poles: largest coupling of a mode that counts as uncoupled
 constexpr int max_steps = 30;          // limit of Newton steps; 3 to 5 are usual
 
 }  // namespace
@@ -48,7 +48,7 @@ DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd&
     reference_omega_ = std::sqrt(static_cast<Long>(pull));
 }
 
-/// Rotates v so that it has no more nonzero rows among equal poles than there are terms.
+/// Rotates modes of equal poles so that at most as many of them as there are terms are coupled to terms.
 void DampedPencil::rotate_equal_poles() {
   const auto terms = static_cast<Index>(terms_.size());
   for (Index first = 0, last = 0; first < size(); first = last) {
@@ -77,7 +77,7 @@ void DampedPencil::rotate_equal_poles() {
   }
 }
 
-/// Scaled so that stiff and soft modes have comparable entries.
+/// Eigenvalues of a dense matrix, scaled so that stiff and soft modes have comparable entries.
 Eigen::VectorXcd DampedPencil::starting_roots() const {
   const auto m = static_cast<Index>(coupled_.size());
   Eigen::MatrixXd k = omega_squared_(coupled_).asDiagonal(), c = decay_(coupled_).asDiagonal();
@@ -149,7 +149,7 @@ bool DampedPencil::assemble_at(Wide l, Local& local) const {
     }
     add_far(j, l, local);
   }
-  if (local.near.size() > max_near) {  // division by the farthest ones is safe
+  if (local.near.size() > max_near) {  // the farthest ones can be in the sums
     std::sort(local.near.begin(), local.near.end(), [&](Index i, Index j) {
       return size_of(pole(i, l)) * (own + Long(omega_squared_[j])) <
              size_of(pole(j, l)) * (own + Long(omega_squared_[i]));

@@ -2,8 +2,8 @@
 //
 //   T(l) (lambda, x_G) = 0,   l <- l - d^T T c / d^T T' c      d, c: approximate null vectors of T
 //
-// Terms are scaled: springs by sqrt(k), constraints to length 1. Modes of equal poles are rotated so that the terms see
-// as few as possible. A mode is in G if its pole is near, otherwise in the sums.
+// Terms are scaled: springs by sqrt(k), constraints to length 1. Modes of equal poles are rotated so that as
+// few as possible are coupled to terms. A mode is in G if its pole is near l, otherwise in the sums.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,9 @@ namespace signorini::modal {
 //
 //   P (K - s M) P^T = L D L^T,   negative pivots in D = number of omega_i^2 < s   (Sylvester)
 //
-// P orders the degrees of freedom so that the band is narrow (reverse Cuthill-McKee). R is double for counting and long
-// double for accurate digits: the rounding error of a low frequency grows with the highest one.
+// P orders the degrees of freedom so that the band is narrow (reverse Cuthill-McKee). R is double for
+// counting, and long double for accurate frequencies: the rounding error of a low frequency grows with the
+// highest one.
 
 /// Place of each degree of freedom in an order in which the band of both matrices is narrow.
 [[nodiscard]] std::vector<int> narrow_order(const SparseMatrix& mass, const SparseMatrix& stiffness);
@@ -133,11 +134,11 @@ class DampedPencil {
   using Long = long double;
   using Wide = WideComplex;
 
-  /// T at a place, its slope, and the modes in G.
+  /// T at some l, its derivative by l, and the modes in G.
   struct Local {
     SmallMatrix<Wide> t{}, slope{};
     std::vector<Index> near;
-    Long unit = 1;  ///< sigma: lengths are in units of 1 / sigma
+    Long unit = 1;  ///< displacements are in units of 1 / unit
     std::vector<Wide> kappa;
     std::vector<Long> scale;  ///< scale of each term: forces are in units of 1 / scale
     std::size_t size = 0;
@@ -151,22 +152,22 @@ class DampedPencil {
   [[nodiscard]] std::size_t rank() const { return terms_.size(); }
   [[nodiscard]] const Eigen::VectorXd& omega_squared() const { return omega_squared_; }
   [[nodiscard]] const Eigen::VectorXd& decay() const { return decay_; }
-  /// Rotated and scaled terms; kappa = stiffness + l damping with scaled values, lambda is that of the given term
-  /// divided by scale.
+  /// Rotated and scaled terms: kappa = stiffness() + l damping(). Their lambda is that of the given term
+  /// divided by scale().
   [[nodiscard]] const std::vector<ModalTerm>& terms() const { return terms_; }
   [[nodiscard]] double stiffness(std::size_t term) const { return stiffness_[term]; }
   [[nodiscard]] double damping(std::size_t term) const { return damping_[term]; }
   [[nodiscard]] double scale(std::size_t term) const { return term_scale_[term]; }
-  /// Modes that at least one term sees; unseen(): all others.
+  /// Modes that are coupled to at least one term; uncoupled_modes(): all others.
   [[nodiscard]] const std::vector<Index>& coupled_modes() const { return coupled_; }
   [[nodiscard]] const std::vector<Index>& uncoupled_modes() const { return uncoupled_; }
   /// First index of each group of equal poles and its rotation: given = vectors x rotated.
   [[nodiscard]] const std::vector<std::pair<Index, Eigen::MatrixXd>>& rotations() const { return rotations_; }
 
   [[nodiscard]] Wide pole(Index j, Wide l) const { return l * l + l * decay_[j] + Wide(omega_squared_[j]); }
-  /// Roots of the seen modes in doubles, from  x' = (0 1; -K -C) x  in the null space of the constraints.
+  /// Roots of the coupled modes in doubles, from  x' = (0 1; -K -C) x  in the null space of the constraints.
   [[nodiscard]] Eigen::VectorXcd starting_roots() const;
-  /// False: too many modes are near.
+  /// Computes T and its derivative. False: too many modes are in G.
   [[nodiscard]] bool assemble_at(Wide l, Local& local) const;
   /// Refines a root by Newton steps; nullopt: they do not converge.
   [[nodiscard]] std::optional<Wide> refined_root(Wide l) const;

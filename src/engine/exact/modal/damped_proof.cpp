@@ -180,7 +180,7 @@ Passage DampedProof::pass(const ModalPoint& at, double remaining) {
   return done ? *done : pass(at, remaining);
 }
 
-/// Quantities of a contact in the order of TurningPointDetector::watched.
+/// Quantities of a contact in the order of TurningPointDetector::watched_fields.
 std::array<const ModalQuantity*, 4> DampedProof::watched_quantities(std::size_t c) const {
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   return {&own.N, &own.T, &own.gap, &own.ut};
@@ -200,7 +200,7 @@ double DampedProof::length_without_turning(const ModalPoint& at, const events::T
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double off_place = part.fast_bound + part.rest;
-      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // as in ModalProof::within
+      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // as ModalProof::length_without_turning
           range.is_exceeded(
               part.p[0], part.p[1],
               off_place + rounding::elimination * motion_.magnitude(*watched_quantities(c)[f], at)))
@@ -248,7 +248,7 @@ const std::vector<motion::ContactSeries>& DampedProof::series(const ModalPoint& 
   return series_;
 }
 
-/// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
+/// Detects extremes at the boundary of two passages: values that are monotone up to it and reverse there.
 void DampedProof::find_turning_at_start(const ModalPoint& at, double time,
                                         events::TurningPointDetector& turning,
                                         LastTurningTimes& turns) const {

@@ -1,7 +1,8 @@
-// damped_proof.hpp: intervals without a guard's zero, in complex modes: modal_proof.hpp for roots of any kind.
+// damped_proof.hpp: intervals without a zero of a guard, in complex modes: the method of modal_proof.hpp for
+// any roots.
 //
-//   g(t + h x) = sum of modes with |l| h <= 4 (a polynomial in x) + course + ripple,
-//   |ripple| <= sum |row_k y_k| e^max(0, Re l_k h)  over the other modes
+//   g(t + h x) = sum of modes with |l| h <= 4 (a polynomial in x) + time_coefficients . b + fast part,
+//   |fast part| <= sum |row_k y_k| e^max(0, Re l_k h)  over the other modes
 #pragma once
 
 #include "engine/events/active_guards.hpp"
@@ -36,7 +37,7 @@ class DampedProof {
   struct Watched {
     std::size_t slot = 0;
     double noise = 0.0;
-    ModalQuantity guard, leading_derivative;  // the latter: derivative number leading_order()
+    ModalQuantity guard, leading_derivative;  // leading_derivative: of order ActiveGuards::leading
     double now = 0.0;                         // value of guard or leading_derivative
   };
   struct Part {  // a quantity on a step
@@ -66,9 +67,9 @@ class DampedProof {
   Eigen::VectorXd amplitude_, size_;  // |y|, |l|
   Eigen::Index slow_ = 0;             // number of slow modes
   std::size_t count_ = 0;             // number of coefficients of the slow modes
-  double h_ = 0.0, turn_ = 0.0;       // turn_: angle of slow waves
-  bool all_slow_ = false;             // the next step treats all modes as slow
-  Eigen::MatrixXcd terms_;            // y_k (l_k h)^j / j!, slow modes
+  double h_ = 0.0, turn_ = 0.0;  // turn_: largest |l| h of slow modes, and w h of slow waves of the forcing
+  bool all_slow_ = false;        // the next step treats all modes as slow
+  Eigen::MatrixXcd terms_;       // y_k (l_k h)^j / j!, slow modes
   std::vector<motion::ContactSeries> series_;
 };
 

@@ -18,7 +18,7 @@ using Index = Eigen::Index;
 constexpr Index max_damper_dofs = 24;  // limit for degrees of freedom with discrete dampers
 constexpr double hardly = 1e-3;        // |l_k + l_i| t_end: below, the integral is a series in it
 
-/// C = alpha M + beta K + R, R = sum of stiffness-like terms of a few dampers.
+/// Decomposition of the damping: C = alpha M + beta K + sum of r d d^T of a few dampers.
 struct Damping {
   double alpha = 0.0, beta = 0.0;
   std::vector<std::pair<double, Vector>> dampers;
@@ -57,9 +57,10 @@ Rest rest_of(const Model& model, double alpha, double beta) {
   return rest;
 }
 
-/// R = sum of r d d^T over eigenvectors of D^-1/2 R D^-1/2, d = D^1/2 x, D: the diagonal of the terms, so that forces
-/// and moments have one unit. Rounding moves an eigenvalue by at most the norm of the rounding in the matrix (Weyl):
-/// beside stiff members an inclined damper has spurious eigenvalues of that size and either sign, which are dropped.
+/// R = sum of r d d^T over eigenvectors of D^-1/2 R D^-1/2, d = D^1/2 x, D: the diagonal of the terms, so
+/// that forces and moments have one unit. Rounding moves an eigenvalue by at most the norm of the rounding in
+/// the matrix (Weyl). An inclined damper at stiff members leads to spurious eigenvalues of that size, of
+/// either sign, which are dropped.
 std::optional<Damping> dampers_of(const Model& model, double alpha, double beta) {
   const Rest rest = rest_of(model, alpha, beta);
   if (static_cast<Index>(rest.dofs.size()) > max_damper_dofs) return std::nullopt;
@@ -83,7 +84,8 @@ std::optional<Damping> dampers_of(const Model& model, double alpha, double beta)
   return result;
 }
 
-/// Uses the scene's factors, or those with the best fit.
+/// The decomposition with the scene's alpha and beta, or with the best fit. nullopt: there is none with few
+/// dampers.
 std::optional<Damping> damping_of(const Model& model) {
   if (auto given = dampers_of(model, model.alpha, model.beta)) return given;
   const auto product = [](const SparseMatrix& a, const SparseMatrix& b) { return a.cwiseProduct(b).sum(); };
@@ -202,7 +204,7 @@ void DampedSystem::find_constraints(DampedState& out) const {
     v.col(i) = term.v;
   }
   out.from_forces = base::solve_dense(v.transpose() * u, v.transpose());
-  // Soft motions satisfy the constraints, so that stiff modes have small contributions.
+  // The constraints are satisfied by motions of low stiffness, so that stiff modes have small contributions.
   const Vector soft =
       (basis_.omega_squared().array() + basis_.omega_squared()[std::min(n - 1, m + 3)]).inverse().matrix();
   const Eigen::MatrixXd weighted = soft.asDiagonal() * v;

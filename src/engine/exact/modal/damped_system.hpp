@@ -1,13 +1,14 @@
-// damped_system.hpp: contact states as terms on the open modes, and contact quantities in their complex modes.
+// damped_system.hpp: contact states as terms on the unconstrained modes, and contact quantities in their
+// complex modes.
 //
 //   C = alpha M + beta K + sum_i r_i d_i d_i^T:   c_j = alpha + beta omega_j^2, and a dashpot for each d_i
 //
 //   state    terms of a contact                                      further forces
 //   closed   compliant: kn + cn d/dt along n;  rigid: n . u = -g0
 //   stick    kt along t;  without kt: t . u stays with the surface
-//   slip s   the force along n is that along n - s f t               slider: s f q t
+//   slip s   the force along n acts along n - s f t                  slider: s f q t, q the normal force
 //
-// Shapes: n open modes, K complex ones (one of each pair).
+// Shapes: n unconstrained modes, K complex modes (one of each pair).
 #pragma once
 
 #include <memory>
@@ -25,20 +26,21 @@ namespace signorini::modal {
 /// Number of springs, constraints and dampers of a state in which all contacts are closed and stick.
 [[nodiscard]] std::size_t max_state_terms(const Model& model);
 
-/// Quantities of one contact in complex modes: forms times shapes, zero if a constraint holds them.
+/// Quantities of one contact in complex modes: forms times shapes; zero if a constraint prescribes them.
 struct ContactRows {
   Eigen::VectorXcd gap, slide;
   int normal_term = -1, tangent_term = -1;  ///< indices of the contact's terms
   Form normal, tangent;                     ///< the contact's rows in the state
 };
 
-/// 1 / (l_k + l_i), and with the conjugate of l_i; zero if the sum is negligible during a run.
+/// 1 / (l_k + l_i), and the same with the conjugate of l_i. 0 for pairs whose sum is small relative to the
+/// run: these are listed in `slow`.
 struct RootSums {
   Eigen::MatrixXcd direct, conjugate;
   struct Slow {
     Eigen::Index k, i;
     bool conjugate;
-    std::complex<double> loss;  ///< DampedState::loss without the division
+    std::complex<double> loss;  ///< entry of DampedState::loss, not divided by the sum of roots
   };
   std::vector<Slow> slow;
 };
@@ -51,7 +53,7 @@ struct DampedState {
   Eigen::MatrixXd from_forces;      ///< rigid x n: (V^T U)^-1 V^T
   Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes = 1
   RootSums sums;
-  /// Dissipation by the rates of two modes, times root sums.
+  /// Dissipation by the rates of two modes, divided by the sum of their roots.
   Eigen::MatrixXcd loss, loss_conjugate;
   [[nodiscard]] std::size_t bytes() const;
 };
@@ -65,8 +67,9 @@ class DampedSystem {
 
   /// Data of a state, from the cache or new; its modes may have failed.
   [[nodiscard]] std::shared_ptr<const DampedState> state(const contact::ContactStates& states);
+  /// Number of states computed.
   [[nodiscard]] long made() const { return made_; }
-  /// c_j; dampers(): the dampers in addition to them.
+  /// c_j; dampers(): the dashpots d_i; damped(): there is any damping.
   [[nodiscard]] const Vector& decay() const { return decay_; }
   [[nodiscard]] const std::vector<ModalTerm>& dampers() const { return dampers_; }
   [[nodiscard]] bool damped() const { return damped_; }

@@ -127,7 +127,7 @@ double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::Vec
   return sum;
 }
 
-/// Integral of the modes of a segment with its courses.
+/// Contribution of products of modes and forced parts to an integral.
 double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
   if (answers.size() == 0) return 0.0;
   return (s.to.y.transpose() * (answers * s.b_to) - s.from.y.transpose() * (answers * s.b_from))

@@ -1,11 +1,12 @@
-// damped_works.hpp: works and dissipations of a stretch in complex modes, in closed form.
+// damped_works.hpp: works and dissipations of an interval in complex modes, in closed form.
 //
 //   int y_k y_i = [y_k y_i] / (l_k + l_i)       and with the conjugate of y_i
 //   int y_k (c . b) = [y_k (r . b)],  r D = -l_k r + c                       time_basis.hpp
 //
-// Damping dissipates int q'^T C q', friction int T p', surfaces int -T s', loads int f d . u', each a sum over pairs of
-// modes, of modes with courses and of courses. Pairs whose l_k + l_i is small relative to the run use the series of
-// (e^(s h) - 1) / s. The energy balance is therefore an independent check.
+// Damping dissipates int q'^T C q', friction int T p'. The work of surfaces is int -T s', that of loads int f
+// d . u'. Each is a sum over pairs of modes, pairs of a mode and a forced part c . b, and pairs of forced
+// parts. Pairs whose l_k + l_i is small relative to the run use the series of (e^(s h) - 1) / s. The energy
+// balance is an independent check.
 #pragma once
 
 #include <optional>
@@ -27,14 +28,14 @@ class DampedWorkIntegrals {
   struct Stretch {
     const ModalPoint &from, &to;
     Eigen::VectorXd b_from, b_to;
-    Eigen::MatrixXd products;  // products of courses; empty if none overlap
+    Eigen::MatrixXd products;  // integrals of b b^T; empty if no integral has two forced parts
   };
-  /// Integral of f g, as far as it is known per segment: modes times courses give y . answers b at the ends of a
-  /// stretch.
+  /// Data of the integral of f g that are constant in a segment. Modes times forced parts contribute the
+  /// difference of y . responses b between the ends of the interval.
   struct ProductIntegral {
     ModalQuantity f, g;
-    Eigen::MatrixXcd responses;  // modes x b; empty: none
-    bool pairs = false, courses = false;
+    Eigen::MatrixXcd responses;           // modes x b; empty: none
+    bool pairs = false, courses = false;  // the integral has products of modes, of forced parts
   };
   [[nodiscard]] ProductIntegral product_integral(ModalQuantity f, ModalQuantity g);
   [[nodiscard]] ModalQuantity without_modes(TimeCoefficients course) const;
@@ -49,14 +50,14 @@ class DampedWorkIntegrals {
   void add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const;
 
   const DampedMotion& motion_;
-  std::vector<ProductIntegral> loads_;  // rates along active loads, and the courses of the loads
+  std::vector<ProductIntegral> loads_;  // rates along active loads, times the loads
   struct ContactProducts {
     std::optional<ProductIntegral> applied_normal_force, slip, surface, dashpot;
   };
   std::vector<ContactProducts> contacts_;
-  Eigen::MatrixXd forced_loss_;      // b x b: courses only
-  Eigen::MatrixXcd loss_responses_;  // dissipation by modes together with courses
-  bool courses_overlap_ = false;     // at least two courses overlap in the segment
+  Eigen::MatrixXd forced_loss_;      // b x b: dissipation by forced parts
+  Eigen::MatrixXcd loss_responses_;  // dissipation by modes times forced parts
+  bool courses_overlap_ = false;     // at least one integral has products of forced parts
 };
 
 }  // namespace signorini::modal

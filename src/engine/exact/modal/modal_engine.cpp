@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t max_parts = 256;   // limit for parts of a step: each holds the amplitudes of all modes
 constexpr int max_touches = 5;           // warnings of the same kind
-constexpr double lost_in_modes = 1e-12;  // limit for the loss in modes: spectrum.cpp, damped_flow.cpp
+constexpr double lost_in_modes = 1e-12;  // limit for the error of a round trip: spectrum.cpp, damped_flow.cpp
 constexpr int max_corrections = 4;       // corrections of an event time; one suffices unless two guards graze
 
 }  // namespace
@@ -53,7 +53,8 @@ void ModalEngine::warn_of_fallback(double t, const std::string& why) {
                                  model::time_in_scene_units(model_, t), why));
 }
 
-/// The series takes over within a segment: from its beginning, skipping the part already reported.
+/// Continues a segment with the series, which starts at the segment's beginning and repeats the reported
+/// part.
 engine::Step ModalEngine::fall_back_to_series() {
   warn_of_fallback(t_, "a guard stays too close to zero for the error bounds of the modal flow");
   modal_ = false;
@@ -67,7 +68,8 @@ engine::Step ModalEngine::fall_back_to_series() {
 std::string ModalEngine::start_modes(const engine::Segment& segment) {
   if (!basis_.failure().empty()) return basis_.failure();
   const decide::Decision& decision = *segment.decision;
-  // The decision leaves most motions unchanged: then q is kept, without rounding by a conversion to u and back.
+  // Most decisions do not change the motion. Then q is kept, without the rounding of a conversion to u and
+  // back.
   if (!modal_ || q_.size() == 0 || decision.u != end_.u || decision.v != end_.v) {
     q_ = basis_.amplitudes(decision.u);
     rate_ = basis_.amplitudes(decision.v);
@@ -92,8 +94,8 @@ void ModalEngine::start(const engine::Segment& segment) {
   ++restarts_;
 }
 
-/// Responses of slow modes to loads have terms far greater than the motion, which cancel. Computes the ratio of their
-/// rounding to the loss of a round trip through the modes for the motion so far.
+/// Updates cancellation_. Responses of slow modes to loads have terms far greater than the motion, which
+/// cancel. The ratio is that of their rounding to the error of a round trip through the modes.
 void ModalEngine::update_cancellation() {
   const motion::StructureEnergy energy = energy_of(q_, rate_);
   max_velocity_ = std::max(max_velocity_, std::sqrt(2.0 * (energy.kinetic + energy.elastic)));
@@ -118,8 +120,8 @@ void ModalEngine::warn_of_touches(const Passage& passage, double begin) {
                       model::time_in_scene_units(model_, begin)));
 }
 
-/// Time from here to the root of the guard according to u, v and the forces that the decision will use, and its
-/// uncertainty due to the rounding of the modes.
+/// Time from here to the root of the guard with u, v and the forces that the decision will compute, and its
+/// uncertainty by the rounding of the modes.
 ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motion::Point& point) const {
   const std::size_t c = model_.layout.contact_of_guard(slot);
   const ContactMotion now = motion::motion_of(model_.contacts[c], c, *segment_.forcing, t_, point);
@@ -129,9 +131,9 @@ ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motio
           -rounding::many_operations * flow_->magnitude(slot, now_) / slope};
 }
 
-/// Moves the end of the last part to the root of the guard according to u, v and the forces that follow from them: in
-/// modes the guard is zero only to the rounding of the modes, which is more than the decision allows. Returns the
-/// uncertainty of that time.
+/// Moves the end of the last part to the root of the guard with forces computed from u and v. In modes the
+/// guard is zero only up to the rounding of the modes, which exceeds the noise of the decision. Returns the
+/// uncertainty of the time.
 double ModalEngine::refine_crossing(std::size_t slot) {
   Part& part = parts_.back();
   for (int i = 0;; ++i) {
@@ -221,7 +223,7 @@ ModalPoint ModalEngine::at(double t) const {
   return point;
 }
 
-/// 1/2 (q'^2 + omega^2 q^2): no terms cancel.
+/// 1/2 (q'^2 + omega^2 q^2), in which no terms cancel.
 motion::StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
   return {0.5 * rate.squaredNorm(), 0.5 * basis_.omega_squared().dot(q.cwiseAbs2())};
 }
@@ -246,7 +248,7 @@ void ModalEngine::fill_rest(const ModalPoint& z, const Motion& motion, motion::P
   point.energy = energy_of(motion.q, motion.rate);
 }
 
-/// Computes u, v, a if present, and forces; keeps q of the end of the step.
+/// Computes u, v, forces, and a if the motion contains accelerations; stores q at the end of the step.
 void ModalEngine::fill(const ModalPoint& z, Motion&& motion, motion::Point& point) {
   if (motion.change.size() > 0) {
     basis_.motions({&motion.q, &motion.rate, &motion.change}, {&point.u, &point.v, &point.a});
@@ -261,7 +263,7 @@ void ModalEngine::fill(const ModalPoint& z, Motion&& motion, motion::Point& poin
   }
 }
 
-/// Rows of all contacts and of some other degrees of freedom.
+/// Rows of Phi for the degrees of freedom of all contacts and for `dofs`.
 ModalEngine::Rows ModalEngine::rows_of(std::vector<int> dofs) const {
   for (const Contact& contact : model_.contacts)
     for (const Combination* form : {&contact.normal, &contact.tangent, &contact.body_tangent()})
@@ -272,7 +274,7 @@ ModalEngine::Rows ModalEngine::rows_of(std::vector<int> dofs) const {
   return {std::move(dofs), std::move(shapes)};
 }
 
-/// Same for a few rows, bit by bit; all other entries are NaN.
+/// Same for some rows, with bitwise equal results; all other entries are NaN.
 void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion,
                             motion::Point& point) const {
   Vector u, v, a;
@@ -350,9 +352,9 @@ std::optional<engine::FastModeBound> ModalEngine::fast_mode_bound(double omega) 
   return flow_->fast_mode_bound(parts_.front().at, t_ - parts_.front().begin, omega);
 }
 
-/// Each amplitude is a sum over the whole structure, with a rounding error relative to |q| instead of the amplitude:
-/// for velocities and accelerations w and w^2 times that, w the highest frequency. Forces: those of springs and
-/// dashpots.
+/// Each amplitude is a sum over the whole structure, so its rounding error is relative to |q|, not to the
+/// amplitude. For velocities and accelerations it is larger by w and w^2, w the highest frequency. Forces:
+/// those of springs and dashpots.
 engine::FastModeBound ModalEngine::term_sizes() const {
   const Motion m = motion(parts_.front().at, false);
   const auto norm = [](const Vector& of) { return of.norm(); };

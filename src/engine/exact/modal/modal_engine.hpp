@@ -1,11 +1,12 @@
 // modal_engine.hpp: engine `exact` in modes: its cost depends on the motion, not on the mesh.
 //
 //   start     q = Phi^T M u,  z = Y q
-//   advance   proof of a stretch, z in closed form
+//   advance   proof that an interval contains no event, z in closed form
 //   event     q = X z,  u = Phi q
 //
-// The Taylor series of ExactEngine follows states whose modes are not accurate enough and forces that change, for as
-// long as they last; each such fallback is counted and reported once.
+// The Taylor series of ExactEngine takes segments that the modes cannot follow: with forces that they do not
+// represent, or with modes that are not accurate enough. Such segments are counted, and the first one is
+// reported.
 #pragma once
 
 #include "engine/exact/exact_engine.hpp"
@@ -16,22 +17,22 @@ namespace signorini::modal {
 /// Intended use of the steps.
 struct ModalOptions {
   SharedModalData* share = nullptr;              ///< data shared with a listener, or null
-  bool peaks = true;                             ///< true: turning points of contacts are searched
+  bool peaks = true;                             ///< turning points of contacts are searched
   std::uint64_t step_seed = 0;                   ///< seed for steps taken in series
   std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched; nullopt: all
 };
 
 class ModalEngine final : public engine::Stepper, public engine::DenseOutput, private engine::FastModes {
  public:
-  /// All arguments except t_end must outlive the object. Finds the open modes; without them the series follows the
-  /// whole motion.
+  /// All arguments except t_end must outlive the object. Computes the unconstrained modes; if there are none,
+  /// the series follows the whole motion.
   ModalEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
               double t_end, const ModalOptions& use = {});
 
   void start(const engine::Segment& segment) override;
   [[nodiscard]] engine::Step advance() override;
   [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
-  /// Without accelerations inside a step: a third of the work.
+  /// Inside a step the accelerations are omitted, which saves two thirds of the time.
   void evaluate(double t, motion::Point& point) override;
   void evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) override;
   void accelerate(double t, motion::Point& point) override;
@@ -44,7 +45,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
     return modal_ ? 0.0 : taylor_.guard_error(guard, motion, contact);
   }
   [[nodiscard]] engine::StepFacts facts() const override;
-  /// The modes in which the engine follows motions; null: none.
+  /// The uncoupled modes in which the engine follows motions; null: there are none, or the modes are complex.
   [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
   [[nodiscard]] engine::StepperReport report() override;
 
@@ -63,7 +64,8 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   [[nodiscard]] std::string start_modes(const engine::Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
   [[nodiscard]] motion::StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
-  /// Amplitudes of the open modes; change: empty if no accelerations are needed.
+  /// Amplitudes of the unconstrained modes, their rates and accelerations; change: empty if no accelerations
+  /// are needed.
   struct Motion {
     Vector q, rate, change;
   };
@@ -87,11 +89,11 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
-  std::shared_ptr<ModalCache::Entry> kept_;  // null: no memory is in use
+  std::shared_ptr<ModalCache::Entry> kept_;  // null: no ModalCache is used
   std::unique_ptr<UnconstrainedBasis> own_basis_;
   const UnconstrainedBasis& basis_;
   Rows watched_, of_contacts_;
-  std::unique_ptr<ModalFlow> flow_;  // null without open modes
+  std::unique_ptr<ModalFlow> flow_;  // null without unconstrained modes
   exact::ExactEngine taylor_;
   events::TurningPointDetector turning_points_;
   bool peaks_;
@@ -101,12 +103,12 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   std::vector<Part> parts_;  // parts of the last step
   ModalPoint now_;           // point at the end of the last step
   double t_ = 0.0;
-  Vector q_, rate_;  // at the end of the last step, with the corresponding motion
+  Vector q_, rate_;  // at the end of the last step
   motion::Point end_;
-  double max_displacement_ = 0.0,
-         max_velocity_ = 0.0;  // greatest motion so far, displacements and velocities in the norm of M
+  // Largest displacements and velocities so far, in the norm of M.
+  double max_displacement_ = 0.0, max_velocity_ = 0.0;
   double cancellation_ = 1.0;  // ratio for the last step: update_cancellation()
-  double works_end_ = 0.0;     // time up to which works were added, and the motion there
+  double works_end_ = 0.0;     // time up to which works were added
   ModalPoint works_point_;
   bool has_works_ = false;
   LastTurningTimes last_turning_times_;  // turning points of the last step

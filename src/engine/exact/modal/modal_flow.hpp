@@ -22,7 +22,7 @@ namespace signorini::modal {
 
 class ModalSystem;
 
-/// A stretch without an event, or up to one.
+/// An interval without an event, or up to the first one.
 struct Passage {
   double length = 0.0;
   std::optional<std::size_t> triggered;  ///< slot of the guard that reaches zero at its end
@@ -30,11 +30,11 @@ struct Passage {
   std::vector<std::size_t> touches;      ///< slots whose guards touch zero within rounding
 };
 
-/// Last turning point of each kind: see TurningPointDetector::Turn.
+/// Time of the last turning point of each TurningPointDetector::TurningPoint::kind.
 using LastTurningTimes = std::map<std::size_t, double>;
 
-/// Sums of magnitudes: of the amplitudes of open modes, in the norm of M; of their rates; of omega times the
-/// amplitudes.
+/// Magnitudes, in the norm of M, of the terms whose sums are the amplitudes of the unconstrained modes, their
+/// rates, and omega times the amplitudes.
 struct SumTerms {
   double amplitude = 0.0, rate = 0.0, omega_amplitude = 0.0;
 };
@@ -42,15 +42,18 @@ struct SumTerms {
 class ModalFlow {
  public:
   virtual ~ModalFlow() = default;
-  /// q, rate: amplitudes of the open modes at the beginning; now: the same motion in this flow's modes. The segment
-  /// must live until the next start. Returns the reason why the segment cannot be followed; empty: it can.
+  /// q, rate: amplitudes of the unconstrained modes at the beginning, and their rates; now: receives the same
+  /// motion in this flow's modes. The segment must live until the next start. Returns the reason why the
+  /// segment cannot be followed; empty: it can.
   [[nodiscard]] virtual std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                           ModalPoint& now) = 0;
+  /// The next interval from `at`, of length `remaining` at most, for which the proof succeeds.
   [[nodiscard]] virtual Passage pass(const ModalPoint& at, double remaining) = 0;
   /// Called after a passage without an event: updates the armed guards.
   virtual void rearm(const ModalPoint& at) = 0;
+  /// The motion `time` later, in closed form.
   virtual void advance(const ModalPoint& from, double time, ModalPoint& to) const = 0;
-  /// Amplitudes of the open modes, their rates and, if change is not null, their accelerations.
+  /// Amplitudes of the unconstrained modes, their rates and, if change is not null, their accelerations.
   virtual void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const = 0;
   /// N and T of all contacts, at a point whose u and v are known.
   virtual void forces(const ModalPoint& at, motion::Point& point) const = 0;
@@ -59,13 +62,14 @@ class ModalFlow {
                                      double t) const = 0;
   /// Sum of the magnitudes of a guard's terms.
   [[nodiscard]] virtual double magnitude(std::size_t slot, const ModalPoint& at) const = 0;
-  /// Finds places in the last passage, which begins at time `begin`, where N, T, g and ut turn beyond their earlier
-  /// ranges. observed: the beginning is that of a step and was already examined.
+  /// Finds extremes of N, T, g and ut beyond their earlier ranges in the last passage, which begins at time
+  /// `begin`. observed: the passage begins with a step, whose beginning was already examined.
   virtual void find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
                                    events::TurningPointDetector& turning, LastTurningTimes& turns) = 0;
+  /// Adds the works between two points of the segment, which are `time` apart.
   virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time,
                          motion::WorkIntegrals& works) const = 0;
-  /// Same meaning as FastModes::fast_mode_bound, from that point on for the given time.
+  /// Same meaning as FastModes::fast_mode_bound, for the given time from `from` on.
   [[nodiscard]] virtual std::optional<engine::FastModeBound> fast_mode_bound(const ModalPoint& from,
                                                                              double time,
                                                                              double omega) const = 0;
@@ -73,20 +77,21 @@ class ModalFlow {
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
   /// StepFacts::eigenvector_condition of the segment.
   [[nodiscard]] virtual double eigenvector_condition() const = 0;
-  /// Sums of terms that cancel in the sum over modes.
+  /// Magnitudes of the terms in the sums over modes; 0: the terms do not cancel.
   [[nodiscard]] virtual SumTerms terms(const ModalPoint& /*at*/) const { return {}; }
   /// Number of contact states whose modes were computed.
   [[nodiscard]] virtual long states_made() const = 0;
 };
 
-// Open modes, and complex modes of contact states, kept for all runs of one structure.
+// Unconstrained modes, and complex modes of contact states, stored for all runs of one structure.
 //
 //   ModalCache memory;      ListenerNeeds::modal->memory = &memory: successive runs, e.g. of orbits and their branches
 //
-// Computing a state's complex modes costs as much as simulating many periods with them. They depend on the structure
-// alone, except for the sums of roots whose pairs are slow relative to the run: kept modes belong to a run at least as
-// long, and at most 1e4 times as long. In the shortest runs this costs digits of the works of such pairs, none of the
-// motion.
+// Computing the complex modes of a state takes as long as many periods of motion with them. They depend on
+// the structure alone, except for the choice of pairs of modes whose sum of roots is small relative to the
+// run (damped_system.hpp). Stored data are computed for runs 8 times as long as the first one. They are used
+// for runs up to this length, and for runs shorter by a factor of at most 1e4. In the shortest runs the works
+// of such pairs are less accurate; the motion is not affected.
 
 class ModalSystem;
 
@@ -102,7 +107,7 @@ class ModalCache {
     std::unique_ptr<DampedSystem> damped;  ///< created on request
   };
 
-  /// Kept data for this structure, whose runs end at t_end.
+  /// Stored data for this structure, or new data; t_end: end of the run.
   [[nodiscard]] std::shared_ptr<Entry> entry_for(const Model& model, double t_end);
 
  private:
@@ -117,17 +122,20 @@ struct SharedModalData {
 
 // Extreme values of N, T, g and ut within a passage, in modes.
 //
-//   places where a peak may exceed the earlier range: first by slow modes, then with ripples of the size of rounding
+//   1. places where an extreme may exceed the earlier range, from the slow modes
+//   2. there, steps whose fast part is of the size of rounding
 //
-// A proof (modal_proof.hpp, damped_proof.hpp) is a step of length unit() that was expanded from a point, and offers
-//   within(at, known, x_end)                     the part of [0, x_end] without a turn beyond the known ranges
-//   expand_for_turning(at, known, share, remaining)   a new step, with ripples up to that share of the ranges; its length
-//   find_turning_at_start(at, time, turning, turns)          turning points at a point itself
-//   series(at)                                   the contacts' slow parts on the step
+// A proof (modal_proof.hpp, damped_proof.hpp) is a step of length step_length() from a point, with these
+// functions:
+//   length_without_turning(at, known, x_end)         part of [0, x_end] without an extreme beyond the ranges
+//   expand_for_turning(at, known, share, remaining)  a new step, with a fast part up to that share of the
+//                                                    ranges; returns its length
+//   find_turning_at_start(at, time, turning, turns)  extremes at the point `at`
+//   series(at)                                       slow parts of the contacts' quantities on the step
 
-/// Bounds on the contribution of fast modes, relative to the range of the quantity. Localising a peak needs ripples of
-/// the size of rounding. Excluding a peak needs only ripples that leave the answer decidable: larger ones allow longer
-/// steps, but do not separate a value near the greatest one so far from a greater one. Chosen values.
+/// Bounds on the contribution of fast modes, relative to the range of the quantity. To locate an extreme, it
+/// must be of the size of rounding. To exclude an extreme, it may be larger: a larger bound allows longer
+/// steps, but does not separate a value near the greatest one so far from a greater one. Chosen values.
 inline constexpr double fine_fast_share = rounding::elimination, max_fast_share = 1e-4,
                         min_fast_share = 1e-10, fast_share_step = 10.0;
 
@@ -150,7 +158,7 @@ void find_turning_points_in_passage(Proof& proof, const Advance& advance, const 
   };
   double share = max_fast_share;
   for (bool moved = true; done < length;) {
-    // A quantity that was monotone up to here may turn at this very point.
+    // A quantity that was monotone up to here may have its extreme at this point.
     if (moved) proof.find_turning_at_start(point, begin + done, turning, turns);
     const double look = proof.expand_for_turning(point, turning, share, length - done);
     const double safe =

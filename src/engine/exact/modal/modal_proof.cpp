@@ -11,7 +11,7 @@
 namespace signorini::modal {
 namespace {
 
-/// True if the guard's rate, including its ripple, is negative from `from` to `to`, places in the step.
+/// True if the guard's rate, fast modes included, is negative between the places `from` and `to` of the step.
 bool decreases(const GuardOnStep& guard, double h, double from, double to) {
   const std::vector<double>& p = guard.p;
   std::vector<double> q(p.size() - 1);
@@ -28,7 +28,7 @@ bool decreases(const GuardOnStep& guard, double h, double from, double to) {
   return q[0] > 0.0 && events::first_root(q.data(), q.size() - 1, 0.0).kind == events::FirstRoot::Kind::none;
 }
 
-/// The only zero between two places of the step, in closed form: secants, kept inside (Illinois).
+/// The only zero of g between two places of the step, by the Illinois method (bracketed secants).
 double only_fall(const std::function<double(double)>& g, double from, double to) {
   double low = g(from), high = g(to);
   if (!(low > 0.0)) return from;
@@ -57,12 +57,12 @@ double only_fall(const std::function<double(double)>& g, double from, double to)
   return x;
 }
 
-/// Treats a guard that starts at zero.
+/// Examines a guard that starts at zero, as find_guard_zero().
 bool leave_zero(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& arming, double& limit) {
   std::vector<double>& q = guard.p;
   double scale = 0.0;
   for (const double entry : q) scale += std::abs(entry);
-  // The decision knows that it rises; the remainder of the series is subtracted.
+  // The decision has proved that the guard rises; the remainder of the series is subtracted.
   q[0] -= std::min(guard.fast_bound + rounding::many_operations * scale, 0.5 * q[0]);
   if (!(q[0] > 0.0)) {
     arming.discard_leading_order(slot);
@@ -125,7 +125,7 @@ bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
 
 std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event, double h,
                                    bool& full) {
-  if (doubted || (limit == 0.0 && !full)) {  // else a guard is too close to zero for any ripple
+  if (doubted || (limit == 0.0 && !full)) {  // otherwise a guard is too close to zero for fast modes
     full = full || !doubted;
     return std::nullopt;
   }
@@ -332,7 +332,8 @@ void ModalProof::choose_step(double remaining) {
     const double fastest = l[std::min(first, l.size() - 1)];
     if (fastest > 0.0) h_ = std::min(h_, max_slow_angle / std::sqrt(fastest));
   }
-  // Pairs may grow: they are slow unless the step is long relative to their period and their contribution is small.
+  // Pairs may grow. A pair is slow unless the step is long relative to its period and its contribution is
+  // small.
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
       const double root = std::sqrt(size_of(pairs[k]));
@@ -372,7 +373,7 @@ void ModalProof::bound_fast_modes() {
   }
 }
 
-/// Computes the guard's slow part, and its error bound without the ripple.
+/// Computes the guard's slow part, and the bound on its error.
 void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
   const std::size_t c = decision_->layout.contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);

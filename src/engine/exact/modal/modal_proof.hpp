@@ -1,14 +1,17 @@
-// modal_proof.hpp: intervals without a guard's zero, adapted to the amplitudes of the modes.
+// modal_proof.hpp: intervals without a zero of a guard, adapted to the amplitudes of the modes.
 //
-//   g(t0 + h x) = sum of slow modes (a polynomial in x) + ripple of fast modes,   |ripple| <= sum |w_k| A_k
+//   g(t0 + h x) = sum of slow modes (a polynomial in x) + fast modes,   |fast modes| <= sum |w_k| A_k
 //
-// A_k is the amplitude of mode k and w_k its coefficient in the guard. The modes below J are slow; J is chosen so that
-// the amplitudes above J together stay below a quarter of every guard; h = 4 / omega_J. The slow part exceeds the
-// ripple's bound, the polynomial's remainder and rounding on all of the step (engine/events/first_root.hpp), or up to a
-// place, from which the next step continues with more slow modes. A zero crossing is an event if the guard decreases
-// throughout the interval that may contain it: slow part and ripple of its rate are negative; then the closed form with
-// all modes is zero once. A guard that starts at zero is represented by its first nonzero derivative. The proof also
-// relies on the modes themselves: computed eigenvalues, tested by their residual.
+// A_k is the amplitude of mode k and w_k its coefficient in the guard. The modes below J are slow. J is
+// chosen so that the modes above J together stay below a quarter of every guard; h = 4 / omega_J. There is no
+// zero as long as the slow part exceeds the bound on the fast modes, the remainder of the polynomial and
+// rounding (engine/events/first_root.hpp). If this holds on a part of the step only, the next step continues
+// there with more slow modes.
+//
+// A zero crossing is an event if the rate of the guard, fast modes included, is negative on the whole
+// interval that may contain it. The closed form with all modes then has exactly one zero there. A guard that
+// starts at zero is represented by its first nonzero derivative. The proof relies on the computed modes,
+// which are tested by their residual.
 #pragma once
 
 #include <array>
@@ -23,41 +26,42 @@
 
 namespace signorini::modal {
 
-// Possible and certain zeros on a step of a guard that is a polynomial plus a ripple.
+// Possible and certain zeros of a guard on a step: a polynomial plus a bounded fast part.
 //
-//   g(t + h x) = p(x) + ripple,  |ripple| <= R,  |p's own error| <= slack
+//   g(t + h x) = p(x) + fast part,  |fast part| <= R,  |rate of the fast part| <= R',  |error of p| <= slack
 //   p > R + slack                     no zero
-//   p decreases through +-(R + slack) within a stretch on which p' < -R' h:   one zero, located by the closed form
+//   p decreases through +-(R + slack) in an interval with p' < -R' h:   one zero, located by the closed form
 //   otherwise                         undecided beyond the zero of p - 2 (R + slack)
 //
-// A guard that starts at zero is represented by its first nonzero derivative: p is that derivative then.
+// A guard that starts at zero is represented by its first nonzero derivative: p is then that derivative.
 
 /// A guard on a step, x in [0, 1].
 struct GuardOnStep {
-  std::vector<double> p;  ///< coefficients; of time derivative number `leading_order` if that is not 0
+  std::vector<double> p;  ///< coefficients of p; if leading > 0, of the time derivative of that order
   double slack = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;  ///< bounds for g, g, g' (by time), or for p
   double noise = 0.0;
   std::size_t leading_order = 0;
   bool armed = false;  ///< the guard was clearly positive
 };
 
-/// Coefficients of time derivative number m of a polynomial in t / h.
+/// Coefficients of the time derivative of order m of a polynomial in t / h.
 [[nodiscard]] std::vector<double> derivative_of(const std::vector<double>& p, std::size_t m, double h);
 
-/// event: place of the first zero so far; limit: place up to which no guard reaches zero. value_at(x): the guard in
-/// closed form. False: the prediction by the guard's derivatives at the start is refuted and no longer used.
+/// Examines one guard on a step. event: place of the first zero of all guards so far; limit: place up to
+/// which no guard reaches zero. value_at(x): the guard in closed form. False: the prediction by the guard's
+/// derivatives at the start is refuted and no longer used.
 [[nodiscard]] bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
                                    const std::function<double(double)>& value_at,
                                    events::ActiveGuards& arming, Passage& passage, double& limit,
                                    double& event);
 
-/// Passage of the step once its guards are settled, limited by `limit` and `event`; nullopt: the step has to be
-/// repeated, with all modes treated as slow (`full`) unless a guard's start has just been refuted. h: length of the
-/// step.
+/// The passage of a step whose guards have been examined, limited by `limit` and `event`. doubted: the
+/// prediction of a guard has just been refuted. nullopt: the step must be repeated; `full` is then set unless
+/// doubted, so that all modes are slow. h: length of the step.
 [[nodiscard]] std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event,
                                                  double h, bool& full);
 
-/// The part of [0, 1] on which sign a(x x_end) + above > 0; p: scratch for degree + 1 numbers.
+/// The greatest s <= 1 such that sign a(x x_end) + above > 0 on [0, s]; p: scratch for degree + 1 numbers.
 [[nodiscard]] double stays_above(const double* a, std::size_t degree, double x_end, double sign, double above,
                                  std::vector<double>& p);
 
@@ -105,12 +109,12 @@ class ModalProof {
     Amplitudes place, rate;                          // coefficients of z and z' in the guard
     std::vector<double> size;                        // |place| + |rate| sqrt(l), real modes
     double now = 0.0;                                // value of the guard, or of its leading derivative
-    double fast_bound = 0.0, fast_rate_bound = 0.0;  // bounds; for the leading derivative if leaves()
+    double fast_bound = 0.0, fast_rate_bound = 0.0;  // for the leading derivative if starts_at_zero()
   };
   struct Size {
     double place = 0.0, rate = 0.0;
   };
-  using WatchedValues = std::array<double, 4>;  // N, T, g and ut, as in TurningPointDetector::watched
+  using WatchedValues = std::array<double, 4>;  // N, T, g, ut, as TurningPointDetector::watched_fields
   [[nodiscard]] WatchedValues fast_bounds(std::size_t contact, bool of_rate) const;
   [[nodiscard]] WatchedValues one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
   void watch(const engine::Segment& segment, const StateModes& state);

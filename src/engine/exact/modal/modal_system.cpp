@@ -24,8 +24,8 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double app
   return law;
 }
 
-/// Relative loss of works: they divide by (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) (modal_works.hpp) and lose eps
-/// (omega/alpha)^2.
+/// Largest relative error of works, which divide by (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) (modal_works.hpp):
+/// it is eps (omega/alpha)^2.
 constexpr double most_lost = 1e-12;
 
 std::string coupling_refusal(const Model& model) {
@@ -105,7 +105,7 @@ std::shared_ptr<const StateModes> ModalSystem::state(const contact::ContactState
                        bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * contact_states.size())));
 }
 
-/// The matrix is a diagonal plus at most two columns for each contact.
+/// Computes the modes of contact states: the matrix is a diagonal plus at most two columns for each contact.
 StateModes ModalSystem::make(const contact::ContactStates& contact_states) const {
   std::vector<Vector> u, v;
   bool symmetric = true;
@@ -152,7 +152,7 @@ namespace {
 
 constexpr std::size_t most_degree = 30;
 
-/// Errors of N, T, g and ut (TurningPointDetector::watched) that follow from errors of g and ut.
+/// Errors of N, T, g and ut (TurningPointDetector::watched_fields) that follow from errors of g and ut.
 std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent) {
   return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
           tangent};
@@ -173,8 +173,9 @@ void ModalProof::split_modes(bool all_slow) {
   for (std::size_t k = 0; k < pairs.size(); ++k) pair_slow_[k] = size_of(pairs[k]) * h_ * h_ <= square;
 }
 
-/// Bounds on the contributions of fast modes and of the remainder of the slow ones to N, T, g and ut
-/// (TurningPointDetector::watched), or to their rates: each mode moves by at most A, and by sqrt(l) A in a unit of time.
+/// Bounds on the contributions of fast modes and of the remainder of slow modes to N, T, g and ut
+/// (TurningPointDetector::watched_fields), or to their rates: each mode moves by at most A, with a rate of at
+/// most sqrt(l) A.
 ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) const {
   const ForceLaw& law = laws_[c];
   double normal = of_rate ? normal_rest_[c].rate : normal_rest_[c].place;
@@ -187,8 +188,8 @@ ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) c
   return of_law(law, normal, tangent);
 }
 
-/// Part of [0, 1] on which each of N, T, g and ut is monotone or constant, without a turning point. N follows g; T
-/// follows g in slip and ut in stick.
+/// Part of [0, 1] on which each of N, T, g and ut is monotone or constant, without a turning point. N is a
+/// function of g; T is a function of g in slip and of ut in stick.
 ModalProof::WatchedValues ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
   const WatchedValues ripple = fast_bounds(c, true);
@@ -228,7 +229,7 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
   return safe * x_end;
 }
 
-/// Detects peaks between passages: values that rose up to the end of the previous passage and decrease from there.
+/// Detects extremes at the boundary of two passages: values that are monotone up to it and reverse there.
 void ModalProof::find_turning_at_start(const ModalPoint& at, double time,
                                        events::TurningPointDetector& turning, LastTurningTimes& turns) const {
   for (std::size_t c = 0; c < laws_.size(); ++c) {

@@ -1,4 +1,5 @@
-// modal_system.hpp: a structure and its contacts in its open modes, and in the modes of a contact state.
+// modal_system.hpp: a structure and its contacts in its unconstrained modes, and in the modes of a contact
+// state.
 //
 //   q'' + alpha q' + D q = Phi^T ( P - sum_k ( n_k N_k + t_k T_k ) ),            u = Phi q
 //   N = N_g g + N_c,  T = T_g g + T_u ut + T_c in a state:   z'' + alpha z' + L z = Y p,   q = X z
@@ -17,7 +18,7 @@
 
 namespace signorini::modal {
 
-/// Forces of one contact as functions of its gap and its slide; coefficients are zero if a state has no force.
+/// Forces of one contact as functions of its gap and ut; coefficients are zero if a state has no force.
 struct ForceLaw {
   double N_gap = 0.0, N_constant = 0.0;
   double T_gap = 0.0, T_ut = 0.0, T_constant = 0.0;
@@ -27,7 +28,7 @@ struct ForceLaw {
   [[nodiscard]] double N_rate(double vn) const { return N_gap * vn; }
   [[nodiscard]] double T_rate(double vn, double vt) const { return T_gap * vn + T_ut * vt; }
 };
-/// pressing: constant applied normal force of a slider.
+/// applied: constant applied normal force of a slider.
 [[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double applied);
 
 /// Reason why damping or contacts couple the modes of contact states; empty: they do not.
@@ -37,12 +38,12 @@ struct ForceLaw {
 /// Number of springs of a state in which all contacts are closed and stick.
 [[nodiscard]] std::size_t max_state_springs(const Model& model);
 
-/// One combination of contact states.
+/// The modes of one combination of contact states.
 struct StateModes {
   Spectrum spectrum;
   std::vector<Amplitudes> normal, tangent;            ///< coefficients of each mode in n_k . u and t_k . u
   std::vector<Amplitudes> from_normal, from_tangent;  ///< Y n_k, Y t_k
-  std::vector<Amplitudes> load, from_load;            ///< for each load's direction
+  std::vector<Amplitudes> load, from_load;            ///< same for each load's direction
   ModePairs pairs;                                    ///< if a contact slips and X is written out
 };
 
@@ -51,7 +52,7 @@ struct StateModes {
                                          const contact::ContactStates& states, const motion::Forcing& forcing,
                                          double t);
 
-/// Limit of states in memory: those of a motion that returns to its states.
+/// Limits of the cache of states, for motions that return to earlier states.
 inline constexpr base::CacheLimits max_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {

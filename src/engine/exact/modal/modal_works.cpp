@@ -10,7 +10,7 @@ namespace signorini::modal {
 namespace {
 
 constexpr double least_velocity =
-    1e-9;  // of the greatest modal velocity: smaller pairs change no digit of a balance
+    1e-9;  // of the greatest modal velocity; products of smaller ones are below the rounding of a balance
 constexpr double no_frequency = 1e-12, least_frequency = 1e-3;  // relative to omega^2 t_end^2
 
 template <class S>
@@ -112,7 +112,7 @@ ModalWorkIntegrals::Stretch ModalWorkIntegrals::stretch(const ModalPoint& from, 
   return s;
 }
 
-/// Contribution of drifts to int z_k' z_l'.
+/// Contribution of the drifts d_k, d_l to int z_k' z_l'; product: that of y_k, y_l.
 double ModalWorkIntegrals::with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const {
   const auto change = [&](std::size_t i) { return s.real[i].y1 - s.real[i].y0; };
   return product * (s.drift[k] * s.drift[l] * s.time + s.drift[k] * change(l) + s.drift[l] * change(k));
@@ -133,7 +133,7 @@ std::vector<std::size_t> ModalWorkIntegrals::moving(const Stretch& s) const {
   return result;
 }
 
-/// Adds two modes, at least one of which has no frequency.
+/// Adds the sums of two modes, at least one of which has no frequency.
 void ModalWorkIntegrals::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const {
   const Integrals<double> both = integrals(s.real[k], s.real[l], alpha_);
   const double x = state_->spectrum.product(k, l);
@@ -199,7 +199,7 @@ void ModalWorkIntegrals::add_real(const Stretch& s, const std::vector<std::size_
   add_oscillating(end_arrays(s, oscillating), sums);
 }
 
-/// Adds pairs with real modes, with each other and with each other's conjugates.
+/// Adds the sums of conjugate pairs: with real modes, with other pairs and with the conjugates of pairs.
 void ModalWorkIntegrals::add_pairs(const Stretch& s, const std::vector<std::size_t>& moving,
                                    Sums& sums) const {
   const Spectrum& spectrum = state_->spectrum;

@@ -1,12 +1,12 @@
-// modal_works.hpp: works and dissipations of a stretch in modes, in closed form.
+// modal_works.hpp: works and dissipations of an interval in modes, in closed form.
 //
 //   y'' + alpha y' + l y = 0:   int y_k' y_l' and int y_k y_l' are forms on the values of y and y' at both
 //   ends, divided by (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l)
 //
-// Damping dissipates alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l', which is alpha sum int z_k'^2 if no contact
-// slips; friction dissipates int T p', in which g and ut' are sums over modes as well. The energy balance is therefore
-// an independent check. Forces are constant on the stretch; modes without frequency move like z = a + d t + y, d = p /
-// alpha.
+// Damping dissipates alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l', which is alpha sum int z_k'^2 if
+// no contact slips. Friction dissipates int T p', in which g and ut' are sums over modes as well. The energy
+// balance is an independent check. Forces are constant in the interval; modes without frequency move like
+// z = a + d t + y, d = p/alpha.
 #pragma once
 
 #include "engine/exact/modal/modal_proof.hpp"
@@ -18,7 +18,7 @@ class ModalWorkIntegrals {
  public:
   ModalWorkIntegrals(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
 
-  /// False: a frequency is too low for the closed form of works and too high to count as zero.
+  /// False if a frequency is too low for the closed form of works, but too high to count as zero.
   [[nodiscard]] static bool is_accurate_for(const Spectrum& spectrum, double t_end);
 
   /// All arguments except t_end must live until the next start.
@@ -28,7 +28,8 @@ class ModalWorkIntegrals {
   void add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to, double time,
            motion::WorkIntegrals& works) const;
 
-  /// Square of a mode's frequency, and the mode's homogeneous part with its rate at both ends.
+  /// Square of a mode's frequency, and the oscillating part y of the mode with its rate r at both ends of an
+  /// interval.
   template <class S>
   struct Ends {
     S l{}, y0{}, r0{}, y1{}, r1{};

@@ -2,7 +2,7 @@
 //
 //   e_kl = 1 / ( (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l) ),      shared_kl = x_k^T x_l e_kl
 //
-// Real modes k != l; 0 for two without frequency. Symmetric, and known for l < k.
+// For real modes k != l; 0 for two modes without frequency. Symmetric, stored for l < k.
 #pragma once
 
 #include <cstddef>
@@ -31,24 +31,26 @@ void pairs_of_mode(const Spectrum& spectrum, double alpha, Eigen::Index k, doubl
 
 // Sums over pairs of one mode with each mode before it.
 //
-//   y = oscillating part of a mode, y0, r0 = y, y' at the beginning of a stretch, y1, r1 at its end, l = omega^2
-//   e = 1/( d^2 + 2 alpha^2 (l_k + l_i) ),  d = l_i - l_k
+//   y = oscillating part of a mode, y0, r0 = y, y' at the beginning, y1, r1 at the end of an interval
+//   l = omega^2,  e = 1/( d^2 + 2 alpha^2 (l_k + l_i) ),  d = l_i - l_k
 //   int y_k' y_i' = -e ( 2 alpha l_k l_i [yy] + alpha (l_k + l_i) [rr] + d (l_k [yr] - l_i [ry]) )
 //   int y_k y_i'  =  e ( l_i (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_i [ry]) )
 //
-// [yy] = y_k y_i at the end minus its value at the beginning, [yr] = y_k y_i', and so on. Sums are taken in four parts.
+// [yy] = y_k y_i at the end minus its value at the beginning, [yr] the same of y_k y_i', [ry] of y_k' y_i,
+// [rr] of y_k' y_i'. Every sum is computed as four partial sums.
 
-/// Lists over all modes.
+/// Arrays with one entry for each mode.
 struct ModeEnds {
   const double *l, *y0, *r0, *y1, *r1;
 };
 
-/// For mode k and all i < k: writes [yy] and int y_k y_i', returns the sum of -x_k^T x_i int y_k' y_i'. shared: x_k^T
-/// x_i e (mode_pairs.hpp).
+/// For mode k and all i < k: writes [yy] and int y_k y_i' (mixed), returns the sum of -x_k^T x_i int y_k'
+/// y_i'. shared: shared_ki.
 [[nodiscard]] double pair_integrals(const ModeEnds& ends, double alpha, std::ptrdiff_t k,
                                     const double* shared, double* yy, double* mixed);
 
-/// sum over i < k of n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ): contribution of both to int (sum n y)(sum t y').
+/// sum over i < k of n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ): the contribution of these pairs of modes
+/// to int (sum n y)(sum t y').
 [[nodiscard]] double cross_integral(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
                                     const double* mixed);
 

@@ -60,8 +60,8 @@ Oscillators::Oscillators(const Spectrum& spectrum, double alpha)
     pair_damped_omega_.push_back(complex_sqrt(l - Complex(0.25 * alpha * alpha)));
 }
 
-/// by_series for the first `count` real modes, a block at a time: term by term, until a majorant of the block's last
-/// mode shows that further terms are negligible.
+/// Advances the first `count` real modes by their series, in blocks: term by term, until a majorant for the
+/// last mode of the block shows that further terms are negligible.
 void Oscillators::slow_by_series(const Amplitudes& p, std::size_t count, double time, ModalPoint& to) const {
   constexpr std::size_t width = 8;
   const double square = time * time;

@@ -2,8 +2,9 @@
 //
 //   z'' + alpha z' + l z = p:   z - p/l = e^(-alpha t/2) ( a cos(w t) + b sin(w t) ),   w^2 = l - alpha^2/4
 //
-// If sqrt(l) t is small the Taylor series in t is used instead: an entire function of l, so that zero frequencies and
-// critical damping need no special cases. Complex l: the mode represents itself and its conjugate.
+// If sqrt(l) t is small, the Taylor series in t is used instead: it is an entire function of l, so that zero
+// frequencies and critical damping need no special cases. A mode with a complex l represents itself and its
+// conjugate.
 #pragma once
 
 #include <cmath>
@@ -12,16 +13,16 @@
 
 namespace signorini::modal {
 
-/// Amplitudes and their rates; for complex modes (damped_motion.hpp) the complex amplitudes and the time since the
-/// segment's beginning.
+/// The motion at one time: real amplitudes z and their rates, or for complex modes (damped_motion.hpp) their
+/// amplitudes y and the time since the segment's beginning.
 struct ModalPoint {
   Amplitudes z, rate;
   Eigen::VectorXcd y;
   double time = 0.0;
 };
 
-/// Bounds |sum_k x_k A_k| with |x_k| = 1: by the root of the sum of squares if the shapes are orthogonal, otherwise by
-/// the sum of the A_k.
+/// Bound on |sum_k x_k A_k| for |x_k| = 1: the root of the sum of squares of A_k if the x_k are orthogonal,
+/// otherwise the sum of |A_k|.
 class SumOfModes {
  public:
   /// Same meaning as StepFacts::eigenvector_condition.
@@ -50,8 +51,8 @@ class Oscillators {
   void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
   /// z''
   [[nodiscard]] Amplitudes accelerations(const ModalPoint& at, const Amplitudes& p) const;
-  /// Amplitude bound of a mode that does not oscillate: larger than any other, but finite, since zero times infinity is
-  /// NaN.
+  /// Amplitude of a mode that does not oscillate: larger than any other, but finite, because zero times
+  /// infinity is NaN.
   static constexpr double never = 1e300;
   /// Amplitude of each mode's oscillation about p/l; for a pair, which may grow or decay, the initial one.
   void amplitudes(const ModalPoint& at, const Amplitudes& p, std::vector<double>& real,

@@ -101,7 +101,8 @@ class SmallLu {
     return result;
   }
 
-  /// c with G c = 0 and d with d^T G = 0, treating the last `nullity` pivots as zero: `which` selects one of them.
+  /// c with G c = 0 and d with d^T G = 0, with the last `nullity` pivots taken as zero; `which` selects one
+  /// of the null vectors.
   void null_vectors(SmallVector<S>& c, SmallVector<S>& d, std::size_t nullity = 1,
                     std::size_t which = 0) const {
     SmallVector<S> x{}, w{};
@@ -134,8 +135,9 @@ class SmallLu {
 
 // A large matrix times a few vectors, A x_1, A x_2, ..., in one pass through memory.
 //
-//   four rows and up to three vectors at once: loaded entries are used several times, and sums do not wait for
-//   their last term. Sums are taken in four parts, of places k, k + 4, ..., identical in every build.
+// Four rows and up to three vectors are processed at once, so that loaded entries are used several times and
+// additions do not wait for each other. Every sum is computed as four partial sums, of the places k, k + 4,
+// ..., so it is identical in every build.
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

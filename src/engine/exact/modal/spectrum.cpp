@@ -11,9 +11,10 @@ namespace {
 
 constexpr double filling = 1e-30;       // of the greatest entry, in zero rows
 constexpr double equal = 1e-13;         // relative distance at which poles are equal up to rounding
-constexpr double unseen_share = 1e-13;  // equal modes: residual of a mode that no contact sees
-/// Limit for |X Y q - q| of a q with entries within 1: states of the pipeline have 1e-13 at 201 unknowns, and the error
-/// of an event is about the same, in its own scales. Chosen; changing it moves "flows: stiff beside soft".
+constexpr double unseen_share = 1e-13;  // equal modes: largest coupling of a mode that counts as uncoupled
+/// Limit for |X Y q - q| of a q with entries within 1: states of the pipeline have 1e-13 at 201 unknowns, and
+/// the relative error of an event is about the same. Chosen; the test "flows: stiff beside soft" depends on
+/// it.
 constexpr double worst_round_trip = 1e-12;
 constexpr double worst_condition = 1e4;
 
@@ -43,13 +44,13 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
     failure_ = "too many springs of closed contacts for the modes of a contact state";
     return;
   }
-  if (rank_ == 0) {  // the open modes themselves, which are orthonormal
+  if (rank_ == 0) {  // the unconstrained modes themselves, which are orthonormal
     squares_.assign(poles.size(), 1.0);
     value_base_ = values_;
     value_offset_.assign(poles.size(), 0.0);
     return;
   }
-  // Equal poles are consecutive, and remain so among the seen modes.
+  // Equal poles are consecutive, and remain so among the coupled modes.
   group_begin_.resize(poles.size());
   group_end_ = group_begin_;
   for (std::size_t first = 0, last = 0; first < poles.size(); first = last) {
@@ -83,7 +84,7 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   test();
 }
 
-/// Rotates V so that it has no more nonzero rows than its rank.
+/// Rotates equal modes so that V has at most `rank` nonzero rows among them.
 void Spectrum::rotate_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
   for (std::size_t first = 0; first < group_end_.size(); first = group_end_[first]) {
     const auto row = static_cast<Eigen::Index>(first),
@@ -163,7 +164,7 @@ void Spectrum::test() {
   if (!(condition_ < worst_condition)) failure_ = "the modes of the contact state are nearly parallel";
 }
 
-// Conversions between a state and its amplitudes: sums over 1 / (D_i - l_k).
+// Conversions between a motion and its amplitudes: sums over 1 / (D_i - l_k).
 
 template <class S>
 void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool form, std::vector<S>& z) const {
@@ -193,7 +194,7 @@ void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool for
     for (std::size_t a = 0; a < rank_; ++a) z[k] += small[k * rank_ + a] * sums[a * count + k];
 }
 
-/// Motion of an unseen mode in each seen mode: -1/(D_j - l) U_j c.
+/// Coordinate of the uncoupled mode j in the vector of root k: -1/(D_j - l) U_j c.
 template <class S>
 S Spectrum::uncoupled_coordinate(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const {
   S sum{};
@@ -232,7 +233,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     const std::vector<double> mixed = real;
     for (const Close& pair : close_) real[pair.k] -= pair.product * mixed[pair.l];
   }
-  if (form) {  // all modes move the unseen part of a form
+  if (form) {  // all modes contribute to a form on uncoupled coordinates
     for (std::size_t j = 0; j < uncoupled_.size(); ++j)
       if (const double entry = turned[uncoupled_[j]]; entry != 0.0) {
         for (std::size_t k = 0; k < real_.size(); ++k)

@@ -4,11 +4,12 @@
 //   right  x = (D - l)^-1 U c,   left  y = (D - l)^-1 V d,   y^T x = 1
 //   (1 + V^T (D - l)^-1 U) c = 0,   (1 + U^T (D - l)^-1 V) d = 0
 //
-// D: squares of the open modes' frequencies; U, V: springs of closed contacts in these modes, not symmetric if a
-// contact slips. All roots are computed together (Ehrlich, Aberth). A root is a pole and an offset, so that D_i - l
-// keeps its digits however close they are. Vectors are Cauchy vectors, and products with them are sums over 1 / (D_i -
-// l_k), n^2 operations; if they fit in memory they are written out. Equal poles are separated, and zero rows filled, by
-// far less than their rounding, so that every root is simple.
+// D: squares of the frequencies of the unconstrained modes; U, V: springs of closed contacts in these modes,
+// not symmetric if a contact slips. All roots l are computed together (Ehrlich, Aberth). A root is stored as
+// a pole and an offset, so that D_i - l is accurate however close they are. Vectors are Cauchy vectors, and
+// products with them are sums over 1 / (D_i - l_k), n^2 operations; if they fit in memory, X and Y are
+// stored. Equal poles are separated, and zero rows filled, by far less than their rounding, so that every
+// root is simple.
 // Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994), 1266.
 #pragma once
 
@@ -38,7 +39,7 @@ struct Poles {
   }
 };
 
-/// Eigenvalues of one kind: real ones, or those of conjugate pairs above the real axis.
+/// Eigenvalues of one kind: the real ones, or those of conjugate pairs with positive imaginary part.
 template <class S>
 struct Roots {
   std::vector<std::size_t> pole_index;  ///< index of the pole
@@ -48,7 +49,7 @@ struct Roots {
   [[nodiscard]] std::size_t size() const { return pole_index.size(); }
 };
 
-/// Amplitudes of all modes of a spectrum; that of a pair represents its conjugate's too.
+/// Amplitudes of all modes of a spectrum; the amplitude of a pair also represents that of its conjugate.
 struct Amplitudes {
   std::vector<double> real;
   std::vector<Complex> pair;
@@ -61,7 +62,7 @@ struct VectorProducts {
   std::vector<Complex> c_pair, h_pair;
 };
 
-/// Limit of unknowns up to which X and Y are written out: 16 n^2 bytes for a state, 16 MB here.
+/// Number of unknowns up to which X and Y are stored: 16 n^2 bytes for a state, 16 MB at the limit.
 inline constexpr std::size_t max_stored_modes = 1024;
 
 class Spectrum {
@@ -73,17 +74,19 @@ class Spectrum {
 
   /// Reason why the modes cannot be used; empty: they can.
   [[nodiscard]] const std::string& failure() const { return failure_; }
-  /// Eigenvalues in the order of amplitudes: by magnitude.
+  /// Eigenvalues in the order of Amplitudes: by magnitude.
   [[nodiscard]] const std::vector<double>& real() const { return values_; }
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_.value; }
-  /// Greatest |x| |y|; round_trip(): greatest |X Y q - q| found for a q with entries within 1.
+  /// Greatest |x| |y|; round_trip(): |X Y q - q| of a test vector q with entries within 1.
   [[nodiscard]] double condition() const { return condition_; }
   [[nodiscard]] double round_trip() const { return round_trip_; }
 
+  /// Amplitudes of the zero motion.
   [[nodiscard]] Amplitudes zero() const {
     return {std::vector<double>(real().size(), 0.0), std::vector<Complex>(pairs().size())};
   }
-  /// Y q and X^T q: amplitudes of a state, and coefficients of the modes in a form.
+  /// z := Y q, the amplitudes of a motion; of_form(): row := X^T form, the coefficients of the modes in a
+  /// form.
   void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { to_modes({&q}, {&z}); }
   void to_modes(const std::vector<const Eigen::VectorXd*>& q, const std::vector<Amplitudes*>& z) const;
   void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }
@@ -95,7 +98,7 @@ class Spectrum {
   [[nodiscard]] std::size_t rank() const { return rank_; }
   /// q := X z, for several z at once.
   void from_modes(const std::vector<const Amplitudes*>& z, const std::vector<Eigen::VectorXd*>& q) const;
-  /// Size of X and Y, if they are written out.
+  /// Memory of X and Y, if they are stored.
   [[nodiscard]] std::size_t stored_bytes() const;
 
  private:
@@ -104,15 +107,17 @@ class Spectrum {
   bool search(std::vector<S>& offset);
   template <class S>
   void start(std::vector<S>& offset) const;
-  /// Newton steps on the characteristic polynomial, and on it with the other roots divided out.
+  /// Newton steps on the characteristic polynomial, and on the polynomial divided by the factors of the other
+  /// roots.
   template <class S>
   struct Correction {
     S newton, deflated;
   };
   template <class S>
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
-  /// Effect of the poles outside a group on a root near it (default group: poles equal to home): G0 = 1 + V^T (D -
-  /// l)^-1 U without the group, its slope, and the group's own matrix, which is not singular near its poles:
+  /// Effect of the poles outside a group on a root near it (default group: poles equal to home). g:
+  /// G0 = 1 + V^T (D - l)^-1 U without the group; slope: its derivative; s: the group's own matrix S, which
+  /// is not singular near its poles:
   ///   S = D_group - l + U_group G0^-1 V_group^T
   ///   det(A - l) = product of (D_i - l) outside * det G0 * det S
   template <class S>
@@ -189,7 +194,7 @@ class Spectrum {
   std::vector<Eigen::Index> coupled_, uncoupled_;                    // indices among all modes
   Eigen::MatrixXd u_uncoupled_;
   std::vector<double> uncoupled_poles_;
-  // Data of the seen modes:
+  // Data of the coupled modes:
   std::size_t n_ = 0;
   Poles poles_;
   Eigen::MatrixXd u_, v_;
@@ -198,19 +203,20 @@ class Spectrum {
   std::vector<std::size_t> home_, group_begin_, group_end_;  // groups: equal poles
   Roots<double> real_;
   Roots<Complex> pairs_;
-  std::vector<std::size_t> order_;  // places of real_ and, after its end, of unseen_
+  std::vector<std::size_t> order_;  // places of real_ and, after its end, of uncoupled_
   std::vector<double> values_;
   struct Close {
     std::size_t k, l;
-    double product;  // close_: y_k^T x_l, from rounding alone
+    double product;  // in close_: y_k^T x_l, which is zero except for rounding
   };
   std::vector<Close> close_;
-  std::vector<Close> alike_;  // x_k^T x_l of amplitudes k > l whose l_k - l_l has lost its digits
+  // x_k^T x_l of modes k > l with such a small l_k - l_l that products_ are inaccurate.
+  std::vector<Close> alike_;
   std::vector<double> squares_;
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // values of real modes; differences keep their digits
   VectorProducts products_;
-  RowMatrix x_, y_;  // a pair in two columns, 2 Re x and -2 Im x, and in two rows, Re y and Im y
+  RowMatrix x_, y_;  // X, Y: a pair has two columns, 2 Re x and -2 Im x, and two rows, Re y and Im y
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
 };

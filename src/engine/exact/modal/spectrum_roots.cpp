@@ -1,4 +1,4 @@
-// The roots of the secular function, all together: Ehrlich and Aberth, starting at the poles.
+// All roots of the secular function at once, by the method of Ehrlich and Aberth, starting at the poles.
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,8 @@ Complex start_of(std::complex<double> value, std::size_t index) {
 
 }  // namespace
 
-/// Offsets to first order: eigenvalues of the small matrix of a group of close poles under the effect of all others.
+/// First-order estimates of the offsets: eigenvalues of the small matrix of a group of close poles, with the
+/// effect of all other poles.
 template <class S>
 void Spectrum::start(std::vector<S>& offset) const {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -157,7 +158,7 @@ SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local
   return change;
 }
 
-/// Same in lanes.
+/// Same, vectorised.
 template <>
 Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) const {
   begin_local(home, local);
@@ -216,7 +217,8 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
   return {inverse(poles + *slope), inverse(sum + *slope)};
 }
 
-/// One Newton step, in extended precision: recovers the digits that close roots lose. local: G0 at the root.
+/// One Newton step in extended precision, for roots whose offsets are inaccurate because they are close to
+/// others. local: G0 at the root.
 Spectrum::Wide Spectrum::refined_offset(std::size_t home, Wide own, Local<Wide>& local) const {
   const Wide poles = gather(home, own, local);
   const std::optional<Wide> slope = trace(home, own, local);
@@ -263,7 +265,7 @@ bool Spectrum::search(std::vector<S>& offset) {
     std::vector<std::size_t> left;
     for (const std::size_t k : unsettled) {
       const Correction<S> found = correction(k, offset, shift);
-      // If two approaches collide they would repel each other by less than their distance.
+      // If two approximations collide, their mutual correction would be less than their distance.
       const bool collides =
           size_of(found.newton) > 1e3 * size_of(found.deflated) || !std::isfinite(size_of(found.deflated));
       const S step =
@@ -340,15 +342,16 @@ template void Spectrum::group_matrix(const SmallLu<Wide>&, Wide, std::size_t, Lo
 template SmallMatrix<Spectrum::Wide> Spectrum::group_slope(const SmallLu<Wide>&, const Local<Wide>&) const;
 template void Spectrum::group_matrix(const SmallLu<Complex>&, Complex, std::size_t, Local<Complex>&) const;
 
-// Roots so close to each other that the search cannot separate them: all their vectors from one small matrix.
+// Vectors of roots that are too close to each other for the search: all from one small matrix.
 //
 //   S(l + e) = S + e S', on null vectors R, L of S:   (L^T S R + e L^T S' R) w = 0
 //
-// The group whose poles are left to S is that of all close roots, so that G0 is not singular.
+// The group of S contains the poles of all these close roots, so that G0 is not singular.
 
 namespace {
 
-/// Relative to the offset, ten times the error of the search. S is linear over it up to its square.
+/// Distance of such roots relative to the offset: ten times the error of the search. S is linear over it up
+/// to its square.
 constexpr double together = 1e-8;
 
 }  // namespace
@@ -380,7 +383,8 @@ std::vector<std::vector<std::size_t>> Spectrum::find_clusters(const Roots<double
   return lists;
 }
 
-/// The poles of a list of roots: their own, and neighbours until there are enough.
+/// Range of poles for a list of roots: the poles of these roots, and neighbours until there are as many as
+/// roots.
 std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::size_t>& members,
                                                        const Roots<double>& roots) const {
   std::size_t first = n_, last = 0;
@@ -467,7 +471,8 @@ std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatri
 
 }  // namespace
 
-/// False: the small matrices cannot hold so many poles, or are singular in another way.
+/// Separates a cluster of close roots. False: there are too many poles for the small matrices, or these are
+/// singular for another reason.
 bool Spectrum::split_cluster(const std::vector<std::size_t>& members, Roots<double>& roots) {
   const std::size_t m = members.size(), home = roots.pole_index[members.front()];
   Wide own = 0;

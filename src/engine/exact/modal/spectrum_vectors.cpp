@@ -18,7 +18,7 @@ constexpr double alike = 1e-5;  // relative distance of eigenvalues below which 
 
 }  // namespace
 
-/// Entries of X or Y for the seen modes: side small / (D - l).
+/// Entries of X or Y for the coupled modes: side small / (D - l).
 template <class S>
 void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
                       std::vector<S>& out) const {
@@ -54,8 +54,8 @@ void Spectrum::outside_group(const SmallLu<S>& lu, const Local<S>& local, const 
   d = lu.solve_transposed(d);
 }
 
-/// Null vectors of the small matrices, for real roots in extended precision: if roots are close to each other, double
-/// precision loses up to five digits.
+/// Null vectors of the small matrices; for real roots in extended precision, because double precision loses
+/// up to five digits if roots are close to each other.
 template <class S>
 void Spectrum::find_vectors(Roots<S>& roots) {
   constexpr bool is_real = std::is_same_v<S, double>;
@@ -88,7 +88,8 @@ void Spectrum::find_vectors(Roots<S>& roots) {
   }
 }
 
-/// Scales to |x| = 1 and y^T x = 1, with the vectors that follow from the rounded offset, c and d.
+/// Stores c and d, scaled so that |x| = 1 and y^T x = 1 for the vectors that follow from the rounded offset,
+/// c and d.
 template <class S, class W>
 void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c_wide,
                             const SmallVector<W>& d_wide) {
@@ -128,8 +129,8 @@ Eigen::VectorXd Spectrum::coupled_vector(const std::vector<double>& small, const
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(n_));
 }
 
-/// Vectors of nearly coinciding eigenvalues are accurate except for components of each other: Y := (1 - E) Y with E = Y
-/// X there.
+/// Removes components along each other from the vectors of close eigenvalues: Y := (1 - E) Y, E the entries
+/// of Y X for two close eigenvalues.
 void Spectrum::split_close_roots() {
   std::vector<std::size_t> order;
   for (const std::size_t k : order_)
@@ -145,13 +146,13 @@ void Spectrum::split_close_roots() {
   }
 }
 
-/// x^T x; the pole closest to the root contributes most.
+/// Computes x^T x of all modes; the pole closest to the root contributes most.
 void Spectrum::find_squares() {
   double worst = 1.0;
   const auto square = [&](const auto& roots, std::size_t k) {
     using S = typename std::decay_t<decltype(roots.offset)>::value_type;
     S sum{};
-    double beside = 1.0;  // |x|, mostly of the unseen modes: they are nearly parallel then
+    double beside = 1.0;  // |x|, with the uncoupled coordinates
     std::vector<S> x;
     cauchy(roots, k, roots.right.data() + k * rank_, u_, x);
     for (const S& entry : x) sum += entry * entry;
@@ -160,7 +161,7 @@ void Spectrum::find_squares() {
       sum += entry * entry;
       beside = std::hypot(beside, size_of(entry));
     }
-    // The condition gives the length of its left vector, for the seen part alone.
+    // The condition gives the length of its left vector, for the coupled coordinates alone.
     worst = std::max(worst, std::isfinite(beside) ? beside : std::numeric_limits<double>::infinity());
     return sum;
   };
@@ -174,7 +175,7 @@ void Spectrum::find_squares() {
   condition_ *= worst;
 }
 
-/// The vectors themselves, for the few whose difference is only rounding.
+/// Computes x_k^T x_l from the vectors, for pairs of modes whose l_k - l_l is inaccurate.
 void Spectrum::find_alike() {
   for (std::size_t l = 0; l < order_.size(); ++l)
     for (std::size_t k = l + 1; k < order_.size() && std::abs(difference(k, l)) <= alike * values_[k]; ++k) {
@@ -223,8 +224,8 @@ void Spectrum::find_products() {
   fill(pairs_, c_pair, h_pair);
   std::vector<double> c_seen, h_seen;
   fill(real_, c_seen, h_seen);
-  // The shape of an unseen mode is a unit vector: U c represents one as the limit of a residue, and its product with
-  // others has one entry only.
+  // The shape of an uncoupled mode is a unit vector: U c represents it as the limit of a residue, and its
+  // product with another shape has one term only.
   c.assign(order_.size() * rank_, 0.0);
   h = c;
   for (std::size_t p = 0; p < order_.size(); ++p)
@@ -246,13 +247,13 @@ template void Spectrum::cauchy(const Roots<Complex>&, std::size_t, const Complex
 template void Spectrum::find_vectors(Roots<double>&);
 template void Spectrum::find_vectors(Roots<Complex>&);
 
-// X and Y written out as matrices: a product with them is n^2 multiplications instead of n^2 divisions.
+// X and Y stored as matrices: a product with them is n^2 multiplications instead of n^2 divisions.
 
 std::size_t Spectrum::stored_bytes() const {
   return sizeof(double) * static_cast<std::size_t>(x_.size() + y_.size());
 }
 
-/// side * small / (D - l) of one root, at the places of the seen modes; zero elsewhere.
+/// side * small / (D - l) of one root, at the places of the coupled modes; zero elsewhere.
 template <class S>
 void Spectrum::entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small,
                        const Eigen::MatrixXd& side, std::vector<S>& out) const {
@@ -266,7 +267,7 @@ void Spectrum::store_matrices() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
              n = static_cast<Eigen::Index>(coupled_.size() + uncoupled_.size());
-  std::vector<Eigen::Index> place(order_.size());  // places of real_ and unseen_ among amplitudes
+  std::vector<Eigen::Index> place(order_.size());  // places of real_ and uncoupled_ among amplitudes
   for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<Eigen::Index>(p);
   y_.setZero(reals + 2 * pairs, n);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, reals + 2 * pairs);

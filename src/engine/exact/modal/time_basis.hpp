@@ -1,4 +1,4 @@
-// time_basis.hpp: the functions of time in the excitation of a segment, and in the response to them.
+// time_basis.hpp: the functions of time in the excitation of a segment, and the response of a root to them.
 //
 //   b(x) = ( 1, x, ..., x^D, cos w_1 x, sin w_1 x, ... ),   x = t - t0,   f(t) = c . b(x)
 //   f' = (c D) . b,   c D = l c + p  solved for c:  the forced part of z' = l z + p(t), besides exp(l x)
@@ -6,9 +6,9 @@
 // Every history is such an f on a segment. The degree D is one more than the forcing's: the response without stiffness
 // has one degree more.
 //
-// Solved backwards from x^D, the terms of c are p/l, p/l^2, ...: for a root that is slow relative to the segment they
-// are far greater than the response, and cancel. The response of such a root is solved forwards, as a power series in
-// x:
+// Solved backwards from x^D, the terms of c are p/l, p/l^2, ... . For a root l that is slow relative to the
+// segment, these terms are far greater than the response, and cancel. The response of such a root is solved
+// forwards, as a power series in x:
 //   c_0 = 0,   c_j+1 = (l c_j + p_j) / (j + 1),   to the x^(D+m) with (|l| x)^m / m! below rounding
 #pragma once
 
@@ -44,21 +44,23 @@ class TimeBasis {
   [[nodiscard]] bool is_constant() const { return degree_ == 1 && omega_.empty(); }
   /// b(x)
   [[nodiscard]] Eigen::VectorXd at(double x) const;
+  /// Coefficients of a piece of a history.
   [[nodiscard]] TimeCoefficients of(const Piece& piece) const;
   [[nodiscard]] TimeCoefficients constant(double value) const;
   /// Derivative of rows c.
   [[nodiscard]] Eigen::MatrixXd derivative(const Eigen::MatrixXd& c) const;
   [[nodiscard]] TimeCoefficients derivative(const TimeCoefficients& c) const;
-  /// c with c D = l c + p; l = 0 or different from all +-i w: the coefficient of x^D of p is not read. For slow roots
-  /// to rounding, within the length given to make_room().
+  /// c with c D = l c + p, for l = 0 or l different from all +-i w; the coefficient of x^D in p is not read.
+  /// For slow roots the result is accurate to rounding within the length given to reserve_slow_roots().
   [[nodiscard]] ComplexTimeCoefficients response(std::complex<double> l,
                                                  const ComplexTimeCoefficients& p) const;
-  /// Ratio of the response's terms to p / l on [0, time], if p is not constant: their relative rounding error is eps
-  /// times it. 0: l = 0. A root that is not real, or that grows, belongs to a pair whose terms cancel, and so do their
-  /// rates: the remainder grows with the square of time.
+  /// Ratio of the response's terms to p / l on [0, time], if p is not constant: the relative rounding error
+  /// of the response is eps times this ratio. 0: l = 0. If l is not real, or positive, the terms of the pair
+  /// cancel, and so do their rates: the sum grows with the square of time.
   [[nodiscard]] double cancellation(std::complex<double> l, double time) const;
-  /// p[0 .. count): c . b(x0 + h x) in powers of x, count > D. Returns bounds on the waves with w h > turn, which are
-  /// left out, and on their rates by time; and on the higher powers of the others.
+  /// Writes c . b(x0 + h x) in powers of x to p, whose length must exceed D. Waves with w h > turn are
+  /// omitted. Returns bounds on these waves (value) and on their time derivatives (rate), and on the higher
+  /// powers of the others (rest).
   struct FastWaveBound {
     double value = 0.0, rate = 0.0, rest = 0.0;
   };
@@ -72,11 +74,11 @@ class TimeBasis {
     return l == 0.0 || std::abs(l) * length_ <= max_slow_angle;
   }
 
-  static constexpr double max_slow_angle =
-      0.5;  // backwards a ramp's terms are eight times its response there
+  // At this angle the terms of a ramp, solved backwards, are eight times its response.
+  static constexpr double max_slow_angle = 0.5;
   double t0_ = 0.0;
   double length_ = std::numeric_limits<double>::infinity();
-  std::size_t degree_ = 1, driven_ = 1;  // driven_: without room for slow roots
+  std::size_t degree_ = 1, driven_ = 1;  // driven_: degree without the terms for slow roots
   std::vector<double> omega_;
 };
 

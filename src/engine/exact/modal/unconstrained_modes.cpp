@@ -44,7 +44,7 @@ std::vector<int> narrow_order(const SparseMatrix& mass, const SparseMatrix& stif
   std::vector<int> order;
   for (std::size_t i = 0; i < n; ++i) {
     if (seen[i]) continue;
-    // Starts at the far end of a walk: its levels are narrow.
+    // Start at the far end of a first walk: the levels of the breadth-first search are then narrow.
     std::vector<bool> tried = seen;
     std::vector<int> trial;
     walk(static_cast<int>(i), tried, trial);
@@ -62,9 +62,10 @@ using LongVector = std::vector<Long>;
 
 constexpr std::size_t widest_band = 48;  // half-width of the band, without the diagonal
 constexpr double free_share = 1e-14;     // of the highest omega^2: below this, a motion is free
-constexpr double doubtful = 100.0;       // factor: such a low mode is indistinguishable from a free motion
+constexpr double doubtful = 100.0;       // times free_share: such a low mode may be a free motion
 constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are computed together
-constexpr int more_halvings = 11;  // limit for a bracket with one mode: inverse iteration gains 2000 a solve
+constexpr int more_halvings =
+    11;  // for a bracket with one mode; each inverse iteration then gains a factor of 2000
 constexpr int quick_solves = 3;
 constexpr int max_quotients = 6;
 constexpr double worst_product = 1e-4;  // limit for the product of two shapes before orthogonalisation
@@ -83,7 +84,7 @@ std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
     if (now.up_to == now.below) continue;
     const bool one = now.up_to - now.below == 1;
     if (!one && now.high - now.low > same_frequency * now.high) {
-      // Frequencies extend over decades.
+      // The geometric mean, because frequencies extend over decades.
       const double middle =
           now.high > 4.0 * now.low ? std::sqrt(now.low * now.high) : 0.5 * (now.low + now.high);
       const std::size_t count = std::clamp(pencil.factor(middle), now.below, now.up_to);
@@ -104,7 +105,7 @@ class Shapes {
  public:
   explicit Shapes(BandPencil<Long>& pencil) : pencil_(pencil), mx_(pencil.size()) {}
 
-  /// M-orthonormal columns that span the motions closest to the shift, with their Rayleigh quotients.
+  /// Computes the modes closest to the shift: M-orthonormal columns, and their Rayleigh quotients.
   void find(Long shift, std::size_t count, int solves, std::vector<LongVector>& x, LongVector& square) {
     x.assign(count, LongVector(pencil_.size()));
     for (LongVector& column : x)
@@ -114,7 +115,8 @@ class Shapes {
     rotate(x, square);
   }
 
-  /// One mode, started in doubles: the Rayleigh quotient as the next shift triples the digits.
+  /// Computes one mode, first in doubles. With the Rayleigh quotient as the next shift, each step triples the
+  /// digits.
   void find_one(BandPencil<double>& quick, const Bracket& bracket, LongVector& x, Long& square) {
     std::vector<double> begun(pencil_.size()), mx(pencil_.size());
     for (double& entry : begun) entry = uniform_(random_);
@@ -179,7 +181,7 @@ class Shapes {
     for (Long& entry : x) entry *= factor;
   }
 
-  /// Rotates to the motions of the span on which K is diagonal too.
+  /// Rotates the columns so that K is diagonal on them as well.
   void rotate(std::vector<LongVector>& x, LongVector& square) {
     const std::size_t count = x.size();
     std::vector<Long> energy(count * count);
@@ -216,7 +218,8 @@ class Shapes {
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
 
-/// Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order: each column changes by lower ones only.
+/// Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order: each column changes only by columns of lower
+/// modes.
 bool orthonormal_from_low_to_high(const SparseMatrix& mass, Eigen::MatrixXd& shapes) {
   for (int twice = 0; twice < 2; ++twice) {
     Eigen::MatrixXd products = shapes.transpose() * (mass * shapes);

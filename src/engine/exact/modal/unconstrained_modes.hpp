@@ -2,9 +2,10 @@
 //
 //   K phi = omega^2 M phi,   Phi^T M Phi = 1
 //
-// Frequencies are bracketed by counting negative pivots of K - s M (damped_pencil.hpp). Shapes are computed by inverse
-// iteration and the Rayleigh quotient in extended precision, and made orthonormal from low to high: a symmetric
-// correction would bring the static forces of high modes into low ones. Free motions have omega = 0 exactly.
+// Frequencies are bracketed by counting negative pivots of K - s M (damped_pencil.hpp). Shapes are computed
+// by inverse iteration and the Rayleigh quotient in extended precision. They are made orthonormal from low to
+// high, because a symmetric correction would add forces of high modes to low modes. Free motions have
+// omega = 0 exactly.
 // Sources: Bathe, Finite Element Procedures, section 11.4 (Sturm); Parlett, The Symmetric Eigenvalue Problem,
 // chapter 4 (Rayleigh quotient iteration).
 #pragma once
@@ -20,7 +21,7 @@ struct UnconstrainedModes {
   Vector omega_squared;    ///< omega^2, ascending; 0 for free motions
   Eigen::MatrixXd shapes;  ///< n x n, columns M-orthonormal
   int free = 0;            ///< number of motions without stiffness
-  std::string failure;     ///< reason why there are none; empty if there are
+  std::string failure;     ///< reason why the modes could not be computed; empty: they were
 
   [[nodiscard]] bool found() const { return failure.empty(); }
 };
@@ -28,11 +29,11 @@ struct UnconstrainedModes {
 /// True if the band of both matrices is narrow enough to save time.
 [[nodiscard]] bool has_narrow_band(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
-/// mass, stiffness: symmetric, mass positive definite. Costs about n^2 (10 + band^2) operations and 3 n^3 of matrix
-/// products. On failure `failure` gives the reason, and the rest is empty.
+/// All modes. mass, stiffness: symmetric, mass positive definite. Costs about n^2 (10 + band^2) operations,
+/// and 3 n^3 for matrix products. If `failure` is set, the other members are empty.
 [[nodiscard]] UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
-// A structure, its contacts and its loads in its open modes.
+// A structure, its contacts and its loads in its unconstrained modes.
 //
 //   u = Phi q,   q = Phi^T M u,   form . u = (Phi^T form) . q
 
@@ -45,7 +46,7 @@ class UnconstrainedBasis {
  public:
   explicit UnconstrainedBasis(const Model& model);
 
-  /// Reason why there are no modes; empty: there are.
+  /// Reason why there are no modes; empty: there are modes.
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// omega^2, ascending.
   [[nodiscard]] const Vector& omega_squared() const { return omega_squared_; }
@@ -69,6 +70,7 @@ class UnconstrainedBasis {
     for (const auto& [dof, factor] : form.terms) q += factor * shapes_.row(dof).transpose();
     return q;
   }
+  /// u := Phi q, for several q at once.
   void motions(const std::vector<const Vector*>& q, const std::vector<Vector*>& u) const {
     thin_product(shapes_, q, u);
   }

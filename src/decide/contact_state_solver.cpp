@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -38,21 +37,6 @@ std::vector<std::size_t> every_contact(const Model& model) {
   std::vector<std::size_t> all(model.contacts.size());
   std::iota(all.begin(), all.end(), 0U);
   return all;
-}
-
-/// Largest number of contacts in a block that can stick rigidly: the rows of two may be dependent. A contact
-/// that takes impulses is always decided with its block; the result is then the largest number of the type.
-std::size_t most_rigid_in_a_block(const Model& model, const ContactBlocks& blocks) {
-  std::size_t most = 0;
-  for (const Block& block : blocks.all) {
-    std::size_t rigid = 0;
-    for (const std::size_t c : block) {
-      if (model.contacts[c].takes_impulses()) return std::numeric_limits<std::size_t>::max();
-      rigid += model.contacts[c].sticks_rigidly() ? 1 : 0;
-    }
-    most = std::max(most, rigid);
-  }
-  return most;
 }
 
 /// Refusal for contact states without a system: the rows of rigid contacts are dependent, or the structure is
@@ -91,17 +75,6 @@ std::string springs_for_uniqueness(const Model& model, const std::vector<std::si
 
 }  // namespace
 
-std::vector<TriggeredGuard> find_resting_limits(const Decision& decision) {
-  std::vector<TriggeredGuard> result;
-  for (std::size_t i = 0; i < decision.guards.size(); ++i) {
-    const GuardStart& guard = decision.guards[i];
-    const bool limit = contact::is_friction_limit(guard.kind);
-    if (limit && guard.at_zero && guard.leading_order < 0)
-      result.push_back({decision.layout.contact_of_guard(i), guard.kind});
-  }
-  return result;
-}
-
 ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_rounds, double capture_velocity,
                                        bool whole_jets)
     : model_(systems.model()),
@@ -113,7 +86,7 @@ ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_ro
       guards_(model_),
       blocks_(model_),
       cycle_fallback_(systems, jets_, blocks_) {
-  const std::size_t rigid = most_rigid_in_a_block(model_, blocks_);
+  const std::size_t rigid = blocks_.max_rigid(model_);
   decide_separately_ = rigid <= 1;
   if (whole_jets || rigid > 0) return;
   local_derivatives_.emplace(systems);
@@ -575,10 +548,10 @@ Decision ContactStateSolver::decide(Instant instant, const motion::Forcing& befo
   const bool painleve = kind == Refusal::Kind::ambiguous || kind == Refusal::Kind::paradox;
   if (!painleve || !(first.max_rest_speed > 0.0)) return std::move(first.decision);
   instant.rest_speed = retry_noise_factor * first.max_rest_speed;
-  Attempt find_resting_limits = attempt(instant, before, after);
-  if (find_resting_limits.decision.refusal) return std::move(first.decision);
-  find_resting_limits.decision.undecided = true;
-  return std::move(find_resting_limits.decision);
+  Attempt second = attempt(instant, before, after);
+  if (second.decision.refusal) return std::move(first.decision);
+  second.decision.undecided = true;
+  return std::move(second.decision);
 }
 
 Refusal ContactStateSolver::standstill(const Decision& last, std::vector<std::size_t> contacts,

@@ -19,10 +19,6 @@
 
 namespace signorini::decide {
 
-/// Friction limits that are zero with all their derivatives after the decision: the list
-/// Instant::resting_limits of the next one, as long as none of them fails.
-[[nodiscard]] std::vector<TriggeredGuard> find_resting_limits(const Decision& decision);
-
 class ContactStateSolver {
  public:
   /// max_rounds: limit for the rounds of state changes at one instant. capture_velocity: for rigid contacts

@@ -2,11 +2,25 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "decide/massless_jump.hpp"
 
 namespace signorini::decide {
+
+std::size_t ContactBlocks::max_rigid(const Model& model) const {
+  std::size_t most = 0;
+  for (const Block& block : all) {
+    std::size_t rigid = 0;
+    for (const std::size_t c : block) {
+      if (model.contacts[c].takes_impulses()) return std::numeric_limits<std::size_t>::max();
+      rigid += model.contacts[c].sticks_rigidly() ? 1 : 0;
+    }
+    most = std::max(most, rigid);
+  }
+  return most;
+}
 
 /// Takes the best of all combinations of states of a block, if it is acceptable; otherwise returns the
 /// refusal.

@@ -25,6 +25,10 @@ struct ContactBlocks {
     for (std::size_t b = 0; b < all.size(); ++b)
       for (const std::size_t c : all[b]) of[c] = b;
   }
+  /// Largest number of contacts in a block that can stick rigidly: the rows of two may be dependent. A contact
+  /// that takes impulses is always decided with its block; the result is then the largest number of the type.
+  [[nodiscard]] std::size_t max_rigid(const Model& model) const;
+
   std::vector<Block> all;
   std::vector<std::size_t> of;
 };

@@ -95,4 +95,8 @@ struct Decision {
   }
 };
 
+/// Friction limits that are zero with all their derivatives after the decision: the list
+/// Instant::resting_limits of the next one, as long as none of them fails.
+[[nodiscard]] std::vector<TriggeredGuard> find_resting_limits(const Decision& decision);
+
 }  // namespace signorini::decide

@@ -668,5 +668,5 @@ TEST_CASE("one model of a scene with a tolerance has a cutoff only where it was 
   const Model model = build_model(scene);  // checks and reports show the whole structure
   CHECK_FALSE(model.reduction.has_value());
   CHECK(std::any_of(model.warnings.begin(), model.warnings.end(),
-                    [](const std::string& w) { return w.find("whole model") != std::string::npos; }));
+                    [](const std::string& w) { return w.find("uses the full model") != std::string::npos; }));
 }

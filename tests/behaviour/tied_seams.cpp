@@ -146,7 +146,7 @@ TEST_CASE("tied nodes that supports hold, masters at rest, and contact keys are 
   refused("[[seams]]\nname = \"again\"\nslave = \"low.top\"\nmaster = \"high.bottom\"\nlaw = \"tied\"\n",
           "is tied itself");
   refused("[[seams]]\nname = \"down\"\nslave = \"low.bottom\"\nmaster = \"ground\"\nlaw = \"tied\"\n",
-          "to what rests");
+          "to a fixed surface");
 }
 
 TEST_SUITE_END();

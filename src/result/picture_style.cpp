@@ -176,7 +176,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"Events of the contacts, a mark each", "Ereignisse der Kontakte, je ein Strich", "События контактов, по отметке на каждое"},
     std::array<std::string_view, 3>{"Loads and motion of the base", "Lasten und Bewegung des Bodens", "Нагрузки и движение основания"},
     std::array<std::string_view, 3>{"Contact forces and friction cones", "Kontaktkräfte und Reibungskegel", "Силы контактов и конусы трения"},
-    std::array<std::string_view, 3>{"inside its cone a contact sticks, on the edge it slips", "innen haftet es, am Rand gleitet es", "внутри сцепление, на границе скольжение"},
+    std::array<std::string_view, 3>{"sticks inside, slips on the edge", "innen haftet es, am Rand gleitet es", "внутри сцепление, на границе скольжение"},
     std::array<std::string_view, 3>{"Shape at t = {} {}", "Form bei t = {} {}", "Форма при t = {} {}"},
     std::array<std::string_view, 3>{"slid by ({}, {}) {}, deformation", "verschoben um ({}, {}) {}, Verformung", "сдвиг на ({}, {}) {}, деформация"},
     std::array<std::string_view, 3>{"displacements", "Verschiebungen", "перемещения"},

@@ -307,7 +307,7 @@ Picture cone_picture(const PlottedRun& run) {
       rubbing > shown.size() ? " (" + translate(run, "first {} of {}", shown.size(), rubbing) + ")" : "";
   Picture picture{"cone",
                   translate(run, "Contact forces and friction cones") + part + ": " +
-                      translate(run, "inside its cone a contact sticks, on the edge it slips"),
+                      translate(run, "sticks inside, slips on the edge"),
                   canvas};
   picture.setup = colour_function() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
   if (small) picture.setup += fmt::format("set tics font ',{:.4g}'\n", canvas.font(10.0));

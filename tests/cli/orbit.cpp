@@ -110,7 +110,7 @@ TEST_CASE(
                                    "loads.1.history.omega=1.5:1.8", "--no-plots"});
   CAPTURE(period.err);
   CHECK(period.code == 3);
-  CHECK(period.err.find("repeats itself") != std::string::npos);
+  CHECK(period.err.find("one with the period of the orbit") != std::string::npos);
   shell.write("late.toml",
               rubbed(harmonic() + "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.5\nhistory = { type = "
                                   "\"rectangle\", start = 0.5, end = 1.0 }\n"));

@@ -310,7 +310,7 @@ TEST_CASE("cli run: a disk that fills up during a run leaves whole rows, and a m
   CHECK(ending.code == 6);
   CHECK(ending.err.find("cannot be written: ") != std::string::npos);
   CHECK(ending.err.find("the run stopped at t = ") != std::string::npos);
-  CHECK(ending.err.find("is kept in belt-run") != std::string::npos);
+  CHECK(ending.err.find("are kept in belt-run") != std::string::npos);
   const json outcome = json::parse(shell.read("belt-run/summary.json"))["outcome"];
   CHECK(outcome["kind"] == "stopped");
   CHECK(outcome["exit_code"] == 6);

@@ -173,7 +173,7 @@ Variant variant_of(const std::string& text) {
   return variant;
 }
 
-/// Names of the engines without their keys, as in --set.
+/// Names of the engines, without the keys of newmark:dt=1e-4: the names that may stand before a path in --set.
 std::vector<std::string> engines_of(const CompareOptions& options) {
   std::vector<std::string> names;
   for (const std::string& text : options.engines) names.push_back(variant_of(text).engine);

@@ -206,7 +206,8 @@ std::string contact_table(const Model& model, const Report& report, TableStyle s
   for (const Peak& peak : report.peaks) greatest = std::max({greatest, peak.tangential, peak.normal});
   // A motion of rounding size is shown as 0.
   const auto length = [&](double x) { return number(x > rounding::many_operations * greatest ? x : 0.0); };
-  Table table({"greatest motion from the start", "along t" + unit, "along n" + unit}, {false, true, true});
+  Table table({"greatest displacement relative to the start", "along t" + unit, "along n" + unit},
+              {false, true, true});
   for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k)
     table.row({model.contacts[k].name, length(report.peaks[k].tangential), length(report.peaks[k].normal)});
   if (model.contacts.size() > most)

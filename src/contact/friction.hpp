@@ -62,7 +62,7 @@ class LimitSeries {
 
   double range_, force_;  // fl - fh, Nc
   double slope_;
-  std::vector<double> x_, e_;
+  std::vector<double> x_, e_;  // coefficients x_k, and those of exp(-x / Nc)
 };
 
 /// static_friction: the greatest |T| / |N| in stick over all N. kinetic_friction: the least |T| / |N| in slip
@@ -113,12 +113,12 @@ class LimitSeries {
 [[nodiscard]] double sliding_row_value(const Contact& contact, int s, const ContactMotion& m);
 [[nodiscard]] Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m);
 
-/// Friction along a series of the motion, one coefficient after the other.
+/// Taylor series of the coefficient of friction along a motion, term by term.
 class FrictionRecursion {
  public:
   /// Starts the series; rate: coefficient 0 of ut'.
   void begin(const Contact& contact, int s, double rate);
-  /// Coefficient f_0 of the row s f_0 N.
+  /// Coefficient of friction f_0 at the beginning, of the row s f_0 N.
   [[nodiscard]] double first() const { return first_; }
   /// Takes coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). applied(i): N_i.
   template <class Pressing>

@@ -118,8 +118,8 @@ Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& stat
   return effect(rows, rows);
 }
 
-/// Adds terms s z z^T, z the directions of forces without effect: they make the forces of feet of one body
-/// unique (linear/redundant_rows.hpp).
+/// Adds the entries s Z (D Y)' of linear/redundant_rows.hpp: with them the forces of feet of one body are
+/// unique.
 void add_shares(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
                 const std::vector<std::size_t>& contacts, Delassus& d) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {

@@ -106,7 +106,7 @@ std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
 double StateEnumeration::condition(const std::vector<std::size_t>& contacts,
                                    contact::ContactStates contact_states) {
   const ForceLayout layout = model_.layout.part(contacts);
-  std::vector<Eigen::Index> rows;  // rows of existing forces
+  std::vector<Eigen::Index> rows;  // of forces of rigid contacts and of rigid sticking
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model_.contacts[contacts[i]];
     if (contact.takes_impulses()) rows.push_back(normal_place(layout, i));

@@ -192,8 +192,8 @@ bool InstantLawChecker::shear_stays(std::size_t k) const {
          slip_direction((*record_.after.mode)[k].state) * before >= 0.0;
 }
 
-/// True if |N| of a sliding contact jumps down and T decreases with it, whatever the new state: a hit that makes N jump
-/// may reverse the slip at the same instant, and a contact that stops sticks at its new kinetic limit.
+/// True if |N| of a sliding contact jumps down and T decreases with it, whatever the new state: an impact that makes N
+/// jump may reverse the slip at the same instant, and where slip ends the contact sticks with T at the new kinetic limit.
 bool InstantLawChecker::falls_with_it(std::size_t k, const ContactKinematics& before,
                                       const ContactKinematics& after, double off_N, double off_T) const {
   const Contact& c = model_.contacts[k];

@@ -267,7 +267,8 @@ bool InstantLawChecker::jumps(std::size_t k) const {
   const double force =
       rounding::elimination * (normal_force_size(c, a) + std::abs(a.N) + std::abs(b.N)) +
       tolerance_factor * (context_.limits.force + c.normal_stiffness * context_.limits.displacement);
-  const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;  // N = kn g is continuous, as u is
+  const bool may_jump =
+      !c.normal_spring() || c.normal_damping > 0.0;  // otherwise N = kn g, continuous as u is
   return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
          (may_jump && std::abs(a.N - b.N) > force);
 }

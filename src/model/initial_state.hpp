@@ -46,12 +46,12 @@ void solve_pendulum_start(const Scene& scene, Model& model, const std::function<
 /// Forces on pendulums in the run that this one continues; empty: none.
 [[nodiscard]] std::vector<double> saved_pendulum_forces(const Scene& scene);
 
-// Static start with friction, initial = "frictional": loads of each stage, and the resulting initial state.
+// Static start with friction, initial = "frictional": defines its stages, and takes the initial state from its result.
 //
-//   stage i: dP = sum of its loads d f(0);    without stages: all static loads in one stage
-//   u(0) = u, v(0) = 0, anchors such that T(0) is T at the end of the start
+//   stage i: dP = sum of direction f(0) over its loads;    without stages: all static loads in one stage
+//   u(0) = u, v(0) = 0, anchors such that T(0) is the shear force after the last stage
 //
-// model/statics/frictional.hpp increases the loads.
+// model/statics/frictional.hpp applies the stages.
 
 /// Sets u0, v0, statics and the initial shear forces of contacts. Errors: SceneError for stages that name no
 /// load, omit a static load or name a load twice, and for a start without equilibrium.

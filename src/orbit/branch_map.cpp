@@ -91,10 +91,10 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
                                                  : load_period(scene, drive_);
   const double phase = phase_ * machine_.time;
   if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
-    throw SceneError(
-        {}, options_.path,
-        fmt::format("the loads are periodic from t = {:g} on, but at the start of the branch from {:g} on",
-                    loads.periodic_from, phase));
+    throw SceneError({}, options_.path,
+                     fmt::format("the loads are periodic only from t = {:g} on; at the start of the branch "
+                                 "they are from t = {:g} on",
+                                 loads.periodic_from, phase));
   return loads;
 }
 

@@ -199,7 +199,7 @@ std::string sentence_of(const Violation& v, const Model& model) {
   const std::string who =
       v.contact >= 0 ? fmt::format("contact '{}'", model.contacts[static_cast<std::size_t>(v.contact)].name)
                      : std::string("the structure");
-  return fmt::format("{} violates the law of {} at t = {:.9g}: {:.4g}, limit {:.2g}", who, v.law, v.t,
+  return fmt::format("{} violates a law ({}) at t = {:.9g}: error {:.4g}, allowed {:.2g}", who, v.law, v.t,
                      v.value, v.limit);
 }
 

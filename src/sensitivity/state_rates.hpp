@@ -194,7 +194,7 @@ class StateRates {
       for (std::size_t i = 0; i < x.size(); ++i) out[i * x.size() + k] += x[i] * turned;
     }
   }
-  static double quarter_turn(double) { return 0.0; }  // real modes have one part
+  static double quarter_turn(double) { return 0.0; }  // never used: real modes have one part
   static modal::Complex quarter_turn(modal::Complex a) { return {-a.im, a.re}; }
 
   void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {

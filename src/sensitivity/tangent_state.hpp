@@ -70,7 +70,8 @@ class TangentListener {
 //
 // Works over a part of a step use ten Gauss points for each half of a step.
 
-/// A requested position in a step, in its series.
+/// A place in a step at which a tangent is requested: time t, and x in the variable of the step's series. row,
+/// turn: as in TangentListener::sample().
 struct RequestedPlace {
   double t = 0.0, x = 0.0;
   bool row = false, turn = false;

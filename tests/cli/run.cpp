@@ -120,7 +120,7 @@ TEST_CASE("cli run: nothing but the tables, whole, for papers") {
   const std::string table = good.out.substr(at, good.out.find("\n\n", at) + 1 - at);
   const long events = lines(shell.read("belt-run/events.csv")) - 1;
   CHECK(events > 100);  // more than the table on a terminal shows
-  CHECK(good.out.find("\n\n| greatest motion from the start |") != std::string::npos);
+  CHECK(good.out.find("\n\n| greatest displacement relative to the start |") != std::string::npos);
   CHECK(good.out.find("\n\n| response | unit | maximum |") != std::string::npos);
   CHECK(good.out.find("\n\n| audit: greatest violation |") != std::string::npos);
   CHECK(lines(table) == events + 2);

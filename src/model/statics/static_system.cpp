@@ -96,7 +96,8 @@ constexpr double firmly = 4.0;
 constexpr double weak_share = 1e-10;  // relative to the diagonal: leaves six digits and fixes loose motions
 // Relative to the largest load times motion: less work does not drive a free motion.
 constexpr double undriven = 1e-9;
-constexpr int together_up_to = 300;  // degrees of freedom; above, part by part
+constexpr int together_up_to =
+    300;  // degrees of freedom; larger structures are solved part by unconnected part
 
 /// Completes the independent rows (p x m) by unit rows. Each row takes the first column with a sufficient pivot, so
 /// that a contact holds the horizontal motion rather than a combination with a rotation.

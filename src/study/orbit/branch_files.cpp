@@ -158,9 +158,9 @@ BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, c
     std::ifstream orbit_stream(last / "orbit.json", std::ios::binary);
     const base::Json saved = base::parse_json(stream);
     if (saved.at("path") != options.path || saved.at("from") != options.from || saved.at("to") != options.to)
-      throw UsageError(fmt::format("--resume: {} follows {} from {} to {}", directory.string(),
-                                   saved.at("path").get<std::string>(), saved.at("from").get<double>(),
-                                   saved.at("to").get<double>()));
+      throw UsageError(fmt::format(
+          "--resume: the branch in {} follows {} from {} to {}; --over asks for another", directory.string(),
+          saved.at("path").get<std::string>(), saved.at("from").get<double>(), saved.at("to").get<double>()));
     check_owner(directory, saved.at("scene"), read, options);
     mark.parameter = saved.at("parameter");
     mark.towards_to = saved.at("towards_to");

@@ -40,8 +40,9 @@ class Waves {
     samples_ = steps + 1;
     const std::unique_ptr<gsl_rng, void (*)(gsl_rng*)> random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
     gsl_rng_set(random.get(), spec.seed);
-    // Frequencies up to three samples per wave, so that the spectrum can be matched at 0.05 s. Linear interpolation
-    // between samples attenuates these waves; the spectrum, which also interpolates, includes this effect.
+    // Frequencies up to 1 / (3 dt), three samples per wave: high enough to match the spectrum down to periods of
+    // 0.05 s. Linear interpolation between samples attenuates the fastest waves; the spectrum is computed with the
+    // same interpolation, and so includes this effect.
     const double most = 1.0 / (3.0 * spec.dt);
     for (double f = 1.0 / spec.duration; f <= most; f += 1.0 / spec.duration) {
       frequencies.push_back(f);

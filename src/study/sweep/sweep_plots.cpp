@@ -276,7 +276,7 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
   if (!contacts.empty()) {
     constexpr Shown::Kind of_contacts = Shown::Kind::contacts;
     list.push_back({"motion",
-                    "Greatest motion of the contacts from the start",
+                    "Greatest displacement of the contacts relative to the start",
                     {{"along the tangent" + length, of_contacts, "peak_t"},
                      {"along the normal" + length, of_contacts, "peak_n"}}});
     list.push_back({"forces",

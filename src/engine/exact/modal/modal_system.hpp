@@ -35,7 +35,7 @@ struct ForceLaw {
 [[nodiscard]] std::string coupling_refusal(const Model& model);
 /// Reason why a scene cannot be followed in uncoupled modes; empty: it can.
 [[nodiscard]] std::string proportional_refusal(const Model& model);
-/// Number of springs of a state in which all contacts are closed and stick.
+/// Number of springs of contacts that act if all contacts are closed and stick.
 [[nodiscard]] std::size_t max_state_springs(const Model& model);
 
 /// The modes of one combination of contact states.

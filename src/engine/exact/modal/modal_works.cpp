@@ -112,7 +112,7 @@ ModalWorkIntegrals::Stretch ModalWorkIntegrals::stretch(const ModalPoint& from, 
   return s;
 }
 
-/// Contribution of the drifts d_k, d_l to int z_k' z_l'; product: that of y_k, y_l.
+/// Contribution of the drifts d_k, d_l to product int z_k' z_l'; product: x_k^T x_l of the mode shapes.
 double ModalWorkIntegrals::with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const {
   const auto change = [&](std::size_t i) { return s.real[i].y1 - s.real[i].y0; };
   return product * (s.drift[k] * s.drift[l] * s.time + s.drift[k] * change(l) + s.drift[l] * change(k));

@@ -27,8 +27,8 @@ bool says(const std::vector<std::string>& doubts, const std::string& words) {
 TEST_SUITE_BEGIN("unit/model/model_warnings");
 
 TEST_CASE("a load along what a support holds") {
-  CHECK(says(doubts_of("load-on-held"),
-             "load 1 acts only along directions that supports or rigid bodies fix"));
+  CHECK(
+      says(doubts_of("load-on-held"), "load 1 acts only along directions that supports or rigid bodies fix"));
   CHECK(doubts_of("load-on-held", {{"loads.1.amplitude", "0.0"}}).empty());
   CHECK(doubts_of("load-on-held", {{"loads.1.direction", "[1.0, 1.0]"}}).empty());
 }

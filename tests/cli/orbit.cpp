@@ -117,7 +117,7 @@ TEST_CASE(
   const Ending late = shell.run({"orbit", "late.toml", "--over", "loads.2.history.end=1:500", "--no-plots"});
   CAPTURE(late.err);
   CHECK(late.code == 4);  // on the way: what was found before is kept
-  CHECK(late.err.find("the loads are periodic from t = ") != std::string::npos);
+  CHECK(late.err.find("the loads are periodic only from t = ") != std::string::npos);
 }
 
 TEST_CASE("cli orbit: a branch that the scene refuses on the way is resumed where the scene no longer does") {

@@ -1,11 +1,11 @@
-// dense_output.hpp: the motion on the last step of an engine, and the queries that an engine answers about it.
+// dense_output.hpp: the motion on the last step of an engine, and further data about this step.
 //
 //   u(t), v(t), forces(t)   begin <= t <= end       evaluate, evaluate_watched, interpolate; accelerate adds a(t)
 //   int powers dt                                   integrate
 //   |M a + C v + K u + n N + t T - P|               residual, at the end
 //
-// Facts about the step as a whole (turning points, series, angle per step, fast modes) are in one struct, StepFacts. An
-// engine fills it on request; pointers in it are valid until the engine's next step.
+// Data about the step as a whole (turning points, series, phase angle, fast modes) are in one struct, StepFacts. An engine
+// fills it on request. Pointers in it are valid until the engine's next step.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,10 +23,9 @@ namespace signorini::engine {
 //
 //   |form . u| <= r |u|_M,   r^2 = form^T M^-1 form (form_norm),   |u|_M^2 = u^T M u   (Cauchy, Schwarz)
 //
-// If the modes are known, |u|_M of all modes faster than a given rate is the square root of the sum of their
-// squared amplitudes. So the modes need not be summed for every form. Sums over modes of the whole motion
-// have a rounding error of a few eps r |u|_M, wherever on the structure the form acts, also for a stress at a
-// clamped end.
+// If the modes are known, |u|_M of all modes faster than a given rate is the square root of the sum of their squared
+// amplitudes, so the modes need not be summed for every form. Sums over all modes have a rounding error of a few eps r |u|_M,
+// wherever on the structure the form acts, even for a stress at a clamped end.
 
 /// Bounds on |u|_M, |v|_M and |a|_M in a step. Units: length times the square root of a mass; for v and a
 /// divided by time and time squared.
@@ -35,12 +34,12 @@ struct FastModeBound {
   Eigen::VectorXd forces;  ///< bounds of all contact forces, in the order of the model's layout
 };
 
-/// The motion on the last step as a series: its end is at t + scale x.
+/// The motion on the last step as a power series. The step ends at the time series->t + series->scale x.
 struct Expansion {
-  const motion::Series* series = nullptr;  ///< null: the engine has no series
+  const motion::Series* series = nullptr;  ///< null if the engine has no series
   std::size_t degree = 0;                  ///< u, v, a and forces are complete up to this degree
-  double x = 0.0;
-  /// System of the contact states, with friction at the slip rates at the beginning of the series.
+  double x = 0.0;  ///< value of the series variable at the end of the step
+  /// Equations of the contact states, with the friction of the slip rates at the beginning of the series.
   const motion::StateSystem* system = nullptr;
 };
 
@@ -48,8 +47,8 @@ struct Expansion {
 class FastModes {
  public:
   virtual ~FastModes() = default;
-  /// Bounds on the sum of all modes faster than omega, rad per time. nullopt: no bound is known, or a faster
-  /// part of the motion does not oscillate.
+  /// Bounds on the sum of all modes faster than omega (rad per time). nullopt: no bound is known, or the motion has a fast part
+  /// that does not oscillate.
   [[nodiscard]] virtual std::optional<FastModeBound> fast_mode_bound(double omega) const = 0;
   /// Sums of the magnitudes of the terms of u, v, a and forces on the step, fast modes included. Rounding
   /// errors are relative to these sums.
@@ -62,19 +61,18 @@ struct StepFacts {
   /// Times inside the step of local extremes of N, T, g or ut of a contact that exceed all earlier values,
   /// ascending.
   std::span<const double> turning_points = {};
-  /// Contact, quantity and time of each turning point, unordered. Null: evaluate_watched() costs the same for
-  /// one contact as for all.
+  /// Contact, quantity and time of each turning point, unordered. Null if evaluate_watched() takes as long for one contact as
+  /// for all contacts.
   const std::vector<events::TurningPointDetector::TurningPoint>* contact_turning_points = nullptr;
   Expansion expansion = {};
-  /// Factor by which the rounding of sums over modes exceeds that of orthogonal modes: greatest |x| |y| of
-  /// all modes, x and y right and left eigenvectors with y . x = 1. It is larger if terms of the sum exceed
-  /// the motion and cancel. 1: the motion is not a sum over modes.
+  /// Growth of the rounding errors in sums over modes, relative to orthogonal modes: largest |x| |y| of all modes, where x and
+  /// y are the right and left eigenvectors with y . x = 1. Greater than 1 if large terms cancel. 1 if the motion is not a sum
+  /// over modes.
   double eigenvector_condition = 1.0;
-  /// Greatest phase angle of u, v, a and forces on the step, without that of the forcing: frequency times
-  /// length of the step; n pi for polynomials of degree n. Infinite: the frequencies of the model are the
-  /// bound. Unit: rad.
+  /// Largest phase angle of u, v, a and forces on the step in rad, without that of the forcing: frequency times step length, or
+  /// n pi for polynomials of degree n. Infinite: unknown; the frequencies of the model then bound the phase angle.
   double phase_angle = std::numeric_limits<double>::infinity();
-  const FastModes* fast_modes = nullptr;  ///< null: the engine has no modes of the model
+  const FastModes* fast_modes = nullptr;  ///< null if the engine has no modes of the model
 };
 
 class DenseOutput {
@@ -82,24 +80,23 @@ class DenseOutput {
   virtual ~DenseOutput() = default;
   /// Evaluates u, v and forces at begin <= t <= end.
   virtual void evaluate(double t, motion::Point& point) = 0;
-  /// Evaluates only the watched entries of u and v (those of contacts and EngineParts::watched); other
-  /// entries may be NaN. contact: only this contact's entries are needed; set only if
-  /// StepFacts::contact_turning_points is not null.
+  /// Evaluates only the watched entries of u and v (those of contacts and EngineParts::watched); other entries may be NaN. If
+  /// `contact` is set, only the entries of this contact are needed; callers set it only if StepFacts::contact_turning_points is
+  /// not null.
   virtual void evaluate_watched(double t, std::optional<std::size_t> /*contact*/, motion::Point& point) {
     evaluate(t, point);
   }
-  /// Adds accelerations, if missing, to a point that was evaluated at t.
+  /// Adds the accelerations at time t to a point that was evaluated at t, if they are missing.
   virtual void accelerate(double /*t*/, motion::Point& /*point*/) {}
-  /// Same as evaluate() and accelerate(), by the engine's fastest method: engines with fixed steps
-  /// interpolate between the ends of the step.
+  /// Same result as evaluate() and accelerate(), by the fastest method of the engine: engines with fixed steps interpolate
+  /// between the ends of the step.
   virtual void interpolate(double t, motion::Point& point) {
     evaluate(t, point);
     accelerate(t, point);
   }
   /// Adds the integrals of all powers over the part [from, to] of the step.
   virtual void integrate(double from, double to, motion::WorkIntegrals& works) = 0;
-  /// Largest magnitude of an entry of the residual of the equation of motion at the end of the step. Unit:
-  /// force.
+  /// Largest magnitude of an entry of the residual of the equation of motion at the end of the step, as a force.
   [[nodiscard]] virtual double residual() = 0;
   [[nodiscard]] virtual StepFacts facts() const = 0;
 };

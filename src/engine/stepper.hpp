@@ -2,8 +2,9 @@
 //
 //   start(segment) -> advance() -> advance() ... -> an event or segment.end -> start(next segment)
 //
-// The loop (run/loop.hpp) decides states, applies impacts and notifies listeners; a stepper advances and finds the time
-// at which the first guard reaches zero. Its dense output gives the motion on the last step (engine/dense_output.hpp).
+// The loop (run/loop.hpp) decides contact states, applies impacts and notifies listeners. A stepper advances the motion and
+// finds the time at which the first guard reaches zero. Its dense output gives the motion on the last step
+// (engine/dense_output.hpp).
 #pragma once
 
 #include <optional>
@@ -17,26 +18,26 @@
 
 namespace signorini::engine {
 
-/// The interval from a decision to the next discontinuity of the forcing, in constant contact states.
+/// Time interval with constant contact states: from a decision to the next discontinuity of the forcing.
 struct Segment {
   double end = 0.0;
   const decide::Decision* decision = nullptr;  ///< motion, contact states, jet and guards at the beginning
   const motion::Forcing* forcing = nullptr;
-  bool same_forcing = false;  ///< the forcing equals that of the previous segment, which ended here
+  bool same_forcing = false;  ///< the forcing equals that of the previous segment, which ended at this segment's beginning
 };
 
 /// Result of advance().
 struct Step {
   enum class Kind { accepted, event, failed } kind = Kind::accepted;
-  double begin = 0.0, end = 0.0;                  ///< end: of the accepted step, or the instant of the event
+  double begin = 0.0, end = 0.0;                  ///< end: end of the accepted step, or time of the event
   double resolution = 0.0;                        ///< times closer than this are the same instant
-  std::vector<decide::TriggeredGuard> triggered;  ///< Kind::event
-  /// Kind::event: states found by the engine, which then sets no `triggered`.
+  std::vector<decide::TriggeredGuard> triggered;  ///< guards that reach zero; only for Kind::event
+  /// Only for Kind::event: contact states after the event, if the engine found them itself. `triggered` is then empty.
   std::optional<contact::ContactStates> engine_states;
-  std::string reason;  ///< Kind::failed
+  std::string reason;  ///< why the step failed; only for Kind::failed
 };
 
-/// Results that an engine reports at the end of a run. Times and gaps are in model units.
+/// Findings of a run that an engine reports at the end. Times and gaps are in model units.
 struct StepperReport {
   Counters counters;
   std::vector<std::string> warnings;
@@ -49,25 +50,24 @@ struct StepperReport {
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// Begins a segment, which must live until the next start.
+  /// Begins a segment. `segment` must stay valid until the next call of start().
   virtual void start(const Segment& segment) = 0;
-  /// Takes one step, up to the first event or segment.end at most.
+  /// Takes one step, which ends at the first event or at segment.end at the latest.
   [[nodiscard]] virtual Step advance() = 0;
   /// The motion on the last step.
   [[nodiscard]] virtual DenseOutput& dense_output() = 0;
-  /// Bound on the error of a guard's value from the error of one step. Unit: that of the guard.
+  /// Bound on the error of the guard's value that the error of one step causes. Unit: that of the guard.
   [[nodiscard]] virtual double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
-  /// Writes the energy of the structure into a point made by a decision, if the engine knows it more accurately.
+  /// Overwrites the energy of `point`, which a decision computed, if the engine knows the energy more accurately.
   virtual void set_energy(motion::Point& /*point*/) const {}
-  /// Called once, after the last step.
+  /// Returns the counters, warnings and near hits of the run. Called once, after the last step.
   [[nodiscard]] virtual StepperReport report() { return {counters, warnings, {}, {}}; }
 
   Counters counters;                  ///< counts so far; complete in the report
   std::vector<std::string> warnings;  ///< warnings of the run so far
-  /// True if the engine resolves a flight that begins with g = 0 and stays lower than the rounding of its
-  /// gap, as a series does. Otherwise this rounding delays the landing, and the contact lands faster than it
-  /// left.
+  /// True if the engine resolves a flight that begins with g = 0 and stays lower than the rounding error of the gap (engines
+  /// with series do). False: this rounding error delays the landing, so the contact lands faster than it took off.
   bool resolves_low_flights = false;
 };
 

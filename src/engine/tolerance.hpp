@@ -1,6 +1,6 @@
 // tolerance.hpp: admissible errors of the quantities of a scene.
 //
-//   tol(x) = rtol |x| + atol,   atol = rtol * scale of the scene where the scene gives none
+//   tol(x) = rtol |x| + atol,   atol = rtol * (scale of the quantity) if the scene gives no atol
 #pragma once
 
 #include "contact/law.hpp"
@@ -14,14 +14,14 @@ struct Tolerance {
   double displacement = 0.0, rotation = 0.0, velocity = 0.0, angular_velocity = 0.0;
   double force = 0.0;
 
-  /// Rigid contacts without a capture_velocity come to rest if their rebound is slower than this.
+  /// Rebound speed below which a rigid contact without a given capture_velocity stays closed.
   [[nodiscard]] double capture_velocity() const { return velocity; }
 };
 
-/// Tolerances given in [run], otherwise from the scales of the model.
+/// Tolerances given in [run]. A missing one is rtol times the model's scale of the quantity.
 [[nodiscard]] Tolerance tolerance_of(const Model& model, const RunSpec& run);
 
-/// Tolerance of a form's value, from those of the motion's entries.
+/// Tolerance of the value of a form: the tolerances of the entries of the motion, weighted with the form's factors.
 [[nodiscard]] double tolerance(const Form& form, const ContactMotion& motion, const Tolerance& tolerance);
 [[nodiscard]] double tolerance(const GuardForm& guard, const ContactMotion& motion,
                                const Tolerance& tolerance);

@@ -1,9 +1,9 @@
 // active_guards.hpp: the guards that are active in a segment.
 //
-//   idle      not active: the state has no such guard
-//   armed     was clearly positive; its next zero crossing is an event
-//   waiting   starts at zero, or within its rounding; an event only once it is clearly negative. If
-//             leading_order > 0 it rises like x^leading_order: its lower derivatives are zero
+//   idle      the contact state does not use this slot
+//   armed     the guard was clearly positive: its next zero crossing is an event
+//   waiting   the guard starts at zero, up to rounding: an event occurs only if it becomes clearly negative. If
+//             leading_order > 0, the guard rises like x^leading_order: its lower derivatives are zero
 //
 // A waiting guard becomes armed once it exceeds a level. For engine `exact` this level is the rounding of the
 // guard, for an integrator the possible error of its steps.
@@ -16,23 +16,23 @@ namespace signorini::events {
 
 class ActiveGuards {
  public:
-  /// One entry for each slot (signorini/force_layout.hpp).
+  /// guards: one entry for each slot (signorini/force_layout.hpp).
   void start(const std::vector<decide::GuardStart>& guards);
 
   [[nodiscard]] std::size_t size() const { return guards_.size(); }
   [[nodiscard]] bool idle(std::size_t slot) const { return guards_[slot].status == Status::idle; }
   [[nodiscard]] bool armed(std::size_t slot) const { return guards_[slot].status == Status::armed; }
-  /// m: the guard is x^m times a polynomial that is positive at 0; 0: the guard is armed, or its derivatives are
-  /// unknown.
+  /// Exponent m > 0 if the guard is x^m times a polynomial that is positive at x = 0. 0 if the guard is armed, or if its
+  /// derivatives are unknown.
   [[nodiscard]] std::size_t leading_order(std::size_t slot) const { return guards_[slot].leading_order; }
 
   /// Forgets the leading order: the prediction from the derivatives at the start has been refuted.
   void discard_leading_order(std::size_t slot) { guards_[slot].leading_order = 0; }
-  /// The guard is zero again, and its derivatives are unknown.
+  /// Makes the guard wait: it is zero again, and its derivatives are unknown.
   void set_waiting(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
   void set_armed(std::size_t slot) { guards_[slot] = {Status::armed, 0}; }
-  /// Called with the guard's value at the end of a step without an event: a waiting guard is armed above the
-  /// level, and its derivatives at the start are no longer used.
+  /// Called with the guard's value at the end of a step without an event. Arms a waiting guard whose value is above the level;
+  /// otherwise only discards its leading order.
   void update(std::size_t slot, double value, double level);
 
  private:
@@ -54,8 +54,8 @@ class ActiveGuards {
 // degree q <= 5, and so is every guard. Its Bernstein coefficients prove that it stays positive, or show
 // where it does not, so two crossings inside one step are not missed.
 
-/// A waiting guard is armed once it exceeds this many local error tolerances: below, its sign is that of the
-/// integration error.
+/// A waiting guard is armed once it exceeds this many local error tolerances. Below this level, the integration error may
+/// decide the sign of the guard.
 inline constexpr double re_arm_tolerances = 10.0;
 
 /// Place inside the last step at which a guard reaches zero.
@@ -66,14 +66,14 @@ struct ZeroCrossing {
 
 class GuardMonitor {
  public:
-  /// levels: re-arming levels, one for each slot.
+  /// levels: level of each slot at which a waiting guard is armed.
   void start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
              std::vector<double> levels, const ForceLayout& layout);
   [[nodiscard]] bool armed(std::size_t slot) const { return active_guards_.armed(slot); }
-  /// Called if the guard reached zero without an event: it waits again, and is an event only once it is below
-  /// -`level`.
+  /// Called if the guard reached zero without an event. The guard waits again; the next event occurs only if it falls below
+  /// -level.
   void set_waiting(std::size_t slot, double level);
-  /// Depth below zero that this guard of the contact may reach before it is an event: 0 once it is armed.
+  /// Largest negative value (as a magnitude) that this guard may reach without an event. 0 if the guard is armed.
   [[nodiscard]] double allowed_depth(std::size_t contact, const GuardForm& guard) const;
   /// All downward zero crossings in the part [0, limit] of the last step; scalars 0.. of the history are the guards.
   /// Arms guards that have risen enough.

@@ -20,7 +20,7 @@ constexpr double binomial[max_degree + 1][max_degree + 1] = {{1, 0, 0, 0, 0, 0},
 /// Smallest x with p(x) <= 0 on [from, to], for any p.
 std::optional<double> first_nonpositive(const Bernstein& p, double from, double to, double resolution) {
   if (p.positive()) return std::nullopt;
-  if (!(p.b[0] > 0.0)) return from;  // also for a NaN, which would be halved endlessly
+  if (!(p.b[0] > 0.0)) return from;  // a NaN returns here too; halving it would never end
   if (to - from <= resolution) return p.b[z(p.degree)] <= 0.0 ? std::optional(to) : std::nullopt;
   Bernstein left, right;
   p.split(0.5, left, right);
@@ -29,8 +29,8 @@ std::optional<double> first_nonpositive(const Bernstein& p, double from, double 
   return first_nonpositive(right, middle, to, resolution);
 }
 
-/// De Casteljau's means. A degree known at compile time keeps them in registers: stored and reloaded pairs would wait
-/// for each other.
+/// Value at x by de Casteljau's algorithm. With the degree known at compile time, the coefficients stay in registers, which
+/// avoids slow loads of just stored pairs.
 template <std::size_t degree>
 double by_means(std::array<double, max_degree + 1> c, double x) {
 #pragma GCC unroll 5
@@ -117,8 +117,8 @@ std::optional<double> first_root(const Bernstein& p, double resolution) {
 namespace {
 
 constexpr std::size_t size = max_root_degree + 1;
-constexpr double near_root = 1e-6;  // relative distance from which one Newton step has all digits
-constexpr double finest = rounding::many_operations;  // width, relative to the whole step
+constexpr double near_root = 1e-6;  // relative step length after which the next Newton step gives all digits
+constexpr double finest = rounding::many_operations;  // smallest interval, relative to the step
 using Coefficients = std::array<double, size>;
 
 /// Factor of a_k in b_i for degree n: C(i,k)/C(n,k), row by row for k = 0 .. n, where i = k .. n.
@@ -143,7 +143,7 @@ const double* conversion(std::size_t n) {
   return tables[n].data();
 }
 
-/// The only downward zero crossing of p in [lo, hi]: Newton steps, kept inside by bisection.
+/// The only downward zero crossing of p in [lo, hi], by Newton's method; steps that leave the interval are bisected.
 double only_zero(const double* a, std::size_t degree, double lo, double hi, double guess) {
   double x = guess > lo && guess < hi ? guess : 0.5 * (lo + hi);
   double last = 1.0;  // length of the last step
@@ -154,7 +154,7 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi, doub
       value = value * x + a[k];
     }
     const double newton = value / slope, step = std::abs(newton);
-    // Newton's steps decrease quadratically until they are rounding.
+    // Newton steps decrease quadratically down to the rounding error: stop if they no longer decrease.
     if (step <= rounding::eps * x || (last < near_root * x && step > 0.25 * last)) return x;
     (value > 0.0 ? lo : hi) = x;
     if (x - newton > lo && x - newton < hi) {
@@ -183,7 +183,7 @@ double guess(std::size_t n, const Interval& now) {
   return now.lo + (now.hi - now.lo) * part / static_cast<double>(n);
 }
 
-/// Halves: `left` becomes the left half, `right` the right one.
+/// Halves the interval in `left`: afterwards `left` contains its left half and `right` its right half.
 void halve(std::size_t n, Interval& left, Interval& right) {
   const double middle = 0.5 * (left.lo + left.hi);
   right.lo = middle;
@@ -218,7 +218,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
   for (std::size_t k = 0; k <= degree; row += degree + 1 - k, ++k)
     for (std::size_t i = k; i <= degree; ++i) stack[0].b[i] += a[k] * row[i - k];
 
-  FirstRoot result;  // none, or the first touch
+  FirstRoot result;  // Kind::none, or the first touch so far
   const auto falls_at = [&](double x) { return FirstRoot{FirstRoot::Kind::crossing, x, result.intervals}; };
   const auto touch = [&](double x) {
     if (result.kind == FirstRoot::Kind::none) result = {FirstRoot::Kind::touch, x, result.intervals};

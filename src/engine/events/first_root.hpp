@@ -24,9 +24,9 @@ namespace signorini::events {
 // The coefficients bound the polynomial, and halving the interval sharpens the bounds. So the first zero of a
 // guard is found or excluded for any signs at the ends.
 
-inline constexpr int max_degree = 5;  // BDF interpolants
+inline constexpr int max_degree = 5;  // highest degree of a BDF interpolant
 
-[[nodiscard]] constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }  ///< an index
+[[nodiscard]] constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }  ///< int as array index
 
 /// Bernstein coefficients of a polynomial of at most degree 5.
 struct Bernstein {

@@ -5,15 +5,15 @@
 
 namespace signorini::events {
 
-/// A guard that returned into its tolerance and left it without a zero crossing in the steps. A run with a
-/// smaller tolerance decides whether it reached zero.
+/// A guard that came back into its tolerance and left it without a zero crossing at any step. A run with a smaller tolerance
+/// decides whether the guard reached zero.
 struct Graze {
   double t = 0.0;
   int contact = -1;
   std::string guard;  ///< to_string(Guard): "compression", "slip rate"
 };
 
-/// A local minimum of an open contact's gap, which is gap + half_curvature (t' - t)^2 at a time t' near t.
+/// Local minimum of the gap of an open contact. Near t, the gap at time t' is gap + half_curvature (t' - t)^2.
 struct NearHit {
   double t = 0.0;
   int contact = -1;

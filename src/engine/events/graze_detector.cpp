@@ -4,7 +4,7 @@
 
 namespace signorini::events {
 namespace {
-// Samples of a step's polynomial: it has at most five turning points, and is known to a tolerance only.
+// Number of sample intervals of a step's polynomial, whose degree is at most 5.
 constexpr int looks = 8;
 }  // namespace
 
@@ -21,7 +21,7 @@ void GrazeDetector::update(const StepHistory& history, double limit) {
   for (std::size_t slot = 0; slot < guards_.size(); ++slot) {
     GuardHistory& guard = guards_[slot];
     if (guard.guard == Guard::none) continue;
-    // If the last value is twice the variation bound, the guard stays above half of this value on the step.
+    // clearly_positive(): on the step the guard varies by less than half of its last value, so it stays above the level.
     if (guard.high == guard.level && !guard.low && history.clearly_positive(slot) &&
         history.last(slot) > 2.0 * guard.level)
       continue;
@@ -62,8 +62,8 @@ void GrazeDetector::record(std::size_t slot) {
 
 namespace {
 
-constexpr double near_levels = 1e4;  // chosen: possible error of a run of that many steps, in levels
-constexpr int looks_a_step = 8;      // a step's polynomial has at most five turning points
+constexpr double near_levels = 1e4;  // chosen: possible error of a run of 1e4 steps, in levels
+constexpr int looks_a_step = 8;      // sample intervals per step; the polynomial of a step has degree 5 at most
 constexpr std::size_t max_near_hits = 100000;
 
 }  // namespace
@@ -78,7 +78,8 @@ void NearHitDetector::start(const std::vector<decide::GuardStart>& guards, const
 
 void NearHitDetector::update(const StepHistory& history, double limit) {
   for (GapHistory& gap : gaps_) {
-    // If the last value is twice the variation bound, the gap stays above half of this value on the step.
+    // clearly_positive(): on the step the gap varies by less than half of its last value, so the gap is too large for a near
+    // hit.
     if (history.clearly_positive(gap.slot) && history.last(gap.slot) > 2.0 * near_levels * gap.level) {
       gap.sample_count = 0;
       gap.high = history.last(gap.slot);

@@ -1,12 +1,12 @@
 // graze_detector.hpp: guards of an integrator that returned into their tolerance and left it without an event.
 //
-//   high    the greatest value since the segment's start, at most the level (active_guards.hpp)
+//   high    greatest value of the guard since the segment's start, but at most the level (active_guards.hpp)
 //   low     g < high - (dip_fraction level + rounding of g)
 //   graze   the guard was low and has reached the level without an event; or it was low before it ever
 //           reached the level, and the segment ended with a zero crossing of another guard
 //
-// Below the level a guard's sign is that of the integration error: this run cannot decide whether the guard reached
-// zero and rose again. A run with a smaller tolerance decides it, or reports the same.
+// Below the level, the integration error can change the sign of the guard, so this run cannot decide whether the guard reached
+// zero and rose again. A run with a smaller tolerance decides, or reports a graze again.
 #pragma once
 
 #include <cstddef>
@@ -20,25 +20,24 @@
 
 namespace signorini::events {
 
-/// Part of the level by which a guard must sink to be low: a tenth of a local tolerance. Chosen: of 30,581
-/// guards that rise from zero in 300 random scenes, 35 sink by a thousandth to a hundredth of the level, 11
-/// by more, all others by less. A value of 10 changes the test "a guard that sinks back before it has clearly
-/// risen".
+/// Part of the level by which a guard must decrease below `high` to be low: 0.01, a tenth of a local tolerance. Measured on
+/// 30,581 guards that rise from zero in 300 random scenes: 35 decrease by 0.001 to 0.01 of the level, 11 by more, all others by
+/// less. With a value of 10, the test "a guard that sinks back before it has clearly risen" changes.
 inline constexpr double dip_fraction = 0.01;
 
 class GrazeDetector {
  public:
   struct Graze {
-    double t = 0.0;  ///< time of its lowest value
+    double t = 0.0;  ///< time of the guard's lowest value
     std::size_t slot = 0;
     Guard guard = Guard::none;
   };
 
-  /// levels: one for each slot, as for GuardMonitor.
+  /// levels: re-arming level of each slot (active_guards.hpp).
   void start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels);
-  /// Examines the part [0, limit] of the last step; scalars 0.. of the history are the guards.
+  /// Examines the part [0, limit] of the last step. The first scalars of the history are the guards, in the order of slots.
   void update(const StepHistory& history, double limit);
-  /// Called at the end of a segment. fallen: slots of the guards that reached zero.
+  /// Called at the end of a segment. fallen: slots of the guards that reach zero there.
   void end(const std::vector<std::size_t>& fallen);
   /// First graze since the beginning of the run.
   [[nodiscard]] const std::optional<Graze>& first() const { return first_; }
@@ -61,18 +60,18 @@ class GrazeDetector {
 //   g_a > g_b <= g_c  at three consecutive samples:  a minimum of the gap at the parabola's vertex
 //   g > level         at a sample since the last minimum: a gap that closes and stays closed is no near hit
 //
-// Near hits are recorded if the gap is less than 1e4 levels (active_guards.hpp), a possible sum of the errors
-// of thousands of steps. Only the error of the run decides whether an impact was missed there, and the run
-// does not know its error (certify/error_bounds.hpp).
+// A near hit is recorded if the gap is less than 1e4 levels (active_guards.hpp), which the errors of thousands of steps can sum
+// up to. Whether an impact was missed depends on the error of the whole run, which only a certified run bounds
+// (certify/error_bounds.hpp).
 
 class NearHitDetector {
  public:
-  /// levels: one for each slot, as for Watch.
+  /// levels: re-arming level of each slot (active_guards.hpp).
   void start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels,
              const ForceLayout& layout);
-  /// Examines the part [0, limit] of the last step; scalars 0.. of the history are the guards.
+  /// Examines the part [0, limit] of the last step. The first scalars of the history are the guards, in the order of slots.
   void update(const StepHistory& history, double limit);
-  /// Near hits of the run so far, in the order of time except for those of the same step.
+  /// Near hits of the run so far, in ascending order of steps; unordered within a step.
   [[nodiscard]] const std::vector<NearHit>& list() const { return list_; }
 
  private:
@@ -84,7 +83,7 @@ class NearHitDetector {
     int contact = -1;
     double level = 0.0;
     double high = 0.0;     // greatest gap since the last minimum
-    int sample_count = 0;  // number of last samples that are kept
+    int sample_count = 0;  // number of successive samples so far; a minimum needs three
     GapSample before, last;
   };
   void update_gap(GapHistory& gap, const GapSample& now);

@@ -8,7 +8,7 @@
 namespace signorini::events {
 namespace {
 
-using Kept = std::array<const double*, max_degree + 1>;  // values for each number of steps back
+using Kept = std::array<const double*, max_degree + 1>;  // [b]: values of all scalars b steps back
 
 template <class T>
 [[gnu::always_inline]] inline void look_at(const Kept& rows, int order, double twice_bend, int degree,
@@ -121,7 +121,7 @@ Bernstein StepHistory::interpolant(const Basis& basis, std::size_t s) const {
 std::optional<GuardCubic::ZeroCrossing> GuardCubic::cubic_root() const {
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
   double lo = 0.0, hi = 1.0, x = linear_root(), slope = 0.0;
-  constexpr int most_steps = 8;  // limit of Newton steps, within the bracket: the first guess needs no more
+  constexpr int most_steps = 8;  // limit of Newton steps within the bracket; enough from linear_root()
   for (int i = 0; i < most_steps; ++i) {
     const double value = g0 + x * (r0 + x * (b + x * c));
     slope = r0 + x * (2.0 * b + 3.0 * x * c);

@@ -1,4 +1,4 @@
-// step_history.hpp: scalars at the last accepted steps, and the polynomial through them.
+// step_history.hpp: values of scalars at the last accepted steps, and the polynomials through these values.
 //
 //   p(x) interpolates f(t_n), f(t_n-1), ..., f(t_n-q),   t = t_n-1 + x (t_n - t_n-1)
 //
@@ -25,28 +25,28 @@ class StepHistory {
   double* restart(double t);
   /// Adds an accepted step that ends at t; returns the array for the scalars' values at t.
   double* push(double t) { return push(t, t - times_[0]); }
-  /// Same, with the step's length from the integrator, free of the rounding of times.
+  /// Same as push(t), with the step length of the integrator, which is free of the rounding of the times.
   double* push(double t, double length);
-  /// Prepares polynomials on the last step for the given order of the method.
+  /// Computes the polynomials on the last step. order: order of the BDF method in this step.
   void prepare(int order);
-  /// True: the polynomial of scalar i is positive, because its last value exceeds variation_bound(). False:
+  /// True if the last value of scalar i exceeds variation_bound(i): the polynomial is then positive on the whole step. False:
   /// undecided.
   [[nodiscard]] bool clearly_positive(std::size_t i) const { return value(0, i) > variation_bounds_[i]; }
   /// Bound on the difference between scalar i on the last step and its last value.
   [[nodiscard]] double variation_bound(std::size_t i) const { return variation_bounds_[i]; }
-  /// True: the polynomial of scalar i is monotone on the last step, because its values are too close to a
-  /// straight line for a turning point. False: undecided. With e_b the distances of the values from the line
-  /// through the last two, and w_ib the weights of Bernstein coefficients:
+  /// True if the values of scalar i are so close to a straight line that its polynomial is monotone on the last step. False:
+  /// undecided. With the distances e_b of the values from the line through the last two values, and the weights w_ib of the
+  /// Bernstein coefficients:
   ///   b_i+1 - b_i = (f_0 - f_1) / q + sum_b (w_i+1,b - w_ib) e_b
   [[nodiscard]] bool clearly_monotone(std::size_t i) const;
   /// Integral of power i over the whole last step.
   [[nodiscard]] double integral(std::size_t i) const { return (times_[0] - times_[1]) * mean_[i]; }
-  /// The polynomial of scalar i on the last step.
+  /// Polynomial of scalar i on the last step; its degree is the order given to prepare().
   [[nodiscard]] Bernstein polynomial(std::size_t i) const { return interpolant(order_basis(), i); }
-  /// Polynomial of power i on the last step.
+  /// Polynomial of power i on the last step, through all stored values.
   [[nodiscard]] Bernstein power(std::size_t i) const { return interpolant(powers_basis_, i); }
   [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
-  /// Last values of all scalars; variation_bounds(): variation_bound() of all scalars.
+  /// Last values of all scalars. variation_bounds() gives variation_bound(i) of all scalars i.
   [[nodiscard]] const double* last_values() const {
     return values_.data() + static_cast<std::size_t>(slot_[0]) * scalars_;
   }
@@ -61,7 +61,7 @@ class StepHistory {
   /// The polynomial through the last degree + 1 values.
   struct Basis {
     int degree = -1;
-    // Nodes of the weights below: steps of equal lengths need these weights once.
+    // Nodes for which the weights below were computed; the weights are reused while the step length is constant.
     std::array<double, max_degree + 1> nodes{};
     // to_bernstein[i][b]: weight of the value b steps back in Bernstein coefficient i
     std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein{};
@@ -78,7 +78,7 @@ class StepHistory {
   // variation_bound() of all scalars (a factor 2 covers the rounding of the sums), and the mean of each power
   // on the last step.
   std::vector<double> variation_bounds_, mean_;
-  std::array<int, max_degree + 1> slot_{};        // slot_[b]: storage index of the values b steps back
+  std::array<int, max_degree + 1> slot_{};        // slot_[b]: row in values_ of the values b steps back
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
   std::array<double, max_degree + 1> lengths_{};  // length of the step that ended at times_[b]
   int filled_ = 0;
@@ -92,26 +92,26 @@ class StepHistory {
 //   x*   = g0/(g0 - g1)                                    the paper's interpolation, (8) to (10)
 //
 // For the guard T_U - s T this is t = t0 + dt (s T_U0 - T0)/((T1 - T0) - s (T_U1 - T_U0)). If the equations
-// yield no rate, the rate of the parabola through the last three values is used.
+// give no rates, rates_from_values() takes them from the parabola through the last three values.
 
 /// A guard at the ends of a step of length h.
 struct GuardCubic {
   double g0 = 0.0, g1 = 0.0;  ///< values
   double r0 = 0.0, r1 = 0.0;  ///< rates times h
 
-  /// Place where the straight line between the ends reaches zero; g0 > 0 >= g1.
+  /// Place x in 0..1 at which the straight line between the ends reaches zero. Requires g0 > 0 >= g1.
   [[nodiscard]] double linear_root() const { return g0 / (g0 - g1); }
   struct ZeroCrossing {
     double x = 0.0, slope = 0.0;  ///< slope: derivative by x
   };
-  /// Place where the cubic reaches zero, g0 > 0 >= g1. nullopt: the cubic rises there, or is not a number.
+  /// Place x at which the cubic reaches zero. Requires g0 > 0 >= g1. nullopt: the cubic does not fall there, or is NaN.
   [[nodiscard]] std::optional<ZeroCrossing> cubic_root() const;
-  /// For a path that is positive at both ends: the place of its least value inside, if that value is not positive.
+  /// Place x of the cubic's least value inside the step, if this value is <= 0. Requires g0 > 0 and g1 > 0.
   [[nodiscard]] std::optional<double> interior_minimum() const;
 };
 
-/// Sets the rates from the value `before` at the time h_before before the step, by a parabola; h_before = 0:
-/// by a straight line.
+/// Sets the rates to those of a parabola through both ends and the value `before`, at the time h_before before the step. If
+/// h_before = 0, the rates are those of the straight line through both ends.
 void rates_from_values(GuardCubic& path, double h, double before, double h_before);
 
 }  // namespace signorini::events

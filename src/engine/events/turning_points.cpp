@@ -35,11 +35,11 @@ class Slope {
 
  private:
   std::size_t degree_;
-  std::array<double, max_root_degree + 1> b_;  // 1 .. degree
+  std::array<double, max_root_degree + 1> b_;  // b_[k] = k a_k, k = 1 .. degree
 };
 
-/// Approximate extreme between `end` and `next`, by bisection. Newton steps from `end` would stay there if it
-/// is an extreme of the other kind, as after an impact that stops a slip.
+/// Place of an extreme between `end` and `next`, by bisection and then Newton steps. Newton steps from `end` alone would not
+/// leave `end` if the slope is zero there, as after an impact that stops a slip.
 double turned_beside(const double* a, std::size_t degree, double end, double next, double inward) {
   const Slope slope(a, degree);
   const double forth = next > end ? inward : -inward;  // sign of the slope at `next`
@@ -61,7 +61,7 @@ void TurningPointDetector::start(const decide::Decision& decision) {
     for (std::size_t i = 0; i < now.size(); ++i) {
       Range& range = ranges_[watched_fields.size() * c + i];
       values_[watched_fields.size() * c + i] = now[i];
-      // Each landing has a separate peak.
+      // The peak force of each landing is reported separately, so the range of N starts anew.
       const bool lands =
           watched_fields[i] == motion::ContactSeries::N && began_ && decision.before[c].N == 0.0;
       if (lands) range = {now[i], now[i]};
@@ -159,21 +159,21 @@ void TurningPointDetector::find_near_end(std::size_t end, const Path& path, std:
   const double inward = value[next] - value[end], slope = 2.0 * inward - 0.5 * (value[third] - value[end]);
   if (inward == 0.0 && slope == 0.0) return;
   if (inward * slope > 0.0 && std::abs(slope) >= 0.5 * std::abs(inward)) {
-    // The beginning of a part is not observed; the motion before it may have been monotone up to here.
+    // No observer evaluates the beginning of a part, and f may have been monotone up to it: record this value here.
     const bool hidden = first && ends == Ends::part;
     if (hidden && (inward < 0.0 ? value[end] > range.greatest : value[end] < range.least))
       record(path, place, x[end]);
     return;
   }
-  // A parabola with an extreme before `next` exceeds the end by at most 1/8 of the difference between `third`
-  // and the end. The limit is four times that, plus `inward`, because the curve is not exactly a parabola.
+  // A parabola with an extreme before `next` exceeds the value at the end by at most 1/8 of the difference between `third` and
+  // the end. The limit is four times as large, plus `inward`, because the curve is not exactly a parabola.
   const double beyond = std::abs(inward) + 0.5 * std::abs(value[third] - value[end]);
   if (inward > 0.0 ? value[end] - beyond >= range.least : value[end] + beyond <= range.greatest) return;
   record(path, place, turned_beside(path.a, path.degree, x[end], x[next], inward));
 }
 
-/// True if the sums of the magnitudes of the terms prove that f stays within its earlier range: terms of f from the
-/// origin, terms of its slope from the middle.
+/// True if a bound proves that f stays within its earlier range. First bound: |f - f(0)| <= sum of |a_k| x_end^k. Second bound:
+/// |f - f(middle)| <= half of the interval times the sum of k |a_k| x_end^(k-1).
 bool TurningPointDetector::stays_in_range(const Path& path, const Range& range, const Samples& x) {
   const double x_end = x[sample_intervals];
   double reach = 0.0, power = 1.0;
@@ -214,7 +214,7 @@ void TurningPointDetector::find_on_path(const Path& path, std::size_t place, con
     const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
     const double at = Slope(path.a, path.degree).zero_from(guess, x[i - 1], x[i + 1]);
     const double there = motion::value_at(path.a, path.degree, at);
-    // The Newton steps may have converged to another place.
+    // If the Newton steps have converged to another extreme, the sample itself is used.
     record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
   }
   find_near_end(sample_intervals, path, place, x, value, ends);

@@ -19,19 +19,21 @@ class TurningPointDetector {
  public:
   explicit TurningPointDetector(std::size_t contacts) : ranges_(watched_fields.size() * contacts) {}
 
-  /// Called after a decision, at which the values may have jumped.
+  /// Extends the ranges to the values after a decision, at which the values may have jumped.
   void start(const decide::Decision& decision);
-  /// Ends of an interval at which an observer evaluates the motion. observed: both ends, those of a step;
-  /// first_part: the beginning only; part: none.
+  /// Ends of the interval at which an observer evaluates the motion. observed: both ends (a whole step); first_part: only the
+  /// beginning; part: neither end.
   enum class Ends : unsigned char { observed, first_part, part };
   /// Finds turning points of all contacts on [x_begin, x_end] of a series of degree max_root_degree at most.
   void find(const std::vector<motion::ContactSeries>& contacts, const motion::Series& series, double x_begin,
             double x_end, Ends ends = Ends::observed);
-  /// Same, for one quantity: a_0 + a_1 x + ... on [0, x_end], t = begin + scale x. Called between open() and close().
+  /// Finds the turning points of one quantity, a_0 + a_1 x + ... on [0, x_end] with t = begin + scale x. Call it between
+  /// open() and close().
   void open();
   void find(std::size_t contact, motion::ContactSeries::Field field, const double* a, std::size_t degree,
             double x_end, double begin, double scale);
   void close();
+  /// Smallest and largest value so far of one field of a contact.
   struct Range {
     double least = 0.0, greatest = 0.0;
     void extend(double value);
@@ -44,7 +46,7 @@ class TurningPointDetector {
     [[nodiscard]] bool is_exceeded(double value, double rate, double rounding) const {
       return (value - rounding > greatest && rate < 0.0) || (value + rounding < least && rate > 0.0);
     }
-    /// True if all values within `change` of the value, known to `rounding`, are in the range.
+    /// True if all values from value - change to value + change, each with this rounding error, are inside the range.
     [[nodiscard]] bool contains(double value, double change, double rounding) const {
       return value + change + rounding < greatest && value - change - rounding > least;
     }
@@ -62,8 +64,8 @@ class TurningPointDetector {
   static constexpr std::array<motion::ContactSeries::Field, 4> watched_fields{
       motion::ContactSeries::N, motion::ContactSeries::T, motion::ContactSeries::gap,
       motion::ContactSeries::slide};
-  /// A turning point of the last step. kind: contact, field, and maximum or minimum. Of several turning
-  /// points of one kind the last one is the most extreme.
+  /// A turning point of the last step. kind: index made of contact, field, and minimum (even) or maximum (odd). If several
+  /// turning points have the same kind, the last one is the most extreme.
   struct TurningPoint {
     std::size_t kind = 0;
     double time = 0.0;
@@ -72,13 +74,13 @@ class TurningPointDetector {
   [[nodiscard]] const std::vector<TurningPoint>& turning_points() const { return turning_points_; }
   /// Times of the turning points of the last step, ascending.
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
-  /// Turning point at the beginning of a part of a step, where the field has this value and rate: the value
-  /// exceeds the earlier range, and the rate points back to it.
+  /// Turning point at the beginning of a part of a step, where the field has the given value and rate. nullopt, unless the
+  /// value exceeds the earlier range and the rate points back to the range.
   std::optional<TurningPoint> find_at_start(std::size_t contact, motion::ContactSeries::Field field,
                                             double value, double rate, double time);
 
  private:
-  // The phase angle of a step is less than 4 rad for all modes with significant amplitudes.
+  // The phase angle of a step is less than 4 rad for all modes with significant amplitudes: samples are 0.5 rad apart.
   static constexpr std::size_t sample_intervals = 8;
   using Samples = std::array<double, sample_intervals + 1>;
   [[nodiscard]] static std::size_t range_index(std::size_t contact, motion::ContactSeries::Field field) {
@@ -94,7 +96,7 @@ class TurningPointDetector {
     double begin, scale;
   };
   [[nodiscard]] static bool stays_in_range(const Path& path, const Range& range, const Samples& x);
-  /// place: index into ranges_.
+  /// Records the turning points of one polynomial at the samples x. place: its index in ranges_.
   void find_on_path(const Path& path, std::size_t place, const Samples& x, Ends ends);
   void find_near_end(std::size_t end, const Path& path, std::size_t place, const Samples& x,
                      const Samples& value, Ends ends);
@@ -102,7 +104,7 @@ class TurningPointDetector {
   void record(const Path& path, std::size_t place, double at);
 
   std::vector<Range> ranges_;   // ranges so far
-  std::vector<double> values_;  // values at the last decision; empty: the motion has advanced since
+  std::vector<double> values_;  // values at the last decision; empty once the motion has advanced
   std::vector<TurningPoint> turning_points_;
   std::vector<double> times_;
   bool began_ = false;

@@ -20,31 +20,30 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int max_retries = 4;         // restarts with a tenth of the first step before giving up
-constexpr double surface_step = 0.25;  // longest step, rad of a surface's oscillation: error 1e-7 at order 5
-// First step as a fraction of the step whose local error would just be accepted. After a rebound the error of
-// the order-one start remains in the gap for the whole flight, and every impact adds such an error. So with
-// rigid contacts the first step is shorter: this takes five more steps per start and is ten times more
-// accurate (case 04a, measured).
+constexpr int max_retries = 4;         // restarts, each with a tenth of the first step, before the run fails
+constexpr double surface_step = 0.25;  // longest step, as phase angle of a surface's oscillation: error 1e-7
+// First step as a fraction of the longest step whose local error is accepted. After a rebound, the error of the order-one start
+// remains in the gap for the whole flight, and every impact adds such an error. So scenes with rigid contacts use a shorter
+// first step: five more steps per start, ten times smaller errors (measured in case 04a).
 constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
-// `part` in restart_order.hpp. Chosen between 0.1 and 0.4: it has the least error over eight tolerances of a
-// growing and of a damped motion (docs/decisions/ida-restart-order.md). Numbers of steps differ by a tenth.
+// `part` in restart_order.hpp. Chosen between 0.1 and 0.4: this value has the smallest error for a growing and for a damped
+// motion at eight tolerances (docs/decisions/ida-restart-order.md). Within this range the number of steps changes by a tenth.
 constexpr double rehearsed_part = 0.2;
-// Longest step before a segment, as a fraction of the segment: the segment then has several steps even if the
-// polynomials of the jet are the exact motion.
+// Longest step before a segment, as a fraction of the segment. The segment then has several steps even if the polynomials of
+// the jet are exact and would admit any step.
 constexpr double longest_rehearsed = 0.0625;
 constexpr double least_rehearsed =
-    1e3 * std::numeric_limits<double>::epsilon();  // relative to the time; IDA's own limit is 100
-constexpr double no_error_test = 1e-15;            // factor on the weights before a segment: tests never fail
+    1e3 * std::numeric_limits<double>::epsilon();  // shortest step relative to the time; IDA requires 100 eps
+constexpr double no_error_test = 1e-15;            // factor on the weights before a segment, so that no error test fails
 
-constexpr double sharp_newton = 1e-3;  // relative to the tolerance; IDA's default is a third
+constexpr double sharp_newton = 1e-3;  // Newton's convergence limit relative to the tolerance; IDA's default is 1/3
 
 void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(fmt::format("{} failed ({})", what, flag));
 }
 
-/// Converts times in IDA's messages, such as "t = 0.5" and "h = 1e-9", to the scene's unit of time.
+/// Converts the times in a message of IDA, such as "t = 0.5" and "h = 1e-9". unit: internal unit of time in scene units.
 std::string with_times_in(std::string text, double unit) {
   for (const char* name : {"t = ", "h = "}) {
     const std::size_t at = text.find(name);
@@ -89,12 +88,10 @@ struct BdfIntegrator::Memory {
     IDASetJacFn(ida, &Memory::jacobian);
     IDASetMaxNumSteps(ida, -1);
     IDASetMaxOrd(ida, max_order);
-    // Factorise at every change of cj: Newton's method is then exact for these linear systems, and the rows
-    // of the contacts hold up to rounding. With the default, the error of the energy is 3 to 4 times as
-    // large, with more steps (measured).
+    // Factorise at every change of cj: Newton's method is then exact for linear systems, and the contact rows are satisfied up
+    // to rounding. IDA's default gives a 3 to 4 times larger error of the energy, and more steps (measured).
     IDASetDeltaCjLSetup(ida, 0.0);
-    // Rows with friction that depends on the slip rate, or with products, hold only as accurately as Newton's
-    // method has converged.
+    // Nonlinear rows (rate-dependent friction, products) are satisfied only as accurately as Newton's method converges.
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
                     [](const Contact& c) { return !c.is_linear(); }))
       IDASetNonlinConvCoef(ida, sharp_newton);
@@ -154,8 +151,8 @@ struct BdfIntegrator::Memory {
     static_cast<Memory*>(self)->message = text;
   }
 
-  /// Starts IDA with the first step h0 at the segment's beginning, or `steps` such steps before it, whose
-  /// solutions are those of the jet.
+  /// Starts IDA with the first step h0. steps = 0: at the segment's beginning. Otherwise `steps` steps of length h0 earlier;
+  /// the solutions of these steps are those of the jet.
   void begin(double h0, int steps = 0) {
     const double before = steps * h0;
     problem.evaluate_jet(*start, -before, 0, NV_DATA_S(y));
@@ -164,12 +161,12 @@ struct BdfIntegrator::Memory {
     IDASetInitStep(ida, h0);
     first = h0;
     IDASetStopTime(ida, segment.end);
-    // Motions of surfaces are not part of y, so IDA's error test does not limit the step for them. The
-    // polynomials of the guards must resolve them.
+    // Surface motions are not part of y, so IDA's error test does not limit the step for them. But the guards' polynomials must
+    // resolve surface motions.
     const double shaking = segment.forcing->surface_omega();
     const double longest = shaking > 0.0 ? surface_step / shaking : 0.0;
     IDASetMaxStep(ida, steps > 0 ? h0 : longest);
-    // A new root problem: IDA would keep guards switched off that were zero in the last segment.
+    // Restart the root search: otherwise IDA ignores guards that were zero in the last segment.
     IDARootInit(ida, 0, nullptr);
     IDARootInit(ida, static_cast<int>(problem.slots()), &Memory::roots);
     if (!directions.empty()) IDASetRootDirection(ida, directions.data());
@@ -179,8 +176,8 @@ struct BdfIntegrator::Memory {
     IDASetMaxStep(ida, longest);
   }
 
-  /// Takes IDA's steps up to the segment's beginning. Their error tests cannot fail, and they are far longer
-  /// than the resolution of time.
+  /// Takes IDA's steps before the segment, up to its beginning. These steps cannot fail: error tests are disabled, and each
+  /// step is far longer than the resolution of time.
   void rehearse(int steps) {
     rehearsing = true;
     newton->prescribe_jet(start);
@@ -191,9 +188,9 @@ struct BdfIntegrator::Memory {
     rehearsing = false;
   }
 
-  /// The steps before the segment, or none. User functions are not defined before the segment, and steps near
-  /// the resolution of time cannot be distinguished from the beginning. Rigid contacts rebound after shorter
-  /// and shorter flights, which need shorter steps than an error test requires, at any order.
+  /// Steps to take before the segment, or none and the length of the first step. None in three cases: user functions, which are
+  /// not defined before the segment; steps near the resolution of time; and rigid contacts, whose ever shorter flights need
+  /// shorter steps than the error test requires at any order.
   [[nodiscard]] RestartOrder past() {
     if (rehearses)
       if (const RestartOrder r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
@@ -212,8 +209,8 @@ struct BdfIntegrator::Memory {
     return {RestartOrder::order, h};
   }
 
-  /// The first step of a start at order one: it bounds every term h^k y^(k)/k!, k > 1, of the error. If the
-  /// solution does not move, it is the rest of the segment.
+  /// Length h of the first step for a start at order one: every term h^k y^(k)/k!, k > 1, of the error is at most start_part^k
+  /// tolerances. If the solution is constant, h is the rest of the segment.
   double first_step() {
     const double remaining = segment.end - start->t;
     double h = remaining;
@@ -232,10 +229,10 @@ struct BdfIntegrator::Memory {
 
   [[nodiscard]] bool massless() const { return problem.layout().massive < problem.layout().dofs; }
 
-  /// Corrects the velocities of massless degrees of freedom in y' at t, by one Newton step with the matrix of
-  /// the last step. The derivative of a step's polynomial is one order less accurate than the polynomial;
-  /// after a restart its error is h u''/2. The correction uses C v = P - K u - ... Solving this for v alone
-  /// would amplify the error of u by K/C; if h K > C, the Newton step leaves the polynomial unchanged.
+  /// Corrects the velocities of massless degrees of freedom in y' at t, by one Newton step with the matrix of the last step.
+  /// Reason: the derivative of a step's polynomial is one order less accurate than the polynomial; after a restart its error is
+  /// h u''/2. Solving C v = P - K u - ... for v alone would amplify the error of u by K/C. The Newton step avoids this: if h K
+  /// > C, it hardly changes the derivative.
   void settle_massless(double t) {
     double *derivative = NV_DATA_S(yp), *change = NV_DATA_S(work);
     const double cj = problem.linear().cj();
@@ -271,8 +268,8 @@ struct BdfIntegrator::Memory {
     }
   }
 
-  /// Continues to the next step after a root without an event. IDA stops at the other roots of the step and
-  /// at its end; the polynomials of the step have already been examined there.
+  /// Continues to the next step after a root that was no event. Skips IDA's stops at further roots and at the end of the same
+  /// step, because the polynomials of this step have already been examined.
   int leave_step(int flag, double far, double& t) {
     for (double end = 0.0; flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN;
          flag = IDASolve(ida, far, &t, y, yp, IDA_ONE_STEP)) {
@@ -291,20 +288,20 @@ struct BdfIntegrator::Memory {
   std::unique_ptr<StepNewton> newton;
   bool rehearses = true;
   double start_part = first_step_part;
-  double first = 0.0;  // first step of the segment
+  double first = 0.0;  // length of the first step of the segment
   std::vector<int> directions;
   engine::Segment segment;
-  const motion::Jet* start = nullptr;  // the motion at the segment's beginning
+  const motion::Jet* start = nullptr;  // jet at the segment's beginning
   std::string message;
   double unit_of_time;
   double t_previous = 0.0;    // beginning of the last accepted step
   double reported_end = 0.0;  // end of the last returned step
   double held_time = 0.0;     // time of y and yp
-  bool rehearsing = false;    // steps before a segment: solutions are those of the jet
+  bool rehearsing = false;    // IDA takes steps before the segment: solutions are those of the jet
   bool rooted = false;        // the last returned step ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
-  std::array<long, events::max_degree + 1> steps_by_order{};  // since the last count
+  std::array<long, events::max_degree + 1> steps_by_order{};  // steps since the last count()
   Counters counted;                                           // IDA's counts since its last restart
 };
 
@@ -333,7 +330,7 @@ RestartOrder BdfIntegrator::start(const engine::Segment& segment, const motion::
 BdfStep BdfIntegrator::advance() {
   BdfStep step;
   double t = 0.0;
-  // A far tout: in one-step mode it only bounds IDA's own choice of a first step.
+  // In one-step mode IDA uses its argument tout only to choose a first step, so any late time will do.
   const double far = m_->segment.end + (m_->segment.end - m_->t_previous) + std::abs(m_->segment.end);
   int flag = IDASolve(m_->ida, far, &t, m_->y, m_->yp, IDA_ONE_STEP);
   if (flag >= 0 && m_->rooted) flag = m_->leave_step(flag, far, t);
@@ -360,12 +357,12 @@ BdfStep BdfIntegrator::advance() {
   IDAGetLastStep(m_->ida, &step.length);
   double end = 0.0;
   IDAGetCurrentTime(m_->ida, &end);
-  if (flag == IDA_TSTOP_RETURN) end = t;  // the stop time itself: IDA's time may differ by a rounding
+  if (flag == IDA_TSTOP_RETURN) end = t;  // the exact stop time; IDA's current time may differ by rounding
   step.begin = m_->reported_end;
   step.end = end;
   m_->reported_end = end;
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
-  // y' as IDA returns it does not contain the velocity of massless degrees of freedom yet: evaluate() computes it.
+  // IDA's y' does not contain accurate velocities of massless degrees of freedom: NaN makes evaluate() compute them.
   m_->held_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
   m_->rooted = flag == IDA_ROOT_RETURN;
   if (m_->rooted) {
@@ -402,8 +399,8 @@ ContactMotion BdfIntegrator::correction(std::size_t contact) const {
 }
 
 double BdfIntegrator::residual() {
-  // y' of the BDF formula, y' = y'_predicted + cj (y - y_predicted). IDA returns the derivative of the
-  // interpolating polynomial instead, which does not satisfy the equations.
+  // The equations are satisfied by y' of the BDF formula, y' = y'_predicted + cj (y - y_predicted), but not by the derivative
+  // of the interpolating polynomial, which IDA returns.
   double end = 0.0, cj = 0.0;
   N_Vector y_predicted = nullptr, yp_predicted = nullptr, y = nullptr, yp = nullptr, r = nullptr;
   void* data = nullptr;

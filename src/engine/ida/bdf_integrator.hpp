@@ -2,12 +2,12 @@
 //
 //   0 = u' - v
 //   0 = M v' + C v + K u - P(t) + sum_k ( n_k N_k + t_k T_k )
-//   0 = rows of each contact's state
+//   0 = rows of the contact states (two per contact)
 //
-// y = [u, v, N, T]. Degrees of freedom without mass have no v: their row is the second one, with u' as
-// velocity, and the system has index 1. The rows of a segment are valid until the next one starts, also after
-// an event. Guards are IDA's root functions: positive before their event, with downward crossings only, and
-// set to +1 while idle or not armed.
+// y = [u, v, N, T]. A degree of freedom without mass has no v and no first equation; u' is its velocity in the second equation,
+// and the system has index 1. The contact rows of a segment stay in use until the next segment starts, even after an event.
+// Guards are IDA's root functions: they are positive before their event, only downward crossings are reported, and guards that
+// are idle or not armed are set to +1.
 #pragma once
 
 #include <memory>
@@ -19,41 +19,41 @@
 
 namespace signorini::ida {
 
-/// A step of IDA, not yet examined for zero crossings inside it.
+/// A step of IDA. Zero crossings inside the step that IDA does not report are not yet found.
 struct BdfStep {
   enum class Kind { accepted, root, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;  ///< ends of the accepted step
   double root = 0.0;              ///< Kind::root: time at which a guard reached zero, begin < root <= end
-  std::vector<decide::TriggeredGuard> triggered;  ///< Kind::root
-  double length = 0.0;                            ///< length of the step, free of the rounding of its ends
+  std::vector<decide::TriggeredGuard> triggered;  ///< Kind::root: guards that reached zero
+  double length = 0.0;                            ///< step length by IDA, without the rounding of end - begin
   int order = 1;                                  ///< degree of the solution's polynomial on the step
-  std::string reason;                             ///< Kind::failed
+  std::string reason;                             ///< Kind::failed: why
 };
 
 class BdfIntegrator {
  public:
-  /// counters: receives the counts; complete after count().
+  /// counters: receives the counts, which are complete after count().
   BdfIntegrator(const Model& model, const linear::SystemMatrices& structure,
                 const engine::Tolerance& tolerance, int max_order, Counters& counters);
   ~BdfIntegrator();
   BdfIntegrator(const BdfIntegrator&) = delete;
   BdfIntegrator& operator=(const BdfIntegrator&) = delete;
 
-  /// jet: whole jet at the segment's beginning; watch: armed guards. Both must outlive the segment. Returns
-  /// the steps that IDA has taken on the jet before the segment (restart_order.hpp).
+  /// Starts a segment. jet: complete jet at its beginning; watch: knows which guards are armed. Both must stay valid until the
+  /// next start. Returns the steps that IDA has taken along the jet before the segment (restart_order.hpp).
   RestartOrder start(const engine::Segment& segment, const motion::Jet& jet,
                      const events::GuardMonitor& watch);
   [[nodiscard]] BdfStep advance();
-  /// u, v and forces at a time of the last step.
+  /// Interpolates u, v and forces at a time t of the last step.
   void evaluate(double t, motion::Point& point);
-  /// Stores the correction of the last step: solution minus prediction. The local error is proportional to
-  /// it, with equal steps of order k by the factor 1/(k + 1).
+  /// Stores the correction of the last step: solution minus prediction. The local error is proportional to the correction; the
+  /// factor is 1/(k + 1) for equal steps of order k.
   void keep_correction();
-  /// N, T, gap, ut, vn, vt of a contact in the stored correction; velocities without those of massless parts.
+  /// N, T, gap, ut, vn and vt of a contact in the stored correction. Velocities of massless parts are not included.
   [[nodiscard]] ContactMotion correction(std::size_t contact) const;
-  /// DenseOutput::residual.
+  /// See DenseOutput::residual().
   [[nodiscard]] double residual();
-  /// Adds IDA's counts to the counters.
+  /// Adds IDA's counts since the last call to the counters.
   void count();
 
  private:

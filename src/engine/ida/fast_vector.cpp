@@ -12,11 +12,12 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int most = 6;  // vectors of a linear combination: order 5 has six differences
+constexpr int most = 6;  // most vectors in a linear combination: order 5 has six differences
 
 using Index = sunindextype;
 
-/// T: Four, or double for the remaining entries. z_j = sum_i f_i x_ij. z may be x_0; later ones are distinct from it.
+/// Computes z_j = sum_i f_i x_ij. T: Double4, or double for the remaining entries. z may be the same vector as x_0, but no
+/// other.
 template <class T, int count>
 [[gnu::always_inline]] inline void combined(const double* f, const double* const* x, Index j, double* z) {
   T sum = f[0] * base::lanes_at<T>(x[0] + j).v;
@@ -41,7 +42,8 @@ template <int count>
   for (; j < n; ++j) combined<double, count>(f.data(), x.data(), j, z);
 }
 
-/// At the end of a step all factors of y except the first are zero, and IDA computes it at each end.
+/// Computes z = sum of c_i x_i. Drops trailing zero factors, because IDA evaluates y at the end of each step, where all factors
+/// except the first are zero.
 SIGNORINI_WIDE_LANES int linear_combination(int count, double* c, N_Vector* x, N_Vector z_vector) {
   const Index n = NV_LENGTH_S(z_vector);
   double* z = NV_DATA_S(z_vector);
@@ -78,7 +80,7 @@ SIGNORINI_WIDE_LANES void linear_sum(double a, N_Vector x_vector, double b, N_Ve
   const double *x = NV_DATA_S(x_vector), *y = NV_DATA_S(y_vector);
   double* z = NV_DATA_S(z_vector);
   Index j = 0;
-  if (a == 1.0) {  // every sum of IDA's steps
+  if (a == 1.0) {  // the case of all sums in IDA's steps
     for (; j + 3 < n; j += 4)
       base::lanes_at<base::Double4>(z + j).v =
           base::lanes_at<base::Double4>(x + j).v + b * base::lanes_at<base::Double4>(y + j).v;
@@ -110,7 +112,7 @@ void constant(double c, N_Vector z_vector) {
   std::fill(z, z + NV_LENGTH_S(z_vector), c);
 }
 
-/// x_0j += e_j, then x_ij += x_(i-1)j.
+/// Computes x_0j += e_j, then x_ij += x_(i-1)j for i = 1, 2, ...
 template <class T, int count>
 [[gnu::always_inline]] inline void cascaded(const double* e, double* const* x, Index j) {
   T sum = base::lanes_at<T>(e + j).v + base::lanes_at<T>(x[0] + j).v;
@@ -122,7 +124,8 @@ template <class T, int count>
   if constexpr (count > 5) base::lanes_at<T>(x[5] + j).v = sum += base::lanes_at<T>(x[5] + j).v;
 }
 
-/// IDA's x = [phi_q, ..., phi_0], z = [e, phi_q, ..., phi_1].
+/// Updates IDA's differences `vectors` = [phi_q, ..., phi_0] by the correction e: each vector is increased by the one before
+/// it.
 template <int count>
 [[gnu::always_inline]] inline void cascade(const double* e, N_Vector* vectors, Index n) {
   std::array<double*, count> x{};
@@ -166,7 +169,7 @@ SIGNORINI_WIDE_LANES int linear_sums(int count, double a, N_Vector* x, double b,
 SIGNORINI_WIDE_LANES double wrms_norm(N_Vector x_vector, N_Vector w_vector) {
   const Index n = NV_LENGTH_S(x_vector);
   const double *x = NV_DATA_S(x_vector), *w = NV_DATA_S(w_vector);
-  // Four sums of four lanes: with a single sum each addition would wait for the previous one.
+  // Four independent sums of four lanes: in a single sum, each addition would wait for the previous one.
   base::Double4 s0{}, s1{}, s2{}, s3{};
   Index j = 0;
   for (; j + 15 < n; j += 16) {

@@ -17,7 +17,7 @@
 namespace signorini::ida {
 namespace {
 
-/// "run.atol.velocity (1e-09 m/s here)": the tolerance of a guard's value, in the units of the scene.
+/// Key and value of the tolerance of a guard in the units of the scene, such as "run.atol.velocity (1e-09 m/s here)".
 std::string tolerance_in_force(Guard guard, const engine::Tolerance& tolerance, const Model& model) {
   const auto as_key = [&](const char* key, double value, const Unit& unit, const std::string& name) {
     return fmt::format("run.atol.{} ({:.2g} {} here)", key, model::in_scene_units(model, value, unit), name);
@@ -55,8 +55,7 @@ bool IdaEngine::follows_low_flights(const Model& model) {
   return std::none_of(model.contacts.begin(), model.contacts.end(), contact::friction_varies);
 }
 
-/// Writes guards, powers, and the contacts' quantities at the end of a step to `out`, for the polynomials of
-/// the history.
+/// Writes the scalars of the history at time t to `out`: guards, powers, and N, T, gap and ut of the contacts.
 void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   const decide::Decision& decision = *segment_.decision;
   const ForceLayout& layout = model_.layout;
@@ -67,9 +66,9 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t, point);
     const double still = segment_.forcing->surface_moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
-    const double ut = contact.body_tangent().dot(point.u) - still;  // locate.hpp
+    const double ut = contact.body_tangent().dot(point.u) - still;  // without a moving surface's s(t), see locate.hpp
     for (const double value : {m.N, m.T, m.gap, ut})
-      *shown++ = value;  // order: TurningPointDetector::watched
+      *shown++ = value;  // in the order of TurningPointDetector::watched_fields
     const GuardForm* guard = decision.forms[k].data();
     for (const GuardForm* const end = guard + layout.guards(k); guard != end; ++guard)
       *out++ = guard->is_linear() ? decide::QuickForm(guard->form).value(m) : guard->value(m);
@@ -79,9 +78,9 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   powers_.at(*segment_.forcing, t, decision.states, point, powers);
 }
 
-/// Gap below which the series takes a flight: the geometric mean of tolerance and size, below which half of
-/// the digits of a height are lost. In case 04a at rtol 1e-10 impacts are then accurate to 3e-9 s; with the
-/// re-arming level as limit, to 1e-7 s.
+/// Gap below which the series takes a flight: the geometric mean of the gap's tolerance and the size of its terms. Below it,
+/// the integrator loses half of the digits of a height. Impacts of case 04a at rtol 1e-10 are then accurate to 3e-9 s; with the
+/// re-arming level as limit, only to 1e-7 s.
 double IdaEngine::flight_level(const Contact& contact, const Vector& u) const {
   double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
   for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
@@ -90,9 +89,9 @@ double IdaEngine::flight_level(const Contact& contact, const Vector& u) const {
   return std::max(std::sqrt(tolerance * size), 2.0 * events::re_arm_tolerances * tolerance);
 }
 
-/// True if there are massless parts and no damper acts on one. Their velocities are then computed from
-/// K v = P' - ..., because the derivative of a step's polynomial has the error h u''/2 after a restart, far
-/// above the tolerance of velocities. If dampers act, BdfIntegrator corrects the velocities.
+/// True if the structure has massless parts and no damper acts on them. Their velocities are then computed from K v = P' - ...,
+/// because the derivative of a step's polynomial has the error h u''/2 after a restart, far above the tolerance of velocities.
+/// If a damper acts on a massless part, BdfIntegrator corrects the velocities.
 bool IdaEngine::has_undamped_massless_parts() const {
   if (!consistent_.massless()) return false;
   const std::vector<linear::DofKind>& kinds = segment_.decision->system->kinds();
@@ -118,8 +117,8 @@ void IdaEngine::start(const engine::Segment& segment) {
     const ContactMotion& motion = decision.after[model_.layout.contact_of_guard(slot)];
     double level =
         guard.noise + events::re_arm_tolerances * engine::tolerance(decision.guard(slot), motion, tolerance_);
-    // A value that the decision takes as zero may exceed the tolerance: rate times resolution of time, at a
-    // stiff contact.
+    // A guard that the decision regards as zero may exceed its tolerance at a stiff contact: its value is up to its rate times
+    // the resolution of time.
     if (guard.at_zero) level += 2.0 * std::abs(decision.guard(slot).value(motion));
     levels.push_back(level);
     if (guard.at_zero && guard.kind != Guard::closing) add_zero_start_guard(slot);
@@ -134,7 +133,8 @@ void IdaEngine::start(const engine::Segment& segment) {
   restart_history(jet, bdf_.start(segment, jet, guard_monitor_));
 }
 
-/// Stores the steps of IDA before the segment, and its beginning, for the polynomials of the first steps.
+/// Fills the history with the points that IDA uses before the segment (restart_order.hpp) and the beginning of the segment. The
+/// polynomials of the first steps need these values.
 void IdaEngine::restart_history(const motion::Jet& jet, const RestartOrder& past) {
   const decide::Decision& decision = *segment_.decision;
   const double t = jet.t;
@@ -163,16 +163,16 @@ void IdaEngine::evaluate(double t, motion::Point& point) {
   if (makes_points_consistent_)
     consistent_.make(segment_.decision->system, *segment_.forcing, t, point);
   else
-    point.a.resize(0);  // its entries belong to another time
+    point.a.resize(0);  // the accelerations in `point` belong to another time
 }
 
-/// Computes accelerations from the equation of motion with the point's u and v, which remain unchanged.
+/// Computes the accelerations from the equation of motion; u and v of the point remain unchanged.
 void IdaEngine::accelerate(double t, motion::Point& point) {
   if (flight_ || (point.a.size() > 0 && !consistent_.massless())) return;
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
 }
 
-/// BDF's polynomials have at most degree 5.
+/// The phase angle is that of a polynomial of degree 5, the highest of BDF.
 engine::StepFacts IdaEngine::facts() const {
   engine::StepFacts facts;
   if (flight_) {
@@ -231,7 +231,7 @@ engine::Step IdaEngine::advance() {
   return step;
 }
 
-/// The first downward zero crossing of a guard in the last step, refined.
+/// First downward zero crossing of a guard in the last step, refined. nullopt: no event in this step.
 std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, double resolution) {
   const double h = step.end - step.begin;
   const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
@@ -251,8 +251,8 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     guard_monitor_.set_waiting(c.slot, allowance(c.slot));
     if (!std::exchange(touch_warned_, true))
       warnings.push_back(
-          fmt::format("contact '{}': its {} touches zero at {:.9g} and passes it by less than the error of "
-                      "the steps; no event is recorded there, nor at later touches of this kind; a smaller "
+          fmt::format("contact '{}': its {} touches zero at {:.9g}, and falls below zero by less than the error of "
+                      "the steps; no event is recorded for this and later touches, which are not reported; a smaller "
                       "{}, or engine exact, decides whether it crosses zero",
                       model_.contacts[model_.layout.contact_of_guard(c.slot)].name,
                       contact::to_string(guards[c.slot].kind), model::time_in_scene_units(model_, c.time),
@@ -270,9 +270,9 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   return first;
 }
 
-/// True if a sticking contact opens without slipping before. The friction limit vanishes with the
-/// compression, so any error of the friction force exceeds the limit shortly before the contact opens. If the
-/// error of the limit explains the time between both zeros, the contact opens from stick.
+/// True if the contact opens from stick, although a slip was found shortly before. The friction limit vanishes with N, so any
+/// error of T exceeds the limit shortly before the contact opens. The slip is such an error if the tolerance of the limit
+/// explains the time between both zeros. x: place of the slip in the step, 0 to 1; h: step length.
 bool IdaEngine::opens_instead(const Located& slip, const Located& opening, double x, double h) const {
   const std::size_t contact = model_.layout.contact_of_guard(slip.slot);
   const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
@@ -284,10 +284,10 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
          engine::tolerance(segment_.decision->guard(slip.slot), ContactMotion{}, tolerance_);
 }
 
-/// True if a guard that started at zero only touches zero. It returns to zero if the motion conserves energy
-/// (a contact that sticks at its limit, on its own spring); its depth below zero is then the error of the
-/// steps. A gap that opened and returns to zero is a landing, however short its flight was. If friction rises
-/// with the slip rate, a guard that crosses zero does not return.
+/// True if a guard that started at zero only touches zero at the place x (0 to 1) of the step. A motion that conserves energy
+/// brings such a guard back to zero (a contact with a spring that sticks at its limit); the depth below zero is then the error
+/// of the steps. Two exceptions: a gap that opened and returns to zero is a landing, however short the flight was; and if
+/// friction rises with the slip rate, a guard that crosses zero does not return.
 bool IdaEngine::is_touch(std::size_t slot, double x) const {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   if (guard.kind == Guard::closing || !guard.at_zero || !guard_monitor_.armed(slot)) return false;
@@ -315,8 +315,8 @@ void IdaEngine::add_zero_start_guard(std::size_t slot) {
       {slot, engine::tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
 
-/// Adds the error of the step to the bound of each guard that began at zero. This error is the correction, at
-/// most one tolerance; if the correction is unknown, it is one tolerance.
+/// Adds the error of the last step to the error bound of each guard that began at zero. The error of the step is estimated by
+/// the change of the guard due to IDA's correction, limited to one tolerance; if this change is unknown, by one tolerance.
 void IdaEngine::add_errors() {
   if (zero_start_guards_.empty()) return;
   bdf_.keep_correction();
@@ -329,8 +329,8 @@ void IdaEngine::add_errors() {
   }
 }
 
-/// Bound on the error of a guard since the beginning of the segment: that of its steps, plus one tolerance
-/// for the last value.
+/// Bound on the error of a guard that began at zero: sum of the errors of the steps since then, plus one tolerance for the last
+/// value.
 double IdaEngine::allowance(std::size_t slot) const {
   const auto guard = std::lower_bound(zero_start_guards_.begin(), zero_start_guards_.end(), slot,
                                       [](const ZeroStartGuard& g, std::size_t s) { return g.slot < s; });
@@ -374,7 +374,8 @@ engine::StepperReport IdaEngine::report() {
   return report;
 }
 
-/// One tolerance; for a guard that started at zero and never clearly rose, the event is triggered at minus its level.
+/// One tolerance. A guard that started at zero and never clearly rose triggers its event only at minus its level, so this depth
+/// is added.
 double IdaEngine::guard_error(const GuardForm& guard, const ContactMotion& motion,
                               std::size_t contact) const {
   return engine::tolerance(guard, motion, tolerance_) +

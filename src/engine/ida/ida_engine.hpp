@@ -1,10 +1,9 @@
-// ida_engine.hpp: engine `ida`: IDA's steps, and proof that no guard reaches zero inside a step without an
-// event.
+// ida_engine.hpp: engine `ida`: takes IDA's steps and proves that no guard crosses zero inside a step without an event.
 //
-//   advance: a step of IDA -> the guards' polynomials on it (step_history.hpp, active_guards.hpp) -> the first
-//            zero crossing, refined with forces recomputed from u and v (locate.hpp)
+//   advance: a step of IDA -> polynomials of the guards on this step (step_history.hpp, active_guards.hpp)
+//            -> first zero crossing, refined with forces recomputed from u and v (locate.hpp)
 //
-// Works are integrals of the polynomials through the powers at the ends of steps.
+// The works are integrals of polynomials that interpolate the powers at the ends of the last steps.
 #pragma once
 
 #include "engine/events/active_guards.hpp"
@@ -20,13 +19,12 @@ namespace signorini::ida {
 
 class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
  public:
-  /// The first three arguments must outlive the object. flight_tolerances: factor on the tolerance of gaps
-  /// that determines which flights are taken by a series (short_flight.hpp).
+  /// The first three arguments must outlive the object. flight_tolerances: factor on the tolerance of gaps; a series takes the
+  /// flights that are low compared with this product (short_flight.hpp).
   IdaEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
             const engine::Tolerance& tolerance, int max_order, double t_end, double flight_tolerances);
 
-  /// True if no coefficient of friction depends on the slip rate or on N, so that a series can follow short
-  /// flights.
+  /// True if a series can follow short flights: no coefficient of friction depends on the slip rate or on N.
   [[nodiscard]] static bool follows_low_flights(const Model& model);
 
   void start(const engine::Segment& segment) override;
@@ -49,8 +47,8 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   /// A guard that began at zero, other than a closing gap.
   struct ZeroStartGuard {
     std::size_t slot;
-    double tolerance;  // tolerance of its value
-    bool known;        // its change in a step follows from N, T, u and v
+    double tolerance;  // tolerance of the guard's value
+    bool known;        // N, T, u and v determine the guard's change in a step
     double off;        // bound on the errors of the steps so far
   };
   [[nodiscard]] bool has_undamped_massless_parts() const;
@@ -80,13 +78,13 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   ShortFlight flights_;
   std::optional<engine::Step> flight_;  // the step taken by a short flight
   engine::Segment segment_;
-  motion::Jet jet_;  // whole jet, if the decision's jet is incomplete
+  motion::Jet jet_;  // complete jet, if that of the decision is incomplete
   motion::Point point_;
   std::vector<double> integrals_;
   bool accelerations_ = false;                     // at least one guard needs accelerations
-  bool makes_points_consistent_ = false;           // points of the segment are made consistent
-  std::vector<ZeroStartGuard> zero_start_guards_;  // ascending slots
-  bool touch_warned_ = false;                      // the warning has been issued
+  bool makes_points_consistent_ = false;           // forces and accelerations are recomputed at each point
+  std::vector<ZeroStartGuard> zero_start_guards_;  // in ascending order of slots
+  bool touch_warned_ = false;                      // the warning about a touch was issued
 };
 
 }  // namespace signorini::ida

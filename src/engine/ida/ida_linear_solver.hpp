@@ -2,11 +2,11 @@
 //
 //   | cj   -1          | |du|   |r1|        du = (dv + r1) / cj
 //   | K  cj M + C  n t | |dv| = |r2|   =>   (cj M + C + K/cj) dv + n dN + t dT = r2 - K r1 / cj
-//   | rows of contacts | |dF|   |r3|        rows of the contacts likewise
+//   | rows of contacts | |dF|   |r3|        contact rows likewise
 //
-// The residual contains the terms of r1/cj in r2 and r3 already (engine/ida/ida_problem.hpp), so it is the
-// right-hand side. The matrix has n + 2 rows per contact instead of 2 n + 2 per contact. For large structures
-// with compliant contacts and a narrow band it has n rows (linear/condensed_matrix.hpp).
+// The residual is the right-hand side, because r2 and r3 already contain the terms with r1/cj (engine/ida/ida_problem.hpp).
+// With c contacts, the matrix has n + 2 c rows instead of 2 n + 2 c. For large structures with compliant contacts and a narrow
+// band it has only n rows (linear/condensed_matrix.hpp).
 #pragma once
 
 #include <sundials/sundials_linearsolver.h>
@@ -21,17 +21,17 @@
 
 namespace signorini::ida {
 
-/// Places of u, v, N and T in IDA's vector: u of all n degrees of freedom, v of those with mass, then the forces of all
-/// contacts.
+/// Indices of u, v, N and T in IDA's vector y: first u of all n degrees of freedom, then v of those with mass, then the forces
+/// of all contacts.
 struct Layout {
   explicit Layout(const Model& model);
 
   int dofs = 0, massive = 0, forces = 0;
   ForceLayout contacts;
-  std::vector<int> velocity;  ///< index of v_i, or -1 where u_i' is the velocity
+  std::vector<int> velocity;  ///< index of v_i; -1 for a degree of freedom without mass, whose velocity is u_i'
   [[nodiscard]] int normal(std::size_t contact) const { return force(contacts.normal(contact)); }
   [[nodiscard]] int tangent(std::size_t contact) const { return force(contacts.tangent(contact)); }
-  /// Index of a force in the vector, from its index among the forces of all contacts.
+  /// Index in y of a contact force. place: its index among the forces of all contacts.
   [[nodiscard]] int force(std::size_t place) const { return dofs + massive + static_cast<int>(place); }
   [[nodiscard]] int size() const { return dofs + massive + forces; }
 };
@@ -40,7 +40,7 @@ class IdaLinearSolver {
  public:
   IdaLinearSolver(const Model& model, const linear::SystemMatrices& structure, const Layout& layout);
 
-  /// New contact state: the next factorisation chooses new pivots.
+  /// Sets the rows of new contact states. The next factorisation chooses new pivots.
   void set_contact_states(const contact::ContactStates& states);
   void set_cj(double cj) { cj_ = cj; }
   [[nodiscard]] double cj() const { return cj_; }
@@ -48,7 +48,7 @@ class IdaLinearSolver {
   void solve(const double* b, double* x);
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
   [[nodiscard]] const linear::RedundantRows& shared_rows() const { return matrix_.redundant_rows(); }
-  /// Replaces a nonlinear row by its tangent.
+  /// Replaces the tangential row of a contact by its linearisation.
   void linearise(std::size_t contact, const Form& tangent) {
     rows_[contact].tangent = tangent;
     if (condensed_rows_) condensed_rows_->set_rows(contact, rows_[contact]);
@@ -58,23 +58,24 @@ class IdaLinearSolver {
   }
   [[nodiscard]] long refactorisations() const { return matrix_.klu().refactorisations; }
 
-  /// SUNDIALS' view of the matrix; the solver must outlive both.
+  /// Creates SUNDIALS' handles of the matrix and of the solver. This object must outlive both.
   SUNMatrix make_matrix(SUNContext context);
   SUNLinearSolver make_solver(SUNContext context);
 
  private:
   const Model& model_;
   const Layout& layout_;
-  const linear::Unknowns unknowns_;  // of the condensed system
+  const linear::Unknowns unknowns_;  // unknowns of the condensed system
   linear::SystemMatrix matrix_;
   std::optional<linear::CondensedRows> condensed_rows_;  // used if they save time
-  std::optional<linear::CondensedMatrix> condensed_;     // matrix of these rows
+  std::optional<linear::CondensedMatrix> condensed_;     // matrix of condensed_rows_
   bool uses_condensed_ = false;                          // the last factors are those of condensed_
   std::vector<Rows> rows_;
   std::vector<linear::Weights> weights_;
-  // Degrees of freedom with a prescribed acceleration keep it exactly; an elimination would add rounding.
+  // Degrees of freedom with a prescribed acceleration. Solutions get the prescribed value, because elimination would add
+  // rounding.
   std::vector<linear::PrescribedDof> pinned_;
-  std::vector<double> held_;  // values of the held accelerations
+  std::vector<double> held_;  // their accelerations
   std::vector<double> rhs_;
   double cj_ = 1.0;
   bool fresh_ = true;

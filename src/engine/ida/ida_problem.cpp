@@ -14,19 +14,18 @@
 namespace signorini::ida {
 namespace {
 
-// Fraction of the requested tolerance that a step may use. IDA's error test bounds the error of one step, but
-// the errors of thousands of steps add up. On the reference cases the sum is then within a few hundred
-// tolerances over a hundred oscillations, with 1.3 times the steps (measured).
+// Fraction of the requested tolerance that one step may use. IDA's error test bounds the error of one step, but the errors of
+// thousands of steps add up. Measured on the reference cases: with this fraction, the sum over a hundred oscillations is a few
+// hundred tolerances at most, and the number of steps is 1.3 times as large.
 constexpr double local_part = 0.2;
-// Least tolerance of a force, relative to the terms whose difference it is: a tolerance below the rounding of
-// kn g cannot be met. Chosen; the limit of rtol, 1e-13, depends on it (docs/theory.md, Limits).
+// Smallest tolerance of a force, relative to the terms whose difference is the force: a tolerance below the rounding of kn g
+// cannot be met. Chosen; the smallest admissible rtol, 1e-13, depends on this value (docs/theory.md, Limits).
 constexpr double rounding_floor = 20.0 * rounding::eps;
-// Factor on this rounding for T of a contact element in series with rate-dependent friction: T has the
-// rounding of ut - p and of ut' - p'. Newton's method requires a thousandth of the tolerance there
-// (bdf_integrator.cpp).
+// Factor on rounding_floor for T of a shear element in series with rate-dependent friction: T has the rounding of ut - p and of
+// ut' - p', and Newton's method must converge to a thousandth of the tolerance (sharp_newton in bdf_integrator.cpp).
 constexpr double above_sharp_newton = 100.0;
 
-/// r = y' - v,  u = y - step r
+/// Computes r = yp - v and u = y - step r.
 SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y, const double* v,
                                      const double* yp, double* r, double* u) {
   std::size_t i = 0;
@@ -42,7 +41,7 @@ SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y
   }
 }
 
-/// w = factor / (rtol |y| + atol)
+/// Computes the weights w = factor / (rtol |y| + atol).
 SIGNORINI_WIDE_LANES void weigh(std::size_t n, double rtol, const double* factor, const double* atol,
                                 const double* y, double* w) {
   std::size_t i = 0;
@@ -247,7 +246,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
 void IdaProblem::weights(const double* y, double rate, double* w) const {
   weigh(atol_.size(), tolerance_.rtol, factor_.data(), atol_.data(), y, w);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    // kn g and kt (ut - p) are differences of large numbers: no tolerance below their rounding can be met.
+    // N = kn g and T = kt (ut - p) are differences of large numbers: a tolerance below their rounding cannot be met.
     const Contact& contact = model_.contacts[k];
     const double gap = std::abs(contact.gap) + contact.normal.magnitude(y);
     const double surface = segment_.forcing->surface(k, segment_.decision->jet.t, 0);
@@ -279,8 +278,8 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
     const auto i = static_cast<std::size_t>(index);
     if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
   };
-  // One noise level for all massless degrees of freedom, because contacts and rows propagate rounding.
-  // Rotations count as lengths, with the internal unit of length, the extent of the structure.
+  // One noise level for all massless degrees of freedom, because contacts and rows propagate rounding errors. Rotations are
+  // compared with displacements in the internal unit of length, the extent of the structure.
   double length = 0.0, greatest = 0.0;
   for (const Massless& own : massless_) {
     double force = 0.0;
@@ -306,12 +305,12 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
     for (const GuardForm* guard = forms.data(); slot < unused; ++slot, ++guard) {
       const Guard kind = segment_.decision->guards[slot].kind;
       const Form& form = guard->form;
-      // IDA does not interpolate accelerations; the polynomial check examines guards that contain one.
+      // IDA does not interpolate accelerations, so guards that contain one are left to events::GuardMonitor::check().
       if (kind == Guard::none || form.an != 0.0 || !guard_monitor_->armed(slot)) {
         g[slot] = 1.0;
         continue;
       }
-      // O(1), so that IDA's products of guard values do not underflow
+      // Guards are scaled to order 1, so that IDA's products of guard values do not underflow.
       const bool of_rate = kind == Guard::sliding && form.T == 0.0;
       const double unit = kind == Guard::closing ? scale.displacement
                           : of_rate              ? scale.velocity

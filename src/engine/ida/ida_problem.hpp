@@ -1,9 +1,10 @@
-// ida_problem.hpp: residual, error weights and root functions called by IDA; no solver state.
+// ida_problem.hpp: residual, error weights and root functions that IDA calls; contains no solver state.
 //
-//   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   rows of contacts at u - r1/cj
+//   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   contact rows at u - r1/cj
 //
-// Rows are combined in the form that the condensed solver needs (engine/ida/ida_linear_solver.hpp). They are
-// zero for the same y and y' as without r1/cj, and a solve needs no additional product with K.
+// The terms with r1/cj are those that the condensed solver needs on its right-hand side (engine/ida/ida_linear_solver.hpp), so
+// a solve needs no additional product with K. The residual is zero for the same y and y' as without these terms, because r1 =
+// 0.
 #pragma once
 
 #include "engine/events/active_guards.hpp"
@@ -20,20 +21,21 @@ class IdaProblem {
 
   void start(const engine::Segment& segment, const events::GuardMonitor& watch);
 
-  /// r = F(t, y, y') with rows combined for cj = 1/step; step = 0: the rows themselves.
+  /// Computes the residual r for cj = 1/step. step = 0: without the terms r1/cj.
   void residual(double t, double step, const double* y, const double* yp, double* r);
-  /// Writes the tangents of nonlinear rows (friction that depends on the slip rate) into the linear solver.
+  /// Passes the linearised rows of contacts with rate-dependent friction to the linear solver.
   void linearise(double t, const double* y, const double* yp);
   /// Largest magnitude of an entry of the residual of the equation of motion. Unit: force.
   [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
-  /// Writes the error weights of all unknowns: 1 / tolerance, scaled by groups (factor_). rate: 1/h, for the
-  /// resolution of time; 0 before the first step is known.
+  /// Writes the error weights of all unknowns: 1 / tolerance, scaled by groups (factor_). rate: 1/h of the last step, which
+  /// rounding errors of velocities are multiplied by; 0 if no step length is known yet.
   void weights(const double* y, double rate, double* w) const;
-  /// Scaled guards, one for each slot; masked guards are +1.
+  /// Writes the scaled guards, one for each slot. Guards that are not armed, or unused, are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;
-  /// y (derivative = 0) or y' (1) on the jet's polynomials, x after the jet's instant.
+  /// Writes y (derivative = 0) or y' (derivative = 1) at the time x after the jet's instant, from the Taylor polynomials of the
+  /// jet.
   void evaluate_jet(const motion::Jet& jet, double x, int derivative, double* y) const;
-  /// Writes y^(order) from a jet.
+  /// Writes the derivative y^(order) at the jet's instant.
   void fill(const motion::Jet& jet, std::size_t order, double* y) const;
   /// Reads u, v and forces from IDA's vectors.
   void read(const double* y, const double* yp, motion::Point& point) const;
@@ -41,21 +43,22 @@ class IdaProblem {
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] std::size_t slots() const { return layout_.contacts.guard_count(); }
 
-  /// True if a contact slips whose friction rises with its slip rate.
+  /// True if a contact slips in this segment and its friction rises with the slip rate.
   [[nodiscard]] bool has_rate_dependent_friction() const { return rate_dependent_; }
 
-  /// N, T, gap, ut, vn, vt of a contact for a change of the unknowns; velocities without those of massless parts.
+  /// N, T, gap, ut, vn and vt of a contact for a change of the unknowns. Velocities do not contain those of massless degrees
+  /// of freedom, which are not unknowns.
   [[nodiscard]] ContactMotion change(std::size_t contact, const double* of) const;
 
   [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
 
  private:
   void add_shared(const double* y, double* r) const;
-  /// step: the motion is taken at u - step (u' - v).
+  /// Motion of contact k at the displacements u - step (u' - v).
   [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp,
                                      double step = 0.0) const;
 
-  /// Calls f(i, v) for each degree of freedom i, v the index of its velocity.
+  /// Vector view whose entry i is f(i, v), where v is the index of the velocity of degree of freedom i, or -1.
   template <class F>
   struct ByDof {
     const Layout& layout;
@@ -70,11 +73,11 @@ class IdaProblem {
     return {layout_, f};
   }
 
-  /// Raises tolerances to the rounding of the forces that determine massless degrees of freedom, and of the
-  /// contact forces on them.
+  /// Raises the tolerances of massless degrees of freedom, and of the contact forces on them, to the rounding of the forces
+  /// that determine them.
   void widen_massless(const double* y, double* w) const;
 
-  /// Adds an entry to stopped_masses_ if the form moves mass.
+  /// Adds an entry to stopped_masses_ if a degree of freedom in the form has mass. force: index of the force in y.
   void add_stopped_mass(const Combination& form, int force);
 
   const Model& model_;
@@ -84,28 +87,28 @@ class IdaProblem {
   const engine::Tolerance tolerance_;
   engine::Segment segment_;
   const events::GuardMonitor* guard_monitor_ = nullptr;
-  // IDA's norm is a mean over all unknowns, in which the errors of few contacts on a large structure would
-  // vanish. So each contact has a group of N and T and a group of u and v of its degrees of freedom; all
-  // other unknowns form one more group. The mean of every group counts in full.
+  // IDA's error norm is a mean over all unknowns, in which the errors of a few contacts on a large structure would vanish. So
+  // each contact has two groups of unknowns: N and T, and the u and v of its degrees of freedom. All other unknowns are one
+  // more group. factor_ scales the weights so that each group contributes to the norm like the whole vector.
   std::vector<double> factor_, atol_;
-  std::vector<int> unused_;  // places without a force
-  // Degrees of freedom without mass are determined by forces K u, which may be differences of large numbers:
-  // after a long slide their rounding is large. stiffness: of K and of closed contacts.
+  std::vector<int> unused_;  // indices of unused forces in y
+  // Forces K u determine the degrees of freedom without mass. After a long slide these forces are differences of large numbers,
+  // with large rounding errors.
   struct Massless {
     int dof = 0;
-    double stiffness = 0.0;
-    std::vector<std::pair<int, double>> forces;  ///< contact forces on it: unknown, factor
+    double stiffness = 0.0;                      ///< diagonal entry of K plus the springs of contacts
+    std::vector<std::pair<int, double>> forces;  ///< contact forces on it: index in y, |factor|
   };
   std::vector<Massless> massless_;
-  // Constraint forces that stop a mass m: they correct the rounding of its velocity v within one step, by a
-  // force m v eps / h. A tolerance below that cannot be met, and a smaller step would raise the force.
+  // Constraint forces that stop a mass m. Such a force corrects the rounding error of the velocity v within one step, and so
+  // has an error of m v eps / h. A smaller tolerance cannot be met, and a shorter step raises this error.
   struct StoppedMass {
     const Combination* form;
     int force;
-    double mass;  ///< moved by the form, from the diagonal of M
+    double mass;  ///< mass that the form moves, from the diagonal of M
   };
   std::vector<StoppedMass> stopped_masses_;
-  std::vector<linear::SharedForces> shared_;  // of the contact states of this segment
+  std::vector<linear::SharedForces> shared_;  // redundant rows in the contact states of this segment
   std::vector<std::size_t> nonlinear_;  // contacts in this segment that slip with rate-dependent friction
   bool rate_dependent_ = false;
   linear::StructuralForces structural_forces_;

@@ -40,7 +40,7 @@ double locate(BdfIntegrator& bdf, motion::ConsistentMotion& consistent, const en
 
 namespace {
 
-/// a_k = C(n, k) sum_i (-1)^(k-i) C(k, i) b_i: differences of the coefficients.
+/// Power coefficients a_k = C(n, k) sum_i (-1)^(k-i) C(k, i) b_i, computed by repeated differences of the b_i.
 std::array<double, events::max_degree + 1> powers_of(events::Bernstein p) {
   std::array<double, events::max_degree + 1> a{};
   double choose = 1.0;
@@ -78,7 +78,7 @@ void HistoryTurningPoints::start(const decide::Decision& decision, const motion:
 
 void HistoryTurningPoints::find(const events::StepHistory& history, double x_end) {
   detector_.open();
-  // Nearly always all values stay within their earlier ranges.
+  // Fast path: nearly always all values stay within their earlier ranges.
   const double *last = history.last_values() + first_, *bend = history.variation_bounds() + first_;
   const events::TurningPointDetector::Range* seen = detector_.ranges();
   const std::size_t shown = count();

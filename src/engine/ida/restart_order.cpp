@@ -10,14 +10,13 @@
 namespace signorini::ida {
 namespace {
 
-// rtol above which a lower order may be chosen. Orders 3 to 5 are unstable near the imaginary axis. At loose
-// tolerances the error test does not detect growing undamped modes (case 01b at rtol 1e-3: 142 events instead
-// of 10), and order 2 takes at most twice as many steps. At tighter tolerances order 5 resolves those modes
-// and takes a third to a ninth of the steps (benchmarks/README.md).
+// rtol above which a lower order may be chosen. Orders 3 to 5 are unstable near the imaginary axis. At larger rtol, the error
+// test does not detect growing undamped modes (case 01b at rtol 1e-3: 142 events instead of 10), and order 2 takes at most
+// twice as many steps. At smaller rtol, order 5 resolves these modes and takes a third to a ninth of the steps of order 2
+// (benchmarks/README.md).
 constexpr double loose = 1e-4;
 
-/// Angle of the sector around the negative real axis in which the BDF formula of this order is stable,
-/// degrees.
+/// Order of a BDF formula, and the half angle, in degrees, of the sector around the negative real axis in which it is stable.
 struct Stability {
   int order;
   double angle;

@@ -1,11 +1,10 @@
-// short_flight.hpp: flights of rigid contacts below the resolution of an integrator's tolerance.
+// short_flight.hpp: flights of rigid contacts that are too low for the tolerance of an integrator.
 //
 //   after a rebound  g = vn t + an t^2/2 + ...  returns to zero at t*, and g < level up to t*
 //
 // The error of an integrator's polynomial is as large as the height of such a flight. The Taylor series about
-// the rebound gives the flight exactly (engine/exact/exact_engine.hpp), so the series computes the step to
-// the next impact. Without the series a ball at the end of its bounces would penetrate the floor by a
-// tolerance or more.
+// the rebound gives the flight exactly (engine/exact/exact_engine.hpp), so the series takes the step to the next impact.
+// Without the series, the last bounces of a ball would penetrate the floor by a tolerance or more.
 #pragma once
 
 #include <functional>
@@ -21,11 +20,11 @@ class ShortFlight {
   ShortFlight(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
               double t_end);
 
-  /// The step to the impact, or to another event before it, if the segment begins with such a flight;
-  /// otherwise nullopt. level: gap of a contact above which the integrator resolves a flight.
+  /// Takes the step to the next impact, or to an earlier event. nullopt if the segment does not begin with a low flight. level:
+  /// gap of a contact above which the integrator resolves a flight.
   [[nodiscard]] std::optional<engine::Step> take(const engine::Segment& segment,
                                                  const std::function<double(const Contact&)>& level);
-  /// The motion and the works on the step returned by take().
+  /// Engine that gives the motion and the works on the step returned by take().
   [[nodiscard]] exact::ExactEngine& motion() { return *series_; }
   [[nodiscard]] const exact::ExactEngine& motion() const { return *series_; }
 

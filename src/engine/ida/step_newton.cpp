@@ -8,8 +8,8 @@
 namespace signorini::ida {
 namespace {
 
-// Limit of iterations towards the solution if friction rises with the slip rate. Each iteration reduces the
-// distance by one scale of slip rates; after this number, friction is at its limit to all digits.
+// Limit of the additional iterations if friction rises with the slip rate. Each iteration approaches the solution by up to one
+// slip-rate scale of the friction law; after this number of scales, friction equals its limit to all digits.
 constexpr int most_towards = 40;
 
 StepNewton& newton_of(SUNNonlinearSolver solver) { return *static_cast<StepNewton*>(solver->content); }
@@ -24,7 +24,7 @@ StepNewton::StepNewton(IdaProblem& problem, void* ida, N_Vector like, SUNContext
   ops->solve = [](SUNNonlinearSolver s, N_Vector, N_Vector e, N_Vector w, realtype tolerance,
                   booleantype setup,
                   void* memory) { return newton_of(s).solve(e, w, tolerance, setup != 0, memory); };
-  // F and the linear solves are called directly; IDA may offer its own functions.
+  // IDA offers its own functions for F and the linear solves; they are ignored, because iterate() calls the problem directly.
   ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
   ops->setlsetupfn = [](SUNNonlinearSolver s, SUNNonlinSolLSetupFn f) {
     newton_of(s).setup_ = f;
@@ -67,7 +67,7 @@ int StepNewton::solve(N_Vector e, N_Vector weights, double tolerance, bool setup
   if (result == SUN_NLS_SUCCESS) return result;
   ++failures_;
   if (result < 0 || setup) return result;
-  // The Jacobian was that of another step: repeats with the current one.
+  // The iteration used the Jacobian of an earlier step: repeat with the current Jacobian.
   N_VConst(0.0, e);
   result = iterate(e, weights, tolerance, true, true, memory);
   if (result != SUN_NLS_SUCCESS) ++failures_;
@@ -130,11 +130,10 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   return SUN_NLS_CONV_RECVR;
 }
 
-/// True if the correction is rounding. IDA's test does not know the rate of convergence: it accepts 1/20 of
-/// the requested tolerance, and treats corrections that no longer decrease as a failure. Here each iteration
-/// has its own tangent, so the error after a correction within the tolerance is smaller than the correction.
-/// A correction that no longer decreases is the rounding of large displacements whose difference determines
-/// T.
+/// True if the correction is only rounding, although IDA's test reports a failure. IDA's test does not know the rate of
+/// convergence: it accepts 1/20 of the requested tolerance, and regards corrections that no longer decrease as a failure. With
+/// rate-dependent friction each iteration has a new tangent, so the error after a correction within the tolerance is smaller
+/// than the correction. If this correction no longer decreases, it is the rounding of the large displacements that determine T.
 bool StepNewton::is_rounding(N_Vector weights, double tolerance) const {
   return problem_.has_rate_dependent_friction() && N_VWrmsNorm(change_, weights) <= tolerance;
 }

@@ -2,17 +2,17 @@
 //
 //   F(t, y_p + e, y_p' + c_j e) = 0,   e := 0;   e := e - J^-1 F  until IDA's own test has converged
 //
-// F is first evaluated at the prediction y_p, y_p'. SUNDIALS' own method adds e = 0 to both vectors, keeps a
-// copy of F, changes its sign, and clears and copies e. Usually one iteration is enough, because J is
-// computed anew for every c_j. J and its factors: engine/ida/ida_linear_solver.hpp; retries, counts and the
-// convergence test as in SUNDIALS (sunnonlinsol_newton.c).
+// F is first evaluated at the prediction y_p, y_p'. SUNDIALS' own method is slower: it adds e = 0 to both vectors, keeps a copy
+// of F, changes its sign, and clears and copies e. Usually one iteration is enough, because J is computed anew for every c_j.
+// See engine/ida/ida_linear_solver.hpp for J and its factors. Retries, counts and the convergence test are those of SUNDIALS
+// (sunnonlinsol_newton.c).
 //
-// If friction rises with a slip rate, J is computed anew in every iteration. IDA's test treats corrections
-// that do not decrease as divergence. Here each correction may be as large as one scale of slip rates, so the
-// test is applied only once a correction is within the tolerance.
+// If friction rises with a slip rate, J is computed anew in every iteration. Each correction may then be as large as the last
+// (up to one slip-rate scale of the friction law), which IDA's test would regard as divergence. So the test is applied only
+// once a correction is within the tolerance.
 //
-// With a prescribed jet, e follows from its polynomials: IDA then takes steps before the beginning of a
-// segment without a solve, and begins the segment with a history of a higher order (restart_order.hpp).
+// With a prescribed jet, e is computed from the jet's polynomials and no equations are solved. This is used for the steps
+// before a segment, which give IDA a history of a higher order (restart_order.hpp).
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>
@@ -23,28 +23,28 @@ namespace signorini::ida {
 
 class StepNewton {
  public:
-  /// ida: the integrator, whose vectors are like `like`. problem must outlive the object.
+  /// ida: memory of the integrator. like: a vector of its size, to be cloned. problem must outlive the object.
   StepNewton(IdaProblem& problem, void* ida, N_Vector like, SUNContext context);
   ~StepNewton();
   StepNewton(const StepNewton&) = delete;
   StepNewton& operator=(const StepNewton&) = delete;
 
-  /// For IDASetNonlinearSolver; owned here, freed after the integrator.
+  /// Argument for IDASetNonlinearSolver. Owned by this object, which must be destroyed after IDAFree.
   [[nodiscard]] SUNNonlinearSolver solver() const { return solver_; }
-  /// From now on the solutions are those of the jet's polynomials, regardless of the equations. Null:
-  /// solutions of the equations again, with J computed anew. The jet must live until then.
+  /// From this call on, the solutions of steps are the values of the jet's polynomials. Null: solve the equations again, with a
+  /// new J. The jet must stay valid until the next call.
   void prescribe_jet(const motion::Jet* jet) {
     if (jet == nullptr) stale_ = true;
     jet_ = jet;
   }
-  /// Evaluations of F so far.
+  /// Number of evaluations of F so far.
   [[nodiscard]] long residuals() const { return residuals_; }
 
  private:
   int solve(N_Vector e, N_Vector weights, double tolerance, bool setup, void* memory);
   /// Sets e from the jet's polynomials.
   int solve_from_jet(N_Vector e);
-  /// Iterates from e = 0. setup: computes J first.
+  /// Iterates from e = 0. setup: compute J first. doubtful: passed to IDA's setup function, after a failure with the last J.
   int iterate(N_Vector e, N_Vector weights, double tolerance, bool setup, bool doubtful, void* memory);
   [[nodiscard]] bool is_rounding(N_Vector weights, double tolerance) const;
 

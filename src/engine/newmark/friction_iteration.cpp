@@ -16,9 +16,9 @@
 namespace signorini::newmark {
 namespace {
 
-constexpr double unchanged = 1e-12;  // change of a converged bound, relative to the greatest contact force
-constexpr int slips = 100;           // key: T is given in either direction
-constexpr int stops = 101;           // key: stops within the step, without tangential stiffness
+constexpr double unchanged = 1e-12;  // limit of the change of a bound, relative to the greatest contact force
+constexpr int slips = 100;           // key of a slipping contact: T is a load, so both directions have the same matrix
+constexpr int stops = 101;           // key of a contact without tangential stiffness that stops within the step
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void FrictionIteration::start(const engine::Segment& segment) {
   ++counters.restarts;
 }
 
-/// The greatest contact force at a point, and the error of a converged bound.
+/// Greatest contact force at the point, and the error of a converged bound that follows from it.
 FrictionIteration::ForceScale FrictionIteration::known_forces(const motion::Point& point) const {
   ForceScale known;
   double noise = 0.0;
@@ -63,7 +63,8 @@ FrictionIteration::ForceScale FrictionIteration::known_forces(const motion::Poin
   return known;
 }
 
-/// Initialises the contacts at the beginning of a step: anchors for a return to stick, and the bounds.
+/// Initialises the iterates of all contacts at the beginning of a step: states, bounds, and the anchors that apply if a contact
+/// sticks again.
 void FrictionIteration::begin_iterates() {
   bound_error_ = known_forces(begin_).error;
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
@@ -76,8 +77,8 @@ void FrictionIteration::begin_iterates() {
   }
 }
 
-/// Sets the rows of this iterate's states; factorisations are kept by the part of the rows that is in the
-/// matrix.
+/// Sets the rows for the contact states of this iterate. key_ identifies the coefficients in the matrix, so that factorisations
+/// can be reused.
 void FrictionIteration::apply_rows() {
   std::vector<Rows>& rows = step_.own_rows();
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
@@ -87,7 +88,7 @@ void FrictionIteration::apply_rows() {
     key_[k] = static_cast<int>(side.state);
     Form& tangent = rows[k].tangent;
     if (const int s = slip_sign(side.state); s != 0) {
-      tangent = contact::sliding_row(s, 0.0);  // T is a load, from the bound of the last iterate
+      tangent = contact::sliding_row(s, 0.0);  // T is a load, given by the bound of the last iterate
       tangent.constant = -s * contact::kinetic_friction(contact) * side.normal_force;
       key_[k] = slips;
     } else if (side.state == State::stick && !contact.tangential_stiffness &&
@@ -102,12 +103,12 @@ void FrictionIteration::apply_rows() {
   step_.set(key_, std::move(rows));
 }
 
-/// State of contact k by the motion of the last iterate, with its bound.
+/// State of contact k that follows from the motion of the last iterate and the present bound.
 State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
   const ContactIterate& side = iterates_[k];
   const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t1_, end_);
-  // A dashpot presses only while the contact is closed.
+  // Spring and dashpot together must press; a positive gap means open, whatever the dashpot force.
   if (contact.normal_force_given()
           ? is_open(side.state)
           : m.gap > 0.0 || contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
@@ -121,19 +122,19 @@ State FrictionIteration::state_of(std::size_t k) const {
                ? State::stick
                : side.state;
   }
-  // A slipping contact keeps slipping; static friction holds all others.
+  // The limit is kinetic friction if the contact slipped in the last step, otherwise static friction.
   const double friction = slip_sign(states_[k].state) != 0 ? contact::kinetic_friction(contact)
                                                            : contact::static_friction(contact);
   const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
-  // A contact at rest at its limit remains at rest in spite of the rounding of both forces; a contact that
-  // reaches the limit slips.
+  // A contact whose T stays constant at the limit must not start to slip because of rounding, so the limit gets a margin. A
+  // contact whose T grows to the limit gets no margin and slips.
   const double loose = bound_error_ + rounding::many_operations * terms;
   const bool rests = std::abs(m.T - begin_.T(model_.layout, k)) <= loose;
   if (std::abs(m.T) <= friction * side.normal_force + (rests ? loose : 0.0)) return State::stick;
   return contact::slip_state(m.T);
 }
 
-/// Adopts the states by the last iterate. False: they are the states with which it was computed.
+/// Sets the contact states that follow from the last iterate. False: these are the states of that iterate.
 bool FrictionIteration::new_states() {
   bool changed = false;
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
@@ -145,7 +146,7 @@ bool FrictionIteration::new_states() {
   return changed;
 }
 
-/// Iterates the step to t1_. Returns an empty string, or the reason why it does not converge.
+/// Iterates the step of length h to t1_. Returns an empty string, or the reason why the step fails.
 std::string FrictionIteration::iterate(double h, bool kept) {
   begin_iterates();
   double change = 0.0, force = 0.0;
@@ -155,9 +156,9 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     apply_rows();
     if (!step_.take(*segment_.forcing, begin_, t1_, h, kept, end_))
       return "the matrix of a step is singular; another dt may help";
-    if (!end_.u.allFinite()) return "the motion overflows";
+    if (!end_.u.allFinite()) return "the motion overflows: it is not finite";
     switching = new_states();
-    if (switching) continue;  // with unchanged bounds
+    if (switching) continue;  // the bounds stay unchanged until the states are consistent
     change = 0.0;
     const ForceScale known = known_forces(end_);
     force = known.greatest;
@@ -174,7 +175,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       // value at once.
       side.normal_force += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
     }
-    // The states must also hold with the new bounds.
+    // Converged only if the new bounds give the same states.
     switching = new_states();
     if (!switching && change <= bound_error_) return {};
   }
@@ -201,19 +202,19 @@ engine::Step FrictionIteration::advance() {
   step.begin = step.end = t0_;
   step.resolution = motion::resolution_at(t0_, 0.0);
   changed_ = false;
-  if (t0_ >= segment_.end) {  // states were adopted at a discontinuity of the forcing
+  if (t0_ >= segment_.end) {  // the previous segment ended here; there is no time left to step
     std::swap(begin_, end_);
     return step;
   }
-  // Steps end at multiples of dt; after a discontinuity of the forcing a shorter step returns to them. Steps within a
-  // short pulse are counted from its beginning.
+  // Steps end at multiples of dt; after a discontinuity of the forcing, the first step is shorter and ends at the next
+  // multiple. Steps within a short pulse have equal lengths from the beginning of the pulse.
   t1_ = segment_dt_ < dt_ ? t0_ + segment_dt_ : dt_ * (std::floor(t0_ / dt_ + length_tolerance) + 1.0);
   if (segment_.end - t1_ <= length_tolerance * segment_dt_) t1_ = segment_.end;
   double h = t1_ - t0_;
   const bool whole = std::abs(h - segment_dt_) <= length_tolerance * segment_dt_;
   if (whole) h = segment_dt_;
   ++counters.steps;
-  std::string failure = t1_ > t0_ ? iterate(h, whole) : "the step is below the resolution of time";
+  std::string failure = t1_ > t0_ ? iterate(h, whole) : "the step is shorter than the resolution of time; a larger dt may help";
   step_.count(counters);
   if (!failure.empty()) {
     step.kind = engine::Step::Kind::failed;
@@ -237,8 +238,8 @@ engine::Step FrictionIteration::advance() {
   return step;
 }
 
-/// Computes the velocities of massless degrees of freedom at the end of the step from the time derivative of
-/// the equation of motion. The velocities of the step oscillate about these from one end to the next.
+/// Computes the velocities of massless degrees of freedom at the end of the step from the time derivative of the equation of
+/// motion. The step itself gives velocities that oscillate about these values from step to step.
 void FrictionIteration::solve_massless_velocities() {
   if (!consistent_.massless()) return;
   const motion::StateSystemPtr system = systems_.system_of(states_);
@@ -249,8 +250,8 @@ void FrictionIteration::solve_massless_velocities() {
     if (model_.dofs[static_cast<std::size_t>(i)].massless) end_.v[i] = settled.v[i];
 }
 
-/// Adds accelerations of massless degrees of freedom; the step yields those of masses. Inside the step the
-/// states are those of its beginning.
+/// Adds the accelerations of massless degrees of freedom. The step has already computed those of degrees with mass. Inside the
+/// step, the contact states are those at its beginning.
 void FrictionIteration::accelerate(double t, motion::Point& point) {
   if (!consistent_.massless()) return;
   const motion::StateSystemPtr system =
@@ -262,7 +263,7 @@ void FrictionIteration::accelerate(double t, motion::Point& point) {
     if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
 }
 
-/// Interpolates linearly between the ends of the step, so that |T| <= -f N holds.
+/// Interpolates linearly between the ends of the step, because |T| <= -f N is then satisfied inside the step too.
 void FrictionIteration::evaluate(double t, motion::Point& point) {
   if (t == t1_ || !(t1_ > t0_)) {
     point = end_;
@@ -272,7 +273,7 @@ void FrictionIteration::evaluate(double t, motion::Point& point) {
   if (changed_) point.forces = begin_.forces;
 }
 
-/// Integrates over the whole step, in the states at its end.
+/// Adds the share (to - from) / h of the work of the whole step, computed with the contact states at its end.
 void FrictionIteration::integrate(double from, double to, motion::WorkIntegrals& works) {
   if (!(t1_ > t0_)) return;
   works_.add(*segment_.forcing, states_, begin_, t0_, end_, t1_, (to - from) / (t1_ - t0_), works);

@@ -1,14 +1,14 @@
 // friction_iteration.hpp: engine `friction-iteration`: the reference method of the paper.
 //
-//   repeat within a step of fixed length, the bounds B_k = f |N_k| taken from the last iterate:
-//     states of the contacts with that bound given:
+//   repeat within a step of fixed length, with the bounds B_k = f |N_k| of the last iterate:
+//     contact states for the given bound:
 //       open if N > 0;  T = kt (ut - p) while |T| <= B,  else T = s B
 //     B := B + w (f |N| - B)
 //   until no bound changes
 //
-// Events are not localised: a change of state takes effect at the end of its step, and closing counts from the
-// beginning of it. T = s B is a load, so the matrices are symmetric. The iteration may cycle (high friction couples T
-// back to N); it then stops the run and reports this.
+// Events are not localised: a change of contact state takes effect at the end of its step, but a closing contact acts from the
+// beginning of the step. T = s B is a load, so the matrices are symmetric. The iteration may cycle, because high friction
+// couples T back to N. Then the engine stops the run and reports the failure.
 // Source: Lukashevich et al. 2021, the iterative algorithm.
 #pragma once
 
@@ -33,7 +33,7 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   void evaluate(double t, motion::Point& point) override;
   void accelerate(double t, motion::Point& point) override;
   void integrate(double from, double to, motion::WorkIntegrals& works) override;
-  /// The motion is a parabola on the step.
+  /// The motion is a parabola on the step, so its phase angle is 2 pi.
   [[nodiscard]] engine::StepFacts facts() const override {
     engine::StepFacts facts;
     facts.phase_angle = 2.0 * std::numbers::pi;
@@ -47,14 +47,14 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   }
 
  private:
-  /// A contact during a step.
+  /// Iterate of a contact during a step.
   struct ContactIterate {
     State state = State::open;  // state in the last iterate
     double anchor = 0.0;        // p at the beginning of the step
     double normal_force = 0.0;  // |N| that determines the bound B of |T|
   };
   struct ForceScale {
-    double greatest = 0.0, error = 0.0;  // forces
+    double greatest = 0.0, error = 0.0;  // largest contact force; error of a converged bound, as a force
   };
   [[nodiscard]] ForceScale known_forces(const motion::Point& point) const;
   void begin_iterates();
@@ -77,10 +77,10 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   NewmarkStep::Key key_, key_in_force_;
   contact::ContactStates states_;  // states at the end of the last step
   bool changed_ = false;
-  double bound_error_ = 0.0;  // error of |T| <= f |N|, force
+  double bound_error_ = 0.0;  // allowed error of |T| <= f |N|, as a force
   motion::Point begin_, end_;
   double t0_ = 0.0, t1_ = 0.0;
-  double segment_dt_ = 0.0;  // length of whole steps: dt, or the length that a short pulse requires
+  double segment_dt_ = 0.0;  // length of full steps: dt, or less in a short pulse
 };
 
 }  // namespace signorini::newmark

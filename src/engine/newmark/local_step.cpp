@@ -6,10 +6,10 @@
 namespace signorini::newmark {
 namespace {
 
-/// Initial radius in band widths. M^-1 of beams with a consistent mass matrix decays by 2 - sqrt(3) per
-/// element, so it reaches rounding after 28 elements; an element has about three places, and the band a width
-/// of five. Chosen; the radius grows if the decay is slower.
-constexpr std::size_t first_radius = 16;  // widths
+/// Initial radius in band widths; chosen. The entries of M^-1 of a beam with a consistent mass matrix decay by the factor
+/// 2 - sqrt(3) per element, so they reach rounding after 28 elements. An element has about three positions, and the band has a
+/// width of five. The radius grows if the decay is slower.
+constexpr std::size_t first_radius = 16;  // band widths
 constexpr std::size_t least_parts = 4;    // W is at most the structure divided by this number
 
 }  // namespace
@@ -58,7 +58,7 @@ void LocalStep::predict(const Window& w, const motion::Point& from, double h) {
   }
 }
 
-/// Computes b_W and adds the contact terms to the matrix there.
+/// Computes b_W, and for each contact in W the coefficients of its forces in the matrix.
 void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows,
                                double t1) {
   for (std::size_t place = w.begin; place < w.end; ++place) {
@@ -83,7 +83,7 @@ void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, 
   for (const std::size_t k : contacts_) {
     const Contact& contact = model_.contacts[k];
     const linear::CondensedRows::ContactCoefficients& held = rows_.coefficients(k);
-    ContactMotion m;  // known part only
+    ContactMotion m;  // only the part that does not depend on x
     contact::set_displacement(contact, end_.u, forcing.surface(k, t1, 0), m);
     contact::set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
     m.applied_normal_force = forcing.applied_normal_force(k, t1, 0);
@@ -99,7 +99,7 @@ void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, 
   }
 }
 
-/// Solves the equations of W: b_ := x_W. False: elimination loses digits.
+/// Solves A_WW x_W = b_W - A_WO y; b_ becomes x_W. False: the elimination loses digits.
 bool LocalStep::solve(const Window& w, const motion::Point& from, double h, const motion::Point& whole,
                       double longer) {
   const std::size_t size = w.end - w.begin, width = rows_.width();
@@ -125,7 +125,7 @@ bool LocalStep::solve(const Window& w, const motion::Point& from, double h, cons
   return true;
 }
 
-/// Writes the motion of the contact's degrees of freedom and its forces into the point.
+/// Completes u and v of the contact's degrees of freedom and the contact forces in end_.
 void LocalStep::read(std::size_t k, const std::vector<Rows>& rows, double h) {
   double &N = end_.forces.data()[model_.layout.normal(k)], &T = end_.forces.data()[model_.layout.tangent(k)];
   for (std::size_t i = rows_.first_contact_dof(k); i < rows_.end_of_contact_dofs(k); ++i) {

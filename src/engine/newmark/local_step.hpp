@@ -1,11 +1,11 @@
-// local_step.hpp: the end of a step at one contact, from its neighbourhood in the structure.
+// local_step.hpp: motion of one contact at the end of a step, computed from its neighbourhood W in the structure.
 //
-//   A_WW x_W = b_W - A_WO y      A, b, x: the step's (newmark_step.hpp), condensed (linear/condensed_matrix.hpp)
-//   y = a0 + h/H (a1 - a0)       motion outside W, from a step of length H with the same beginning
+//   A_WW x_W = b_W - A_WO y      A, b, x: see newmark_step.hpp, condensed (linear/condensed_matrix.hpp); O: outside W
+//   y = a0 + h/H (a1 - a0)       acceleration outside W, interpolated from a step of length H > h with the same beginning
 //
-// W contains the places of the band up to a radius from those of the contact. The influence of places outside
-// decays like the entries of A^-1; the error of y is of second order. The error has no proven bound: the
-// caller checks the result by a step of the whole structure, and doubles the radius if that step differs.
+// W contains the band positions up to a radius from those of the contact. The influence of positions outside W decays like the
+// entries of A^-1, and the error of y is of second order. No bound of the error is proven: the caller checks the result by a
+// step of the whole structure, and doubles the radius if that step differs.
 #pragma once
 
 #include "linear/band_factors.hpp"
@@ -19,19 +19,19 @@ class LocalStep {
   /// Both arguments must outlive the object.
   LocalStep(const Model& model, const linear::CondensedRows& rows);
 
-  /// End of the step from `from` at t1 - h to t1, valid only at the contact. rows: rows of the contact
-  /// states, with the matrix pattern of the constructor's rows; whole: the end of the step of length `longer`
-  /// (H) from `from`. Null: W is too large a part of the structure, or elimination loses digits.
+  /// Motion at the end of the step from `from` at t1 - h to t1, valid only at the contact. rows: rows of the contact states,
+  /// with the sparsity pattern of the constructor's rows. whole: end of the step of length `longer` (H) from `from`. Null if W
+  /// is too large a part of the structure, or if elimination loses digits.
   [[nodiscard]] const motion::Point* end(std::size_t contact, const motion::Forcing& forcing,
                                          const std::vector<Rows>& rows, const motion::Point& from, double t1,
                                          double h, const motion::Point& whole, double longer);
-  /// Doubles the radius.
+  /// Doubles the radius of W.
   void double_radius() { radius_ *= 2; }
 
  private:
   struct Window {
-    std::size_t begin = 0, end = 0;              // W
-    std::size_t outer_begin = 0, outer_end = 0;  // W and the places that couple to it
+    std::size_t begin = 0, end = 0;              // positions in W
+    std::size_t outer_begin = 0, outer_end = 0;  // positions in W or coupled to W
   };
   struct Places {
     std::size_t begin = 0, end = 0;
@@ -47,13 +47,13 @@ class LocalStep {
   const Model& model_;
   const linear::CondensedRows& rows_;
   std::size_t radius_;
-  std::optional<linear::BandFactors> band_;  // sized for the last window
+  std::optional<linear::BandFactors> band_;  // its size is that of the last window
   linear::Weights weights_;
-  Vector load_, b_;                    // by degree of freedom, valid in W only; by place of W
-  std::vector<Places> loads_;          // range of degrees of freedom on which each load acts
-  std::vector<double> by_N_, by_T_;    // factors of N and T; one entry for each place on which a contact acts
+  Vector load_, b_;                    // loads of all degrees of freedom, valid in W only; b_W, then x_W
+  std::vector<Places> loads_;          // range of band positions on which each load acts
+  std::vector<double> by_N_, by_T_;    // factors of N and T, one for each degree of freedom of each contact
   std::vector<std::size_t> contacts_;  // contacts in the window
-  motion::Point end_;                  // u, v: their known parts, until read
+  motion::Point end_;                  // before read(), u and v contain only their known parts
 };
 
 }  // namespace signorini::newmark

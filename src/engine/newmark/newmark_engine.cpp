@@ -17,12 +17,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_halvings = 60;
-constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
-constexpr int max_tangents = 4;                   // after these tangents a crossing is bracketed
-constexpr double spare = 1.0 / 16.0;              // doubling: of the tolerance; below it steps grow again
+constexpr double rounding_of_guard = 1.0 / 16.0;  // part of level() up to which a guard counts as zero
+constexpr int max_tangents = 4;                   // after these tangents and secants the crossing is bracketed
+constexpr double spare = 1.0 / 16.0;              // step doubling: part of the tolerance below which steps grow
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
-constexpr double least_part = 1e-12;  // doubling: relative to dt
-constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
+constexpr double least_part = 1e-12;  // step doubling: shortest step, relative to dt
+constexpr double forcing_step = 0.5;  // step doubling: largest phase angle of a load per step, rad
 
 }  // namespace
 
@@ -60,27 +60,27 @@ void NewmarkEngine::start(const engine::Segment& segment) {
   second_ = false;
   guards_.start(segment);
   guards_.evaluate(end_, t1_);
-  // A sticking contact does not move, so doubling does not detect an error of the load on it.
+  // Step doubling compares displacements. A load on a sticking contact causes none, so its frequency limits the step.
   if (const double omega = doubling_ ? segment.forcing->max_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
   segment_dt_ = doubling_ ? dt_ : segment_step_length(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
-/// StepGuards::dip, if the place is not at the beginning of the step.
+/// Result of StepGuards::dip(). nullopt also if the dip is at the beginning of the step.
 std::optional<double> NewmarkEngine::dip_of(std::size_t slot, double h) const {
   const std::optional<double> x = guards_.dip(slot, h, h_before_);
   return x && *x * h > motion::resolution_at(t0_, h) ? x : std::nullopt;
 }
 
-/// Takes a step of length h from the beginning of this step, to t.
+/// Takes a step of length h from the beginning of the current step to t = t0_ + h. False: the matrix is singular.
 bool NewmarkEngine::take(double h, double t, bool kept, motion::Point& to) {
   if (!step_.take(*segment_.forcing, begin_, t, h, kept, to)) return false;
   if (solves_massless_velocities_) consistent_.make(segment_.decision->system, *segment_.forcing, t, to);
   return true;
 }
 
-/// The guard at the end of a step of length h from the same beginning.
+/// Value of the guard at the end of a step of length h from the beginning of the current step. NaN: singular matrix.
 double NewmarkEngine::value_after(std::size_t slot, double h) {
   ++counters.guard_evaluations;
   inner_time_ = nan;
@@ -90,7 +90,8 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
   return guards_.value(slot, t0_ + h, inner_);
 }
 
-/// Same, from the contact's neighbourhood; end_: end of the step of length `longer`. NaN: no neighbourhood result.
+/// Approximates value_after() by a step of the contact's neighbourhood only. longer: length of the step that ends in end_. NaN:
+/// no local step is possible.
 double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   const motion::Point* near = step_.local_end(model_.layout.contact_of_guard(slot), *segment_.forcing, begin_,
                                               t0_ + h, h, end_, longer);
@@ -99,22 +100,22 @@ double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   return guards_.value(slot, t0_ + h, *near);
 }
 
-/// True if the contact has springs. Forces of contacts without springs follow from accelerations. At an event
-/// the decision sets the remainder of their gap, slip rate or force to zero. Modes faster than the step
-/// retain this impulse, and such impulses cause further events.
+/// True if the contact has springs. Contacts without springs need a more accurate root: at an event the decision sets their
+/// remaining gap, slip rate or force to zero. This is a small impulse on modes faster than the step, which causes further
+/// events.
 bool NewmarkEngine::is_soft(std::size_t slot) const {
   const Contact& contact = model_.contacts[model_.layout.contact_of_guard(slot)];
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
-/// A guard with a value up to this one counts as zero: below, a root search would follow its rounding.
+/// Largest magnitude of the guard that counts as zero. A root search for a smaller value would follow rounding errors.
 double NewmarkEngine::zero_of(std::size_t slot) const {
   return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
 
 double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
                                        double floor) {
-  double last = g_lo - floor;  // value for the root finder if a matrix is singular
+  double last = g_lo - floor;  // given to the root finder again if a matrix is singular
   const auto value = [&](double h) {
     if (h == lo) return g_lo - floor;
     if (h == hi) return g_hi - floor;
@@ -125,8 +126,8 @@ double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo,
   return events::root_between(value, lo, hi, 0.25 * motion::resolution_at(t0_ + hi, hi));
 }
 
-/// Finds the zero crossing along tangents and secants, with values from the contact's neighbourhood. A step
-/// of the whole structure must confirm the result. nullopt: this method does not find it.
+/// Finds the zero crossing along tangents and secants, with values from steps of the contact's neighbourhood. The caller must
+/// confirm the result by a step of the whole structure. nullopt: no convergence.
 std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t slot, double h, Tangent first) {
   Tangent next = first;
   double lo = 0.0, hi = h, before = nan, g_before = nan;
@@ -144,8 +145,8 @@ std::optional<NewmarkEngine::Tangent> NewmarkEngine::tangent_near(std::size_t sl
   return std::nullopt;
 }
 
-/// Zero crossing of a guard that is positive at the beginning of the step and not at its end: first searched at the
-/// root of the Hermite cubic, from there along tangents and secants.
+/// Zero crossing of a guard that is positive at the beginning of the step and not positive at its end. The search starts at the
+/// root of the Hermite cubic and continues along tangents and secants.
 double NewmarkEngine::crossing_near(std::size_t slot, double h) {
   const events::GuardCubic path = guards_.path(slot, h);
   double lo = 0.0, g_lo = path.g0, hi = h, g_hi = path.g1;
@@ -178,14 +179,14 @@ double NewmarkEngine::crossing_near(std::size_t slot, double h) {
     next.at -= g / next.slope;
   }
   if (next.slope < 0.0 && g_before != 0.0)
-    (void)narrow(before - 2.0 * g_before / next.slope);  // to the other side of the root
+    (void)narrow(before - 2.0 * g_before / next.slope);  // narrow the bracket from the other side of the root
   return crossing_between(slot, lo, g_lo, hi, g_hi);
 }
 
 bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
 
-/// The paper's single interpolation. If the guard is still positive there, no event would be triggered; then
-/// the step is extended by twice the next interpolation until the guard is not positive.
+/// Step length by the paper's single linear interpolation. If the guard is still positive there, no event would be triggered:
+/// the step is then extended by twice the next interpolation until the guard is not positive.
 double NewmarkEngine::linear_root(std::size_t slot, double hi) {
   const events::GuardCubic path = guards_.path(slot, hi);
   const double g_hi = path.g1;
@@ -198,8 +199,8 @@ double NewmarkEngine::linear_root(std::size_t slot, double hi) {
   return h;
 }
 
-/// The guard that reaches zero first in the step. `located`: the root of `slot` was found at its end, so only guards
-/// that are clearly negative count.
+/// The guard that reaches zero first in the step. located: the step already ends at the root of `slot`, so other guards are
+/// candidates only if they are clearly negative.
 NewmarkEngine::Candidate NewmarkEngine::earliest_candidate(double h, bool located, std::size_t slot) {
   Candidate first;
   const auto consider = [&](Candidate::Kind kind, std::size_t s, double x) {
@@ -219,7 +220,7 @@ NewmarkEngine::Candidate NewmarkEngine::earliest_candidate(double h, bool locate
   return first;
 }
 
-/// True if the same guard caused the decision at the beginning of this step, and its state did not change.
+/// True if this guard caused the decision at the beginning of this step (Sunk), and that decision kept its contact state.
 bool NewmarkEngine::has_sunk(std::size_t slot) const {
   return sunk_ && sunk_->slot == slot && sunk_->guard == segment_.decision->guards[slot].kind &&
          std::abs(t0_ - sunk_->t) <= motion::resolution_at(t0_, 0.0);
@@ -235,7 +236,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       h = interpolates(slot) ? linear_root(slot, h) : crossing_near(slot, h);
       return true;
     case Candidate::Kind::dip: {
-      // The guard decreases and increases in the step: a step up to its least value decides.
+      // The guard decreases and increases in the step. A step up to its estimated minimum shows whether it reaches zero.
       const double x = candidate.x * h;
       ++counters.rolled_back;
       const double g = value_after(slot, x);
@@ -247,9 +248,9 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       return true;
     }
     case Candidate::Kind::sink: {
-      // The guard began at zero, rose, and reached zero again within the step. If the last decision was due
-      // to this guard and it has not risen since, its rise is below rounding. Its root is then where it
-      // leaves the rounding.
+      // The guard began at zero, rose, and reached zero again within the step. If the last decision was also due to this
+      // guard, which did not rise (has_sunk), its rise is below rounding. Then its root is the place where it becomes clearly
+      // negative.
       const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
       double hi = h, g_hi = path.g1;
       for (int i = 0; i < max_halvings; ++i) {
@@ -264,7 +265,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         hi = lo;
         g_hi = g;
       }
-      h = hi;  // the guard never rose: the states are decided again
+      h = hi;  // the guard did not rise at any tried length: decide the contact states again
       sunk_ = Sunk{t0_ + h, slot, segment_.decision->guards[slot].kind};
       return true;
     }
@@ -280,10 +281,10 @@ engine::Step NewmarkEngine::failed(std::string reason) const {
   return step;
 }
 
-/// Step length at which a step of twice the length changes the result by less than the tolerance.
+/// Step length h at which one step of 2 h and two steps of h differ by less than the tolerance.
 double NewmarkEngine::length_by_doubling(double remaining) {
   if (std::exchange(second_, !second_)) return regular_;
-  // A remainder of one step is also compared with two halves.
+  // At most half of the remainder, so that two steps fit before the end of the segment.
   for (double h = std::min(regular_, 0.5 * remaining);; h *= 0.5) {
     if (h < least_part * dt_) return h;
     inner_time_ = nan;
@@ -306,12 +307,12 @@ double NewmarkEngine::length_by_doubling(double remaining) {
     }
     regular_ = h;
     second_ = !(change < spare && 2.0 * h <= dt_ && 2.0 * h < remaining);
-    if (!second_) regular_ = 2.0 * h;  // for the next step
+    if (!second_) regular_ = 2.0 * h;  // next step: twice as long
     return h;
   }
 }
 
-/// Ends the step after h, which is usually the length of the last trial.
+/// Ends the step at t0_ + h. If h is the length of the last tried step, no new step is needed. False: the matrix is singular.
 bool NewmarkEngine::end_after(double h) {
   t1_ = t0_ + h;
   if (tried_ == h)
@@ -324,7 +325,7 @@ bool NewmarkEngine::end_after(double h) {
 }
 
 engine::Step NewmarkEngine::advance() {
-  // The beginning of the last step becomes the previous one; its vectors take the new end.
+  // The end of the last step is the beginning of this one. Swapping reuses the memory of the vectors.
   std::swap(a_before_, begin_.a);
   if (h_ == 0.0) a_before_.resize(0);
   std::swap(begin_, end_);
@@ -343,9 +344,9 @@ engine::Step NewmarkEngine::advance() {
     grid_steps_ = 0;
   }
   t1_ = last ? segment_.end : grid_begin_ + static_cast<double>(++grid_steps_) * h;
-  if (!(t1_ > t0_)) return failed("the step is below the resolution of time");
+  if (!(t1_ > t0_)) return failed("the step is shorter than the resolution of time; a larger dt may help");
   if (!take(h, t1_, !last, end_)) return failed(singular);
-  if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows");
+  if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows: it is not finite");
   guards_.evaluate(end_, t1_);
 
   engine::Step step;
@@ -360,7 +361,7 @@ engine::Step NewmarkEngine::advance() {
     slot = c.slot;
     grid_length_ = 0.0;
     if (h < longer && !end_after(h)) return failed(singular);
-    if (known && longer - h <= motion::resolution_at(t1_, h)) break;  // the same instant
+    if (known && longer - h <= motion::resolution_at(t1_, h)) break;  // same time as the event found before
   }
   h_ = h;
   ++counters.steps;
@@ -375,16 +376,16 @@ engine::Step NewmarkEngine::advance() {
   return step;
 }
 
-/// True if a guard that is positive at both ends is negative at t. If a step is far longer than the periods
-/// of the highest modes, a shorter step may deviate from it.
+/// True if a guard is clearly negative at `point`, the end of a shorter step to t inside the last step. This happens if the
+/// step is far longer than the periods of the highest modes, because steps of different lengths then differ.
 bool NewmarkEngine::violates_guard(double t, const motion::Point& point) const {
   for (std::size_t s = 0; s < guards_.active_guards().size(); ++s)
     if (!guards_.active_guards().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
   return false;
 }
 
-/// The solution inside the last step: a step to t. If it violates a guard, the straight line between the
-/// ends, on which all laws hold, because they are linear or convex cones.
+/// Solution at t inside the last step, by a shorter step to t. If this solution violates a guard, it is replaced by linear
+/// interpolation between the ends, which satisfies all contact laws, because these are linear or convex cones.
 const motion::Point& NewmarkEngine::point_inside(double t) {
   if (t == t1_) return end_;
   if (t == t0_) return begin_;
@@ -398,7 +399,7 @@ const motion::Point& NewmarkEngine::point_inside(double t) {
 
 void NewmarkEngine::evaluate(double t, motion::Point& point) { point = point_inside(t); }
 
-/// Adds accelerations of massless degrees of freedom; the step yields those of masses.
+/// Adds the accelerations of massless degrees of freedom. The step has already computed those of degrees with mass.
 void NewmarkEngine::accelerate(double t, motion::Point& point) {
   if (!solves_massless_velocities_) return;
   const Vector of_step = point.a;
@@ -407,8 +408,8 @@ void NewmarkEngine::accelerate(double t, motion::Point& point) {
     if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
 }
 
-/// Interpolates with the average acceleration of the step; forces and massless degrees of freedom linearly.
-/// This is the curve that the step assumes, and needs no factorisation, unlike a step to t.
+/// Interpolates degrees of freedom with mass by a parabola, as the step assumes (constant acceleration), forces and massless
+/// degrees of freedom linearly. Needs no factorisation, in contrast to evaluate().
 void NewmarkEngine::interpolate(double t, motion::Point& point) {
   if (t == t1_ || t == t0_ || !(t1_ > t0_)) {
     point = t == t0_ && t1_ > t0_ ? begin_ : end_;
@@ -429,7 +430,7 @@ void NewmarkEngine::integrate(double from, double to, motion::WorkIntegrals& wor
   until(to, 1.0);
 }
 
-/// By the errors of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
+/// Error of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
 double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, std::size_t k) const {
   const Form& form = guard.form;
   if (begin_.a.size() == 0) return 0.0;  // at the start, before any step

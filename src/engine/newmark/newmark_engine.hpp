@@ -1,17 +1,16 @@
 // newmark_engine.hpp: engine `newmark`: the paper's step-by-step algorithm.
 //
-//   trial step in the current contact states (newmark_step.hpp) -> guards at its end -> the first one that
-//   reaches zero -> the step repeated up to the time of its root -> event
+//   1. trial step in the current contact states (newmark_step.hpp)
+//   2. guards at its end; find the guard that reaches zero first
+//   3. repeat the step up to the time of this root -> event
 //
-//   refine = "root"    repeated with shorter steps until the guard at their end is zero to the resolution of
-//                      time (Brent)
-//   refine = "linear"  repeated once up to the interpolated time, (8) to (10); again only if no event was
-//                      triggered; contacts without springs as with "root"
+//   refine = "root"    shorter steps are tried until the guard at their end is zero to the resolution of time (Brent)
+//   refine = "linear"  one shorter step up to the interpolated time, (8) to (10); further steps only if no event was
+//                      triggered; contacts without springs are treated as with "root"
 //
-// After an event the next step has the full length again. Factorisations are kept by states and length, so
-// only new contact states require one. Between the ends of a step the solution is a step up to that time,
-// which also satisfies equilibrium and the contact laws. Source: Lukashevich et al. 2021, (5) to (11),
-// corrected according to docs/theory.md.
+// The step after an event has the full length again. Factorisations are cached by contact states and length, so only new
+// contact states need one. Inside a step, the solution at t is that of a shorter step to t, which also satisfies equilibrium
+// and the contact laws. Source: Lukashevich et al. 2021, (5) to (11), corrected as described in docs/theory.md.
 #pragma once
 
 #include <numbers>
@@ -39,7 +38,7 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   void accelerate(double t, motion::Point& point) override;
   void interpolate(double t, motion::Point& point) override;
   void integrate(double from, double to, motion::WorkIntegrals& works) override;
-  /// The motion is a parabola on the step.
+  /// The motion is a parabola on the step, so its phase angle is 2 pi.
   [[nodiscard]] engine::StepFacts facts() const override {
     engine::StepFacts facts;
     facts.phase_angle = 2.0 * std::numbers::pi;
@@ -52,18 +51,18 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
                                    std::size_t contact) const override;
 
  private:
-  /// A guard that may reach zero in the step, not yet located.
+  /// A guard that may reach zero in the step; its zero is not yet located.
   struct Candidate {
     enum class Kind { none, crossing, dip, sink } kind = Kind::none;
     std::size_t slot = 0;
-    double x = 2.0;  // approximate place in the step
+    double x = 2.0;  // approximate place in the step, 0 to 1; greater: none
   };
 
   [[nodiscard]] bool take(double h, double t, bool kept, motion::Point& to);
   [[nodiscard]] bool violates_guard(double t, const motion::Point& point) const;
   [[nodiscard]] const motion::Point& point_inside(double t);
   [[nodiscard]] std::optional<double> dip_of(std::size_t slot, double h) const;
-  /// Below this value at the end of the step the sign of a guard is rounding.
+  /// Rounding error of the guard at the end of the step: the sign of smaller values is not significant.
   [[nodiscard]] double level(std::size_t slot) const { return guards_.level(slot, t1_, end_); }
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] double value_near(std::size_t slot, double h, double longer);
@@ -72,7 +71,7 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] double zero_of(std::size_t slot) const;
   [[nodiscard]] double crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
                                         double floor = 0.0);
-  /// Estimated root of a guard: its value and slope at a place away from the root.
+  /// Estimated root of a guard (at, a step length), and the slope of the tangent or secant that leads to it.
   struct Tangent {
     double at = 0.0, slope = 0.0;
   };
@@ -81,7 +80,7 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_root(std::size_t slot, double hi);
   [[nodiscard]] bool has_sunk(std::size_t slot) const;
-  /// Shortens the step to the candidate's event. False: the candidate is no event.
+  /// Shortens the step length h to the time of the candidate's event. False: the candidate is no event.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool end_after(double h);
   [[nodiscard]] double length_by_doubling(double remaining);
@@ -99,24 +98,24 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   StepGuards guards_;
   bool solves_massless_velocities_ = false;  // massless parts: their velocities follow from the equations
   motion::Point begin_, end_, inner_, fine_, coarse_;
-  Vector a_before_;                  // at the beginning of the previous step; empty: none
+  Vector a_before_;                  // accelerations at the beginning of the previous step; empty if there is none
   double inner_time_ = 0.0;          // time of inner_; NaN: not set
-  double tried_ = 0.0;               // length of the step from begin_ to inner_; 0: none
-  double t0_ = 0.0, t1_ = 0.0;       // the last step
-  double h_ = 0.0, h_before_ = 0.0;  // its length, and that of the previous step (0: none)
+  double tried_ = 0.0;               // length of the step from begin_ to inner_; 0: inner_ is not set
+  double t0_ = 0.0, t1_ = 0.0;       // beginning and end of the last step
+  double h_ = 0.0, h_before_ = 0.0;  // length of the last step and of the previous step (0: none)
   double regular_ = 0.0;             // length of steps without events
-  double segment_dt_ = 0.0;          // same with fixed steps: dt, or the length that a short pulse requires
-  double grid_begin_ = 0.0;  // fixed steps end at grid_begin_ + grid_steps_ grid_length_, without drift
+  double segment_dt_ = 0.0;          // fixed steps: dt, or less in a short pulse
+  double grid_begin_ = 0.0;  // fixed steps end at grid_begin_ + grid_steps_ grid_length_, so that rounding does not add up
   double grid_length_ = 0.0;
   long grid_steps_ = 0;
-  /// A guard that began at zero and never rose within a step.
+  /// A guard that started at zero and never became positive at a tried step length.
   struct Sunk {
     double t = 0.0;
     std::size_t slot = 0;
     Guard guard = Guard::none;
   };
   std::optional<Sunk> sunk_;  // the last such guard
-  bool second_ = false;       // doubling: the second step of a pair
+  bool second_ = false;       // step doubling: this is the second step of a pair
 };
 
 }  // namespace signorini::newmark

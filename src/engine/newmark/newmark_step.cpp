@@ -12,16 +12,15 @@
 namespace signorini::newmark {
 namespace {
 
-// Two lengths (dt, and that of the comparison by doubling) for each of 16 contact states of a cycle; the same
-// memory as for state systems (motion/state_systems.hpp).
+// Limits of the number and the memory of kept factors: two step lengths (dt, and 2 dt for step doubling) for each of 16 contact
+// states of a cycle. The memory limit equals that for state systems (motion/state_systems.hpp).
 constexpr base::CacheLimits max_kept{32, std::size_t{8} << 20};
 
 // Cost ratio of a factorisation of a banded matrix, with the preparation of its factors, to a solve: 0.64 + 0.3 ms to
 // 0.045 ms at 3000 unknowns.
 constexpr double solves_a_factorisation = 20.0;
-constexpr double bytes_a_number = 12.0;  // one number of klu.hpp
-// Refinement continues while each round reduces the residual to a tenth; eight rounds cost as much as a
-// factorisation.
+constexpr double bytes_a_number = 12.0;  // memory of one entry of KLU's factors
+// Refinement continues while each round reduces the correction to a tenth. Eight rounds take as long as a factorisation.
 constexpr double least_gain = 0.1;
 constexpr int most_rounds = 8;
 constexpr double left_of_rounding = rounding::eps / 16.0;  // relative error of a refined solution
@@ -76,8 +75,8 @@ void NewmarkStep::set_weights(double h) {
                                                                  : linear::Weights{0.0, 0.0, 1.0};
 }
 
-/// Factorises the matrix. Pivots of other contact states can be reused if the forces of each contact are
-/// their own pivots.
+/// Factorises the matrix. fresh: choose new pivots. The pivots of other contact states are reused in any case if each contact
+/// force is the pivot of its own row.
 bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
   set_weights(h);
   return matrix.set(*rows_, weights_,
@@ -113,7 +112,7 @@ std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
   return changed;
 }
 
-/// Updates the base factors to the current rows. False: a factorisation is cheaper.
+/// Updates the base factors to the current rows. False: a factorisation is faster.
 bool NewmarkStep::update(double h) {
   if (!economical_ || updated_.base() == nullptr || base_h_ != h) return false;
   if (!updates_) {
@@ -126,7 +125,7 @@ bool NewmarkStep::update(double h) {
   return updates_ = updates_ && spent_ <= factorisation;
 }
 
-/// x_ := A^-1 x_ by factors of a band. False: there are none, and x_ is unchanged.
+/// Solves x_ := A^-1 x_ with the factors of the band matrix. False: no such factors exist, and x_ is unchanged.
 bool NewmarkStep::solve_condensed(double h, bool kept) {
   if (!condensed_) return false;
   const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
@@ -151,7 +150,7 @@ void NewmarkStep::double_radius() {
   if (local_step_) local_step_->double_radius();
 }
 
-/// x_ := A^-1 x_ for a length that will recur.
+/// Solves x_ := A^-1 x_ for a step length that will recur.
 bool NewmarkStep::solve_kept(double h) {
   if (last_ == nullptr || last_h_ != h) {
     last_h_ = h;
@@ -180,7 +179,7 @@ bool NewmarkStep::solve_kept(double h) {
   return true;
 }
 
-/// rest_ := b - A x at length h; all degrees of freedom have mass.
+/// Sets rest_ := b - A x for the step length h. Requires mass on all degrees of freedom.
 void NewmarkStep::set_residual(const Vector& b, const Vector& x, double h) {
   const Eigen::Index n = structure_.size;
   u_.noalias() = 0.25 * h * h * x.head(n);
@@ -207,8 +206,8 @@ void NewmarkStep::set_residual(const Vector& b, const Vector& x, double h) {
   rest_.noalias() = b - product_;
 }
 
-/// x_ := A^-1 x_ at length h by refinement with the factors of the last irregular length, from its solution.
-/// False: slow convergence; x_ is unchanged.
+/// Solves x_ := A^-1 x_ for the step length h by iterative refinement: factors and initial solution are those of the last
+/// irregular length. False: slow convergence; x_ is unchanged.
 bool NewmarkStep::refine(double h) {
   const Eigen::Index n = structure_.size, m = x_.size() - n;
   const auto greatest = [](const auto& of) { return of.size() > 0 ? of.cwiseAbs().maxCoeff() : 0.0; };
@@ -240,7 +239,7 @@ bool NewmarkStep::refine(double h) {
   return false;
 }
 
-/// x_ := A^-1 x_ for a length that will hardly recur.
+/// Solves x_ := A^-1 x_ for a step length that will hardly recur.
 bool NewmarkStep::solve_irregular(double h) {
   const bool same_rows = irregular_key_ == key_ && irregular_h_ != 0.0;
   if (!(same_rows && irregular_h_ == h)) {
@@ -254,7 +253,7 @@ bool NewmarkStep::solve_irregular(double h) {
   return true;
 }
 
-/// Known parts of the motion at the end of the step: u_ and v_.
+/// Sets u_ and v_ to the parts of u1 and v1 that do not depend on the unknowns of the step.
 void NewmarkStep::predict(const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
@@ -304,7 +303,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   const std::vector<Rows>& rows = *rows_;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    ContactMotion m;  // known part only
+    ContactMotion m;  // only the part that does not depend on the unknowns
     contact::set_displacement(contact, u_, forcing.surface(k, t1, 0), m);
     contact::set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
@@ -316,7 +315,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
     if (!(kept ? solve_kept(h) : solve_irregular(h))) return false;
     if (economical_) {
       if (!kept) irregular_x_ = x_;
-      predict(from, h);  // refinement has overwritten them
+      predict(from, h);  // the refinement has overwritten u_ and v_
     }
   }
 
@@ -324,7 +323,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   to.forces.resize(x_.size() - from.u.size());
   const double* x = x_.data();
   for (std::size_t i = n; i < static_cast<std::size_t>(x_.size()); ++i) to.forces.data()[i - n] = x[i];
-  // T at the friction limit is computed from the limit, not taken from the solve, so that it does not drift.
+  // T of a slipping contact is computed from N and not taken from the solve, so that rounding does not let it drift.
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
       to.forces.data()[model_.layout.tangent(k)] = -tangent.N * to.forces.data()[model_.layout.normal(k)];
@@ -368,14 +367,14 @@ void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::Co
 
 namespace {
 
-constexpr std::size_t finest = 1024;  // parts: relative error of T for a half wave is pi^2 / 12 / 1024^2
-// Error limit relative to int |f|: four steps of a half sine stay below it, three do not.
+constexpr std::size_t finest = 1024;  // number of parts: T of a half wave then has a relative error of pi^2 / 12 / 1024^2
+// Error limit relative to int |f|, for steps of length dt. Four steps over a half sine have a smaller error, three a larger.
 constexpr double lost = 1.0 / 16.0;
-constexpr double passed = 1e-4;  // relative to int |f|
+constexpr double passed = 1e-4;  // error limit relative to int |f|, for shorter steps
 
 using Values = std::array<double, finest + 1>;
 
-/// True for a polynomial of degree 2 or higher.
+/// True if the polynomial has degree 2 or higher.
 bool curves(const std::vector<double>& c) {
   return std::any_of(c.begin() + std::min<std::ptrdiff_t>(2, std::ssize(c)), c.end(),
                      [](double x) { return x != 0.0; });
@@ -386,14 +385,14 @@ bool bends(const Piece& piece) {
   return piece.function || piece.amplitude != 0.0 || curves(piece.coefficients);
 }
 
-/// T of every stride-th value, divided by the length of the segment.
+/// Mean of f over the segment by the trapezoidal rule on every stride-th value.
 double trapezoid(const Values& f, std::size_t stride) {
   double sum = 0.5 * (f.front() + f.back());
   for (std::size_t i = stride; i < finest; i += stride) sum += f[i];
   return sum * static_cast<double>(stride) / static_cast<double>(finest);
 }
 
-/// T of the steps of length dt and the remainder, divided by the length.
+/// Mean of f over the segment by the trapezoidal rule on steps of length dt and a shorter last step.
 double of_own_steps(const Piece& piece, double begin, double end, double dt) {
   double sum = 0.0, from = begin, before = piece.value(begin);
   for (int i = 1; from < end; ++i) {
@@ -406,9 +405,9 @@ double of_own_steps(const Piece& piece, double begin, double end, double dt) {
   return sum / (end - begin);
 }
 
-/// True for a cubic that stays between its values at both ends, as those between the rows of a table do.
+/// True if f is a cubic that stays between its values at both ends, as a table's cubic does between two rows.
 bool between_rows(const Piece& piece, double begin, double end) {
-  constexpr int looks = 16;  // a cubic with an extreme inside exceeds its ends at several of these samples
+  constexpr int looks = 16;  // samples; a cubic with an extreme inside exceeds its ends at several of them
   if (piece.function || piece.amplitude != 0.0 || piece.coefficients.size() != 4) return false;
   const auto [least, greatest] = std::minmax({piece.value(begin), piece.value(end)});
   for (int i = 1; i < looks; ++i)
@@ -417,8 +416,8 @@ bool between_rows(const Piece& piece, double begin, double end) {
   return true;
 }
 
-/// True if dt is short enough, decided without an integral: for a wave plus a straight line the error of steps of h is
-/// at most h^2/12 |f''|, and int |f| is at least |J|.
+/// True if dt is proved short enough without the integral of |f|: for a sine plus a straight line, steps of length h have an
+/// error of at most h^2/12 |f''|, and int |f| >= |J|.
 bool clearly_passed(const Piece& piece, double begin, double end, double dt) {
   if (piece.function || curves(piece.coefficients)) return false;
   const double turn = piece.omega * std::min(dt, end - begin);
@@ -426,7 +425,7 @@ bool clearly_passed(const Piece& piece, double begin, double end, double dt) {
   return error <= lost * (std::abs(of_own_steps(piece, begin, end, dt)) - error);
 }
 
-/// Number of parts that this piece needs, 1 if dt suffices.
+/// Number of equal steps that this piece of a history needs, or 1 if dt is short enough.
 std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
   if (between_rows(piece, begin, end) || clearly_passed(piece, begin, end, dt)) return 1;
   Values f, size;

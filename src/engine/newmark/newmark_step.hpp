@@ -1,22 +1,19 @@
-// newmark_step.hpp: one step of average acceleration (Newmark, beta = 1/4, gamma = 1/2) with given rows of
-// contacts.
+// newmark_step.hpp: one step of the average acceleration method (Newmark, beta = 1/4, gamma = 1/2) with given contact states.
 //
 //   u1 = u0 + h v0 + h^2/4 (a0 + a1),   v1 = v0 + h/2 (a0 + a1)
 //   M a1 + C v1 + K u1 + sum ( n N1 + t T1 ) = P(t1),   rows of the contacts at t1
 //
-// Equilibrium and the contacts' laws hold at the end of every step, not only in the limit; a slipping
-// contact's row T = -s f N is the paper's compensating load (11), predicted and corrected in one solve.
-// The unknown of a degree of freedom is a1, v1 if it has a damper but no mass, u1 if it has neither: no division by h,
-// so a step may be as short as the resolution of time.
+// Equilibrium and the contact laws hold at the end of every step, not only for h -> 0. The row T = -s f N of a slipping contact
+// is the paper's compensating load (11); predictor and corrector are one solve.
+// The unknown of a degree of freedom is a1 if it has mass, v1 if it has a damper but no mass, u1 if it has neither. No equation
+// is divided by h, so a step may be as short as the resolution of time.
 //
-// Lengths of steps recur, like dt, or are irregular, like those of steps to an event. For large structures
-// (at least min_condensed_size) with compliant contacts and a narrow band, every irregular length has its own
-// factorisation; the factors for recurring lengths are updated after changes of state
-// (linear/condensed_matrix.hpp). Other structures:
-//   after a change of state at a recurring length    an update of low rank of the last factors
-//                                                    (linear/mass_factors.hpp), until its solves have cost
-//                                                    as much as a factorisation
-//   at a length near the last irregular one          x += A_last^-1 (b - A x), until only rounding remains
+// Step lengths recur (dt), or are irregular (steps to an event). In large structures (at least min_condensed_size unknowns)
+// with compliant contacts and a narrow band, every irregular length is factorised anew; the factors of recurring lengths are
+// updated after changes of contact states (linear/condensed_matrix.hpp). In other structures:
+//   after a change of contact states at a recurring length    low-rank update of the last factors (linear/mass_factors.hpp),
+//                                                             until its solves have taken as long as a factorisation
+//   at a length near the last irregular length                x += A_last^-1 (b - A x), down to rounding
 #pragma once
 
 #include <optional>
@@ -33,40 +30,39 @@
 
 namespace signorini::newmark {
 
-/// Lengths that differ by less than this fraction of a step count as equal, so that a slightly longer
-/// remainder of a segment is one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below the
-/// error of a step.
+/// Step lengths that differ by less than this fraction count as equal, so that the last step of a segment may be slightly
+/// longer than dt. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
 inline constexpr double length_tolerance = 1e-9;
 
 class NewmarkStep {
  public:
-  /// Identifies the part of the rows that is in the matrix: equal keys mean equal matrices.
+  /// Identifies the coefficients that the rows contribute to the matrix: equal keys mean equal matrices.
   using Key = std::vector<int>;
 
-  /// widest_band: greatest width for which a matrix is factorised as a band.
+  /// widest_band: largest band width for which a matrix is factorised as a band matrix.
   NewmarkStep(const Model& model, const linear::SystemMatrices& structure,
               std::size_t widest_band = linear::CondensedMatrix::max_width);
 
-  /// Sets the rows of the contacts.
+  /// Sets the rows (normal and tangential law) of all contacts and takes ownership of them.
   void set(Key key, std::vector<Rows> rows);
-  /// Same, with rows of another owner.
+  /// Sets the rows of all contacts and shares them with their owner.
   void set(Key key, std::shared_ptr<const std::vector<Rows>> rows);
-  /// Rows owned by this object: their constants may change without a new factorisation.
+  /// Rows passed by value to set(): their constants may be changed without a new factorisation.
   [[nodiscard]] std::vector<Rows>& own_rows() { return *own_rows_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return *rows_; }
-  /// Steps from `from` at t1 - h to `to` at t1. `kept`: steps of this length will recur, so the factorisation
-  /// is kept. False: the matrix is singular.
+  /// Takes a step of length h from `from` at t1 - h to `to` at t1. kept: keep the factorisation, because steps of this length
+  /// will recur. Returns false if the matrix is singular.
   [[nodiscard]] bool take(const motion::Forcing& forcing, const motion::Point& from, double t1, double h,
                           bool kept, motion::Point& to);
-  /// End of such a step at one contact, computed from its neighbourhood: the rest of the point is invalid. whole: the
-  /// end of the step of length `longer` from the same point. Null: no neighbourhood is available, or it would not save
-  /// time.
+  /// Motion of one contact at the end of the step that take() computes, from a neighbourhood of the contact; all other entries
+  /// of the point are invalid. whole: end of the step of length `longer` from the same `from`. Null if there is no
+  /// neighbourhood method for this structure, or if it would not save time.
   [[nodiscard]] const motion::Point* local_end(std::size_t contact, const motion::Forcing& forcing,
                                                const motion::Point& from, double t1, double h,
                                                const motion::Point& whole, double longer);
-  /// The neighbourhood used by local_end() was too small: doubles its radius.
+  /// Doubles the radius of the neighbourhood of local_end(). Called if a result of local_end() was inaccurate.
   void double_radius();
-  /// Adds the numbers of factorisations and solves so far.
+  /// Writes the numbers of factorisations and solves so far into the counters.
   void count(Counters& counters) const;
 
  private:
@@ -88,30 +84,30 @@ class NewmarkStep {
   Key key_;
   std::shared_ptr<std::vector<Rows>> own_rows_;
   std::shared_ptr<const std::vector<Rows>> rows_;
-  const std::vector<linear::DofKind> own_kinds_;  // kinds by the structure alone
+  const std::vector<linear::DofKind> own_kinds_;  // kinds without the contact rows
   const bool massless_;
   linear::MotionKinds in_rows_;  // unknown of each degree of freedom
   linear::SystemMatrix workspace_;
-  base::LruCache<std::pair<Key, double>, Factors> kept_;  // by rows and length
+  base::LruCache<std::pair<Key, double>, Factors> kept_;  // factors by rows and step length
   linear::SystemMatrix irregular_;                        // matrix for a length that will not recur
   Key irregular_key_;
-  double irregular_h_ = 0.0;  // 0: no factors
-  Factors last_;              // last used factors of a kept length; null after a change of rows
+  double irregular_h_ = 0.0;  // 0: irregular_ has no factors
+  Factors last_;              // factors of the last recurring step length; null after a change of rows
   double last_h_ = 0.0;
   const bool economical_;
   std::optional<linear::CondensedRows> condensed_;         // used if the band is narrow
-  std::optional<linear::CondensedMatrix> kept_band_;       // band matrix for a length that recurs
-  std::optional<linear::CondensedMatrix> irregular_band_;  // for other lengths
+  std::optional<linear::CondensedMatrix> kept_band_;       // band matrix for step lengths that recur
+  std::optional<linear::CondensedMatrix> irregular_band_;  // band matrix for other step lengths
   std::optional<LocalStep> local_step_;
-  // Factors for the current rows, as changes of base_rows_; both at base_h_.
+  // Factors for the current rows, as a low-rank update of the factors for base_rows_; both for the step length base_h_.
   linear::WoodburyFactors updated_;
   std::vector<Rows> base_rows_;  // rows of the base matrix
   double base_h_ = 0.0;
   bool updates_ = false;                 // updated_ is in use, for last_h_
   double spent_ = 0.0;                   // operations of solves with updated_ since the rows changed
-  Vector irregular_x_, rest_, product_;  // the last solution at an irregular length; scratch
+  Vector irregular_x_, rest_, product_;  // last solution at an irregular length; work arrays
   std::vector<linear::Weights> weights_;
-  Vector u_, v_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
+  Vector u_, v_, x_, work_;  // known parts of u1 and v1; right-hand side and solution; work array
   long solves_ = 0;
 };
 
@@ -122,15 +118,16 @@ class NewmarkStep {
 //   friction  1/2 (T0 + T1) dp
 //   surface  -1/2 (T0 + T1) ds
 //
-// With these works the energy balance of a step holds up to rounding: the trapezoidal rule conserves the
-// energy of a linear system.
+// With these works the energy balance of a step is exact up to rounding, because the trapezoidal rule conserves the energy of a
+// linear system.
 
 class NewmarkWorkIntegrals {
  public:
   NewmarkWorkIntegrals(const Model& model, const linear::SystemMatrices& structure)
       : model_(model), structure_(structure), du_(model.size()), v_(model.size()) {}
 
-  /// works += factor * works of the step from `a` at t0 to `b` at t1, in constant contact states.
+  /// Adds factor times the works of the step from `a` at t0 to `b` at t1 to `works`. The contact states are constant in the
+  /// step.
   void add(const motion::Forcing& forcing, const contact::ContactStates& states, const motion::Point& a,
            double t0, const motion::Point& b, double t1, double factor, motion::WorkIntegrals& works);
 
@@ -140,21 +137,21 @@ class NewmarkWorkIntegrals {
   Vector du_, v_;
 };
 
-// Length of the steps of a short segment, with which the impulses of its loads are accurate.
+// Step length in a short segment for which the impulses of the loads are accurate.
 //
 //   J = int f dt ~ T(1024),   T(n) = h sum'' f(t_i): impulse in n steps of average acceleration
 //   dt    if steps of this length have |T - J| <= int |f| / 16
-//   h     otherwise: the segment in n = 2^k parts, the fewest with |T(n) - J| <= 1e-4 int |f|
+//   h     otherwise: h = segment / 2^k with the smallest k for which |T(2^k) - J| <= 1e-4 int |f|
 //
-// A half sine is zero where it begins and ends: one step over all of it has no impulse, two steps lose a
-// fifth. A dt that is short enough for a load is kept. So it is for tables, because a step ends at each of
+// Reason: a half sine is zero at its beginning and end, so one step over its whole length yields no impulse, and two steps lose
+// a fifth of it. If dt is short enough for a load, dt is used. For tables dt is always used, because a step ends at each of
 // their rows.
 
-/// Segments of more steps than this use dt: the impulse of a half wave of this length has an error of 1/200.
+/// Longer segments (in steps) use dt: even the impulse of a half wave of this length then has an error of only 1/200.
 inline constexpr double short_segment_steps = 16.0;
 
-/// Length of the steps from `begin` to `end`, at most dt; no history breaks between them. Loads and compressions are
-/// considered.
+/// Step length from `begin` to `end`, at most dt. No discontinuity of a history may lie between them. Considers loads and given
+/// normal forces.
 [[nodiscard]] double segment_step_length(const Model& model, double begin, double end, double dt);
 
 }  // namespace signorini::newmark

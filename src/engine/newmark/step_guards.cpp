@@ -47,7 +47,8 @@ void StepGuards::gather(std::size_t k) {
   states_[k] = decision.states[k];
   ContactGuards& guards = contact_guards_[k];
   guards = {};
-  // A neighbouring contact may hold a guard of a contact that sticks rigidly.
+  // Guards of a rigidly sticking contact may depend on the states of other contacts: is_linear = false collects them at every
+  // start.
   guards.is_linear = decide::is_plain(rows.normal) && decide::is_plain(rows.tangent) &&
                      rows.normal.vn == 0.0 && !segment_.forcing->is_driven(k) &&
                      !model_.contacts[k].sticks_rigidly();
@@ -130,7 +131,7 @@ void StepGuards::evaluate_linear(std::size_t k, const motion::Point& point) {
 void StepGuards::evaluate_general(std::size_t k, const motion::Point& point, double t) {
   const motion::Forcing& forcing = *segment_.forcing;
   const ContactMotion m = motion::motion_of(model_.contacts[k], k, forcing, t, point);
-  ContactMotion d;  // known part of the derivative
+  ContactMotion d;  // derivatives of m; those of N and T follow from the rows below
   d.gap = m.vn;
   d.ut = m.vt;
   d.vn = m.an;
@@ -140,7 +141,7 @@ void StepGuards::evaluate_general(std::size_t k, const motion::Point& point, dou
   const Rows& rows = segment_.decision->system->rows()[k];
   d.N = -(rows.normal.gap * d.gap + rows.normal.vn * d.vn +
           rows.normal.applied_normal_force * d.applied_normal_force);
-  d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // rates_known: no row of T has velocities
+  d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // if rates_known(): no row of T contains velocities
   for (std::size_t slot = model_.layout.guard(k); slot < model_.layout.guard_end(k); ++slot) {
     if (active_guards_.idle(slot)) continue;
     const Form& form = segment_.decision->form(slot);

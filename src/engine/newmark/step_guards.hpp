@@ -1,12 +1,12 @@
 // step_guards.hpp: the guards of the current contact states, at both ends of a step of engine `newmark`.
 //
-//   g0, g1, g0', g1'      values; rates if displacements, velocities and accelerations determine them
-//   candidates            guards that are not positive at the end, wait (active_guards.hpp), or may reach
-//                         zero in between, by the Bernstein coefficients of the cubic through values and
-//                         rates, and of the parabola through the last three values
+//   g0, g1, g0', g1'      values and rates; rates only if displacements, velocities and accelerations determine them
+//   candidates            guards that wait (active_guards.hpp), are not positive at the end, or may reach zero inside the
+//                         step. Zeros inside are excluded if two curves have positive Bernstein coefficients: the cubic
+//                         through values and rates, and the parabola through the last three values
 //
-// Most contacts are soft and not driven: their guards are forms of N, T, g, ut and rates of these. The coefficients of
-// such guards are stored contiguously, and gathered anew if a contact's state has changed.
+// Most contacts are compliant and have no prescribed motion: their guards are linear forms of N, T, g, ut and their rates. The
+// coefficients of such guards are stored contiguously, and collected again after a change of the contact's state.
 #pragma once
 
 #include "engine/events/active_guards.hpp"
@@ -20,46 +20,46 @@ class StepGuards {
  public:
   explicit StepGuards(const Model& model);
 
-  /// Takes the guards of segment.decision; decision and forcing must live until the next start. The values
-  /// are set by evaluate().
+  /// Adopts the guards of segment.decision; decision and forcing must stay valid until the next start(). evaluate() computes
+  /// the values.
   void start(const engine::Segment& segment);
-  /// Evaluates values and rates at the end of the step. The point, here and in level(), contains accelerations.
+  /// Evaluates values and rates at the end of the step. `point`, also that of level(), must contain accelerations.
   void evaluate(const motion::Point& point, double t);
-  /// Begins the next step: values at the end of this step become those at the beginning of the next one, and
-  /// no dip is dismissed.
+  /// Begins the next step: the values at the end of this step become those at the beginning of the next step. The list of
+  /// dismissed dips is cleared.
   void begin_next_step();
 
   [[nodiscard]] const events::ActiveGuards& active_guards() const { return active_guards_; }
   [[nodiscard]] double value(std::size_t slot, double t, const motion::Point& point) const;
-  /// Magnitude up to which the sign of the guard at `point` is not significant, because of rounding.
+  /// Rounding error of the guard at `point`: the sign of smaller values is not significant.
   [[nodiscard]] double level(std::size_t slot, double t, const motion::Point& point) const;
   /// Values and rates at both ends of a step of length h.
   [[nodiscard]] events::GuardCubic path(std::size_t slot, double h) const {
     return {g0_[slot], g1_[slot], h * rate0_[slot], h * rate1_[slot]};
   }
   [[nodiscard]] bool has_rate(std::size_t slot) const { return has_rate_[slot] != 0; }
-  /// Place in the step, 0 to 1, at which a guard that is positive at both ends may reach zero, by its rates
-  /// at the ends. If modes far faster than the step make the rates useless, its values alone are used.
-  /// h_before: length of the previous step; 0: none.
+  /// Place in the step, 0 to 1, at which a guard that is positive at both ends may reach zero, estimated from its rates. If
+  /// modes far faster than the step make the rates useless, from its last three values. nullopt: there is no such place.
+  /// h_before: length of the previous step, or 0 if there is none.
   [[nodiscard]] std::optional<double> dip(std::size_t slot, double h, double h_before) const;
-  /// Excludes the guard's dip from the candidates of this step: a shorter step has not confirmed it.
+  /// Excludes the guard from the dips of this step, because a shorter step has shown that the guard stays positive.
   void dismiss(std::size_t slot) { dismissed_.push_back(slot); }
-  /// Slots that a step of length h has to examine, ascending; all other guards stay positive in it.
+  /// Slots that need an examination in a step of length h, in ascending order. All other guards stay positive.
   [[nodiscard]] const std::vector<std::size_t>& candidate_slots(double h, double h_before);
   /// Called at the end of a step without further events: waiting guards may become armed.
   void update_active_guards(double t, const motion::Point& point);
 
  private:
-  /// Coefficients of a guard that is a plain form (decide/guard_signs.hpp).
+  /// Coefficients of a guard that is a plain linear form (decide/guard_signs.hpp).
   struct LinearGuard {
     double N = 0.0, T = 0.0, gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, constant = 0.0;
   };
   /// Data of a contact for candidate_slots().
   struct ContactGuards {
-    bool watched = false;              // at least one guard is in force
-    bool is_linear = false;            // guards and rows are forms as above
+    bool watched = false;              // at least one guard is active
+    bool is_linear = false;            // guards and rows are plain forms, and nothing prescribes the motion of the contact
     bool needs_accelerations = false;  // a rate needs accelerations
-    double gap = 0.0, surface = 0.0;   // constant values
+    double gap = 0.0, surface = 0.0;   // initial gap; displacement of the surface
     double normal_gap = 0.0, tangent_N = 0.0, tangent_ut = 0.0;
     std::array<LinearGuard, ContactLaw::most_guards> guards{};
   };
@@ -74,9 +74,9 @@ class StepGuards {
 
   const Model& model_;
   std::vector<Term> terms_;           // contact by contact
-  std::vector<std::size_t> ends_{0};  // end of each contact's terms
+  std::vector<std::size_t> ends_{0};  // index after the last term of each contact
   engine::Segment segment_;
-  contact::ContactStates states_;  // states at the last gather()
+  contact::ContactStates states_;  // contact states of the last call of gather()
   events::ActiveGuards active_guards_;
   std::vector<ContactGuards> contact_guards_;  // one entry for each contact
   // One entry for each slot; before_: value at the beginning of the previous step.

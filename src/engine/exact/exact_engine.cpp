@@ -17,24 +17,24 @@ namespace signorini::exact {
 namespace {
 
 constexpr int min_levels = 12, more_levels = 3;
-constexpr double least_share = 1e-6;    // of the greatest motion; degrees of freedom above it keep all digits
-constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a growing load
+constexpr double least_share = 1e-6;    // of the greatest motion; larger degrees of freedom keep all digits
+constexpr std::size_t first_terms = 4;  // number of first terms; several, because a motion from rest has zeros
 constexpr double flights_a_step = 3.0;
-constexpr double longer = 1.5, much_longer = 4.0;  // than the previous step
-constexpr double least_step = 1.0 / longer;        // lower limit of a random share: steps can still grow
-// With random events at a mean distance tau, a step h contains one with the probability 1 - exp(-h/tau). A
-// step takes 14 levels for a phase angle of half a radian, 18 for one, 30 for four. So the work for each
-// event is least at h = 2 tau. Below `shortest_turn` rad a step takes 12 levels in any case.
+constexpr double longer = 1.5, much_longer = 4.0;  // limits of the step length, relative to the previous step
+constexpr double least_step = 1.0 / longer;        // lower limit of share_of_step(): steps can still grow
+// Random events at mean intervals tau occur in a step of length h with the probability 1 - exp(-h/tau). A step needs 14 levels
+// for a phase angle of 0.5 rad, 18 for 1 rad, 30 for 4 rad. So the work per event is least at h = 2 tau. Below `shortest_turn`
+// rad a step needs 12 levels in any case.
 constexpr double times_pace = 2.0, shortest_turn = 0.3;
-// With local updates a series spans several events, up to a phase angle at which more levels would cost more
-// than they save.
+// With local updates one series serves several events. Beyond the phase angle `longest_turn` (rad), the additional levels take
+// longer than they save.
 constexpr double events_a_series = 12.0, longest_turn = 2.0;
-constexpr double least_left = 0.5;     // least valid part of the remaining series after a local update
-constexpr double fresh = 0.25;         // weight of the last time between events among those before; chosen
-constexpr double max_cancelled = 0.9;  // greatest later term over the greatest first one
-constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
-constexpr int max_touches = 5;                    // warnings of the same kind
-constexpr char overflow[] = "the motion leaves the range of numbers";
+constexpr double least_left = 0.5;     // a local update must be valid for this part of the remaining series
+constexpr double fresh = 0.25;         // weight of the last interval in the mean interval between events; chosen
+constexpr double max_cancelled = 0.9;  // limit of later terms, relative to the greatest of the first terms
+constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound
+constexpr int max_touches = 5;                    // number of warnings about touches
+constexpr char overflow[] = "the motion overflows: it is not finite";
 
 }  // namespace
 
@@ -80,13 +80,13 @@ void ExactEngine::start(const engine::Segment& segment) {
   ++counters.restarts;
 }
 
-/// True if the motion begins at the end of the last step, within its series.
+/// True if the segment continues the motion of the last step, and the series of that step is valid beyond its end.
 bool ExactEngine::can_continue_series(const decide::Decision& decision, bool same_forcing) const {
   return local_series_ && local_series_->possible() && same_forcing && decision.jet.t == t_ &&
          end_x_ < reach_ && decision.u == end_.u && decision.v == end_.v;
 }
 
-/// Continues the series of the last step with the changes by the event. False: the series must be made anew.
+/// Continues the series of the last step and updates it near contacts whose state has changed. False: a new series is needed.
 bool ExactEngine::continue_series(const contact::ContactStates& before) {
   std::vector<std::size_t> changed;
   for (std::size_t c = 0; c < states_.size(); ++c)
@@ -136,27 +136,27 @@ double ExactEngine::paced_length() const {
   return std::max(times_pace * event_interval_, shortest);
 }
 
-/// Random share of the possible length of a step; 1 without a step_seed. Steps of equal length multiply the
-/// motion by the same matrix with the same rounding. So N steps change the amplitude and phase of an
-/// oscillation by N times one rounding, and every run with the same lengths has the same error. With random
-/// lengths the rounding differs in each step, and the sum grows like sqrt(N). The first step of a segment has
-/// its full length, because a guard may leave zero within rounding: its event in that step is then as
-/// uncertain as reported.
+/// Random factor on the length of a step; 1 without a step_seed. Steps of equal length multiply the motion by the same matrix
+/// with the same rounding errors. So N steps change amplitude and phase of an oscillation by N times one error, and all runs
+/// with these lengths have the same error. With random lengths the rounding errors differ, and their sum grows like sqrt(N).
+/// The first step of a segment has its full length, because a guard may leave zero within rounding: an event in that step is
+/// then as uncertain as reported.
 double ExactEngine::share_of_step() {
   if (!random_ || t_ == segment_begin_) return 1.0;
   return std::uniform_real_distribution<double>(least_step, 1.0)(*random_);
 }
 
-/// A few times the duration of the shortest flight that begins now; 0: none. The rounding of a gap grows with
-/// the motion on the whole step, and must stay small relative to the height of the flight.
+/// Limit of the step length if a rigid contact takes off now: a few times the duration of the shortest flight. 0: no limit.
+/// Reason: the rounding of a gap grows with the motion on the whole step, but must stay small relative to the height of the
+/// flight.
 double ExactEngine::flights_limit() const {
   const decide::Decision& decision = *segment_.decision;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < decision.states.size(); ++c) {
     const ContactMotion& m = decision.after[c];
     if (!model_.contacts[c].takes_impulses() || !decision.states[c].is_open() || !(m.an < 0.0)) continue;
-    // A contact that leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight computed
-    // from it.
+    // If a contact leaves with g' = 0 and its leading derivative is of higher order, g'' is only rounding, and so would be the
+    // flight computed from it.
     const decide::GuardStart& closing = decision.guards[model_.layout.guard(c)];
     if (closing.leading_order < 0 || closing.leading_order > 1) continue;
     const double height = std::max(m.gap, 0.0);
@@ -166,7 +166,7 @@ double ExactEngine::flights_limit() const {
   return flights_a_step * shortest;
 }
 
-/// Weights of the degrees of freedom from their own motion, so that each keeps its digits.
+/// Sets the weight of each degree of freedom to the reciprocal size of its motion, so that small motions keep their digits too.
 void ExactEngine::set_weights() {
   const std::size_t n = scales_.size();
   double greatest = 0.0;
@@ -182,7 +182,7 @@ void ExactEngine::set_weights() {
     weights_[i] = greatest > 0.0 ? scales_[i] / std::max(weights_[i], least_share * greatest) : scales_[i];
 }
 
-/// Sizes of the coefficients first .. last, relative to the first ones of their degrees of freedom.
+/// Sets sizes_[k], k = first .. last, to the largest weighted coefficient u_ik of all degrees of freedom i.
 void ExactEngine::measure_coefficients(std::size_t first, std::size_t last) {
   for (std::size_t k = first; k <= last; ++k) {
     const double* u = motion_.whole.u.data() + k * weights_.size();
@@ -192,8 +192,8 @@ void ExactEngine::measure_coefficients(std::size_t first, std::size_t last) {
   }
 }
 
-/// True if the coefficients 0 .. last form a series that is valid up to x when cut after `degree_`: the remainder is
-/// below rounding, and no term is much greater than the first nonzero ones.
+/// True if the series with the coefficients a[0 .. last], cut after degree_, is valid up to x: the remainder is below rounding,
+/// and no later term exceeds max_cancelled times the greatest of the first terms.
 bool ExactEngine::converges(const double* a, std::size_t last, double x) const {
   double first = 0.0, power = 1.0;
   std::size_t begin = last + 1;
@@ -212,7 +212,8 @@ bool ExactEngine::converges(const double* a, std::size_t last, double x) const {
   return true;
 }
 
-/// Checks the series of the motion and of its forcing: in a block that sticks, T follows its load alone.
+/// True if the series of the motion and those of the forcing are valid up to x. The forcing is checked separately, because T of
+/// a sticking block depends on the load alone.
 bool ExactEngine::converges(const std::vector<double>& sizes, const motion::ForcingSeries& f,
                             double x) const {
   if (!converges(sizes.data(), degree_ + 2, x)) return false;
@@ -222,8 +223,8 @@ bool ExactEngine::converges(const std::vector<double>& sizes, const motion::Forc
   return true;
 }
 
-/// Expands to the number of levels that a step of the given scale needs, limited by max_levels; returns the part of
-/// the step that the series reaches.
+/// Expands the motion to as many levels as a step of length `scale` needs, but at most max_levels. Returns the part of the
+/// step, 0 to 1, on which the series is valid.
 double ExactEngine::expand(double scale) {
   motion::Series& series = motion_.whole;
   const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
@@ -235,7 +236,7 @@ double ExactEngine::expand(double scale) {
     if (measured == 0) set_weights();
     measure_coefficients(measured, degree_ + 2);
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
-    // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
+    // Beyond degree_ + 1, |u_(k+1)| <= |u_k|/2. So the remainder is small if the next two terms are small.
     if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
         converges(sizes_, series.forcing, 1.0))
       break;
@@ -247,7 +248,7 @@ double ExactEngine::expand(double scale) {
   return x;
 }
 
-/// Bound on the remainder of a form's polynomial on [0, x]; rest: that of the displacements, in norm_.
+/// Bound on the remainder of a form's polynomial on [0, x]. rest: bound on the remainder of the displacements, in norm_.
 double ExactEngine::remainder_of(const Form& form, std::size_t c, double x, double rest) const {
   const Contact& contact = model_.contacts[c];
   const double rate = static_cast<double>(degree_ + 3) / (motion_.whole.scale * x);
@@ -266,7 +267,8 @@ double ExactEngine::remainder_of(const Form& form, std::size_t c, double x, doub
          std::abs(form.an) * rate * rate * gap;
 }
 
-/// |a b - p q| <= |p| db + (|q| + db) da where p, q are the polynomials of a, b
+/// Bound on the remainder of a guard with products a b: |a b - p q| <= |p| db + (|q| + db) da, where p and q are the
+/// polynomials of a and b, and da and db the bounds on their remainders.
 double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
   double sum = remainder_of(guard.form, c, x, rest);
   const motion::ContactSeries& contact = motion_.contacts()[c];
@@ -279,12 +281,12 @@ double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x
   return sum;
 }
 
-/// GuardStart::drift up to the place x of the step.
+/// GuardStart::drift() from the decision to the place x after the beginning of the series.
 double ExactEngine::drift_of(const decide::GuardStart& guard, double x) const {
   return guard.drift(t_ + x * motion_.whole.scale - segment_.decision->jet.t);
 }
 
-/// First zero crossing on the remaining series; x: 1 at its end.
+/// First zero crossing of a guard between begin_x_ and reach_. The place x of the result is 0 at begin_x_ and 1 at reach_.
 events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   const std::size_t c = model_.layout.contact_of_guard(slot);
@@ -294,7 +296,7 @@ events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
       contact.expand(form, reach_ - contact.origin(), events::max_root_degree, guard_.data());
   const double from = begin_x_ - contact.origin(), x = reach_ - begin_x_;
   double power = 1.0, terms = products;
-  if (from > 0.0) {  // terms about the origin bound those about the step's beginning
+  if (from > 0.0) {  // sum of terms about the origin; bounds that about begin_x_
     for (std::size_t k = 0; k <= degree; ++k, power *= reach_ - contact.origin())
       terms += std::abs(guard_[k]) * power;
     motion::shift(guard_.data(), degree, from);
@@ -311,7 +313,7 @@ events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
                        rounding + rounding_of_guard * guard.noise;
   if (active_guards_.armed(slot)) return events::first_root(guard_.data(), degree, slack);
   if (const std::size_t m = active_guards_.leading_order(slot);
-      m > 0)  // the decision found the lower orders to be zero
+      m > 0)  // lower orders are zero by the decision
     return events::first_root(guard_.data() + m, degree - m, rounding::few_operations * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack + drift_of(guard, x);
   return events::first_root(guard_.data(), degree, 0.0);
@@ -325,7 +327,7 @@ engine::Step ExactEngine::failed(std::string reason) {
   return step_;
 }
 
-/// Reason why no step of this length is possible from here; empty: it is possible.
+/// Reason why no step of length `scale` can be taken from t_. Empty: the step is possible.
 std::string ExactEngine::failure_reason(double scale) const {
   if (growth_now_ * motion::resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
@@ -336,8 +338,8 @@ std::string ExactEngine::failure_reason(double scale) const {
   return {};
 }
 
-/// Bound on the remainder of all displacements on [0, x], in norm_: its terms are below those of a geometric
-/// series with ratio 1/2.
+/// Bound on the remainder of all displacements on [0, x], in norm_. Its terms decrease at least like those of a geometric
+/// series with ratio 1/2, so the sum is at most twice the first term.
 double ExactEngine::series_remainder(double x) {
   double rest = 0.0;
   for (int k = 1; k <= 2; ++k) {
@@ -348,7 +350,7 @@ double ExactEngine::series_remainder(double x) {
   return rest;
 }
 
-/// Same for a locally updated part.
+/// Bound on the remainder of the displacements of a locally updated part, as in series_remainder().
 double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& near, double x) {
   double rest = 0.0;
   near_column_.setZero(model_.size());
@@ -360,7 +362,7 @@ double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& n
   return rest;
 }
 
-/// Place up to which a locally updated part is valid, x at most: by the criteria of set_weights(),
+/// Place up to which a locally updated part is valid, at most x. The criteria are those of set_weights(),
 /// measure_coefficients() and expand() for the whole structure.
 double ExactEngine::local_radius(const motion::LocalSeries::LocalExpansion& near, double x) {
   const std::vector<int>& dofs = near.where->dofs;
@@ -388,7 +390,7 @@ ExactEngine::Earliest ExactEngine::earliest_crossing() {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot)) continue;
     ZeroCrossing& known = crossings_[slot];
-    // A crossing before the beginning of this step was no event by a later decision.
+    // A known crossing before this step was no event, by the decision made there: search again.
     const bool past = known.kind != events::FirstRoot::Kind::none && known.at <= begin_x_;
     if (!known.stands || !active_guards_.armed(slot) || past) {
       const events::FirstRoot fall = first_root_of(slot);
@@ -409,7 +411,7 @@ ExactEngine::Earliest ExactEngine::earliest_crossing() {
     if (known.kind != events::FirstRoot::Kind::touch || active_guards_.idle(slot) || !(known.at < first.at))
       continue;
     if (active_guards_.armed(slot)) warn_of_touch(slot, motion_.whole.t + known.at * motion_.whole.scale);
-    known.kind = events::FirstRoot::Kind::none;  // the warning has been issued
+    known.kind = events::FirstRoot::Kind::none;  // do not warn of it again
   }
   return first;
 }
@@ -426,7 +428,7 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
     warnings.emplace_back("more guards touch zero; these are not listed");
 }
 
-/// Updates waiting guards at the end x of a step without an event.
+/// Arms waiting guards that are clearly positive at the end x of a step without an event.
 void ExactEngine::update_unarmed(double x) {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot) || active_guards_.armed(slot)) continue;
@@ -439,7 +441,7 @@ void ExactEngine::update_unarmed(double x) {
   }
 }
 
-/// Begins the series of the whole structure here.
+/// Expands the series of the whole structure about t_.
 void ExactEngine::begin_series(double scale) {
   double x = expand(scale);
   paced_ = paced_ && x == 1.0;
@@ -481,9 +483,9 @@ engine::Step ExactEngine::advance() {
   step_.resolution = motion::resolution_at(end, end - t_);
   turns_.find(motion_.contacts(), motion_.whole, begin_x_, x);
   end_x_ = x;
-  motion_.evaluate_at(x, end_);  // more accurate than at the rounded time
+  motion_.evaluate_at(x, end_);  // more accurate than at `end`, which is rounded
   t_ = end;
-  // Rounding in g'' is integrated twice over a long contact phase.
+  // During a long contact phase the rounding of g'' = 0 is integrated twice: restore g = 0 and g' = 0.
   if (!local_series_)
     motion::project_constraints(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
   return step_;

@@ -1,17 +1,17 @@
-// exact_engine.hpp: engine `exact` by Taylor series: the motion in each contact state, and no missed event.
+// exact_engine.hpp: engine `exact` by Taylor series: motion in each contact state, with proof that no event is missed.
 //
-//   u(t + s x) = sum_k u_k x^k        motion/taylor.hpp; h = s x chosen so that the remainder is below rounding
+//   u(t + s x) = sum_k u_k x^k        motion/taylor.hpp; the step s x is so short that the remainder is below rounding
 //   guard(x)   = sum_k g_k x^k        first root by interval bounds, engine/events/first_root.hpp
 //
-// Between events the system of a contact state is linear with constant coefficients. Its Taylor series
-// converges for all x, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth rate of the state. A step
-// is as long as the series converges to rounding with that bound, but so short that its terms do not cancel.
-// docs/theory.md proves that no event is missed.
+// Between events the equations of a contact state are linear with constant coefficients. The Taylor series of the motion
+// converges for all x, and |u_(k+1)| <= W s/(k+1) |u_k|, where W is the greatest growth rate of the contact state. A step is as
+// long as this bound proves convergence down to rounding, but so short that the terms do not cancel. docs/theory.md contains
+// the proof that no event is missed.
 //
-// The part of a step after an event is wasted, so a step that begins at an event is limited to twice the
-// recent time between events. On large structures an event in compliant contacts changes only the motion near
-// them on a step. The series is then updated there, and roots found elsewhere stay valid
-// (motion/local_series.hpp), so a series spans several events.
+// The part of a series after an event is wasted, so a step that begins at an event is limited to twice the recent time between
+// events. Exception: on large structures, an event in compliant contacts changes the motion only near these contacts during a
+// step. The series is then updated there, and roots found elsewhere remain valid (motion/local_series.hpp), so one series is
+// used across several events.
 #pragma once
 
 #include <cstdint>
@@ -32,10 +32,10 @@ namespace signorini::exact {
 /// Largest number of levels of a series (motion/taylor.hpp).
 inline constexpr int max_levels = 30;
 
-/// Intended use of the steps.
+/// Options of ExactEngine.
 struct SeriesOptions {
-  bool local_updates = false;   ///< local updates are allowed: no listener reads the series
-  std::uint64_t step_seed = 0;  ///< not 0: seed of random lengths of steps
+  bool local_updates = false;   ///< allow local updates; requires that no listener reads the series
+  std::uint64_t step_seed = 0;  ///< seed of random step lengths; 0: step lengths are not random
 };
 
 class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
@@ -48,11 +48,11 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] engine::Step advance() override;
   [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
   void evaluate(double t, motion::Point& point) override;
-  /// Evaluates without accelerations.
+  /// Evaluates u, v and forces, but no accelerations.
   void evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) override;
   void integrate(double from, double to, motion::WorkIntegrals& works) override;
   [[nodiscard]] double residual() override;
-  /// Zero: guards are exact up to rounding, which the decision takes into account.
+  /// Zero, because guards are exact up to rounding, and the decision itself accounts for rounding.
   [[nodiscard]] double guard_error(const GuardForm&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
@@ -83,7 +83,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   struct Earliest {
     std::optional<std::size_t> slot;
     double at = 1.0;
-    bool not_finite = false;  // the motion is not a number
+    bool not_finite = false;  // the motion is not finite
   };
   [[nodiscard]] Earliest earliest_crossing();
   void warn_of_touch(std::size_t slot, double t);
@@ -102,39 +102,39 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   engine::Segment segment_;
   PatchedSeries motion_;
   std::optional<motion::LocalSeries>
-      local_series_;               // nullopt: each event makes the series of the whole structure anew
-  contact::ContactStates states_;  // states of the segment, if local_series_ is used
+      local_series_;               // nullopt: no local updates
+  contact::ContactStates states_;  // contact states of the segment, if local_series_ is used
   bool series_continued_ = false;  // the segment begins within motion_
-  double begin_x_ = 0.0;           // beginning of the step in motion_
-  double reach_ = 0.0;             // end of the validity of motion_, as a place in the series
-  double reach_time_ = 0.0;        // time of reach_
-  /// rest: remainder of the displacements at a contact, in norm_, up to the distance x from the origin of its
-  /// polynomials.
+  double begin_x_ = 0.0;           // beginning of the step, as a place in motion_
+  double reach_ = 0.0;             // end of the valid range of motion_, as a place in it
+  double reach_time_ = 0.0;        // time of the place reach_
+  /// Bound `rest` on the remainder of the displacements near a contact, in norm_, up to the distance x from the origin of the
+  /// contact's polynomials.
   struct LocalRemainder {
     double rest = 0.0, x = 0.0;
   };
   std::vector<LocalRemainder> local_remainders_;
-  /// The first zero crossing of a guard in motion_, once found.
+  /// Result of the search for the first zero crossing of a guard in motion_.
   struct ZeroCrossing {
     events::FirstRoot::Kind kind = events::FirstRoot::Kind::none;
-    bool stands = false;  // the search was made, for a guard that was armed
+    bool stands = false;  // the search was made while the guard was armed, so its result remains valid
     double at = 0.0;
   };
   std::vector<ZeroCrossing> crossings_;
   events::ActiveGuards active_guards_;
   std::vector<double> scales_, weights_, sizes_, guard_, near_sizes_;
   Vector near_column_;
-  double greatest_ = 0.0;       // greatest motion, by scales_
-  std::size_t polynomial_ = 0;  // greatest degree in the forcing
+  double greatest_ = 0.0;       // greatest displacement, in units of scales_
+  std::size_t polynomial_ = 0;  // greatest polynomial degree in the forcing
   int touches_ = 0;
-  std::optional<std::mt19937_64> random_;  // random lengths of steps
+  std::optional<std::mt19937_64> random_;  // generator of random step lengths
   motion::Point end_;                      // end of the last step
   double t_ = 0.0, growth_now_ = 0.0;
-  double max_next_step_ = 0.0;   // greatest length of the segment's next step
+  double max_next_step_ = 0.0;   // limit of the length of the next step
   double segment_begin_ = 0.0;   // beginning of the segment
   double event_interval_ = 0.0;  // mean time between recent events; 0: none
-  bool paced_ = false;           // event_interval_ limits the steps; no series of this segment was shorter
-  double end_x_ = 0.0;           // end of the last step in its series
+  bool paced_ = false;           // event_interval_ limits the steps, because all series of this segment were long enough
+  double end_x_ = 0.0;           // end of the last step, as a place in its series
   engine::Step step_;
   SeriesWorkIntegrals works_;
   events::TurningPointDetector turns_;

@@ -12,7 +12,7 @@ namespace signorini::exact {
 namespace {
 
 constexpr int probe_levels = 20;
-constexpr double max_beside = 0.1;  // of the square of a growth rate: steps are at most 5 % shorter; chosen
+constexpr double max_beside = 0.1;  // limit of the sum, relative to W_0^2: steps are at most 5 % shorter; chosen
 
 }  // namespace
 
@@ -36,7 +36,7 @@ double FlowGrowth::growth_rate(const motion::StateSystemPtr& system) {
   return near_rate_;
 }
 
-/// Bound on the change of W^2 if a contact closes, opens, sticks or slips.
+/// Bound on the change of W^2 if contact c changes its state: the contact's term of the sum in flow_growth.hpp.
 double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) {
   double& known = stiffenings_[c];
   if (known >= 0.0) return known;
@@ -54,7 +54,7 @@ double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) 
   return known = kn * (n + friction * t) * norm_.normal(c) + kt * t * norm_.tangent(c);
 }
 
-/// Growth rate of states that differ from near_states_ in few compliant contacts. nullopt: they differ too
+/// Upper bound of the growth rate from that of near_states_, if few compliant contacts differ. nullopt: the states differ too
 /// much.
 std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& system) {
   if (near_states_.empty() || !system.factorised().by_mass) return std::nullopt;
@@ -74,7 +74,8 @@ std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& sys
   return std::sqrt(square + more);
 }
 
-/// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
+/// Growth rate from the ratios of Taylor coefficients |u_(k+2)| / |u_k| for large k, in a random motion that contains all
+/// modes.
 double FlowGrowth::rate_from_series(const motion::StateSystemPtr& system) {
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
@@ -103,7 +104,7 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
        assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts)) / (w * w);
   assembly::SymmetricSolver solver(g_);
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) {
-    // If a stiffness or damping is not positive, the magnitudes of the diagonal form a norm as well.
+    // If stiffness or damping makes G indefinite, the magnitudes of its diagonal entries define the norm instead.
     std::vector<Eigen::Triplet<double>> diagonal;
     for (int i = 0; i < n; ++i) diagonal.emplace_back(i, i, std::max(std::abs(g_.coeff(i, i)), 1e-300));
     g_.setZero();
@@ -122,7 +123,7 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
 }
 
 double FlowNorm::norm(const Eigen::Ref<const Vector>& x) {
-  const double size = x.cwiseAbs().maxCoeff();  // squares must not overflow
+  const double size = x.cwiseAbs().maxCoeff();  // scaling by it prevents the overflow of squares
   if (!(size > 0.0) || !std::isfinite(size)) return size;
   product_.noalias() = g_ * (x / size);
   return size * std::sqrt(std::max(0.0, x.dot(product_) / size));

@@ -8,7 +8,7 @@
 namespace signorini::exact {
 namespace {
 
-/// sum := sum x + factor a, by entries.
+/// One Horner step for each entry: sum := sum x + factor a.
 SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, double factor,
                                  std::size_t n) {
   std::size_t i = 0;
@@ -19,11 +19,11 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
 }
 
-/// Up to this number of entries each sum is computed separately: loops over so few entries cost more than their
+/// For up to this number of entries, each sum is computed separately, because loops over few entries take longer than their
 /// arithmetic.
 constexpr std::size_t few = 4;
 
-/// sum_k a_k x^k, or that of factors_k a_k; the coefficients are `stride` apart.
+/// Sum of factors_k a_k x^k, k = 0 .. degree; factors are 1 in the second version. The a_k are `stride` apart in memory.
 double sum_at(double x, const double* a, std::size_t stride, std::size_t degree, const double* factors) {
   double sum = 0.0;
   for (std::size_t k = degree + 1; k-- > 0;) sum = sum * x + factors[k] * a[k * stride];

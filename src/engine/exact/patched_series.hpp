@@ -1,10 +1,10 @@
-// patched_series.hpp: the motion on a step as a series with locally updated parts, which have a later origin.
+// patched_series.hpp: the motion on a step as a Taylor series, parts of which may be expanded about a later time.
 //
-//   u_i(x) = sum_k u_ik (x - o_i)^k,    N and T likewise;    x = (t - t_0)/s
+//   u_i(x) = sum_k u_ik (x - o_i)^k,    same form for N and T;    x = (t - t_0)/s
 //
-// A series of the whole structure is expanded about t_0, with o_i = 0. If an event changes the motion near
-// some contacts, that part is expanded anew about the event (motion/local_series.hpp); the rest stays valid.
-// Shapes: n degrees of freedom, two forces for each contact.
+// The series of the whole structure is expanded about t_0, so all o_i = 0. If an event changes the motion near some contacts,
+// the series of the degrees of freedom there are expanded again about the event (motion/local_series.hpp). All other series
+// stay valid.
 #pragma once
 
 #include <array>
@@ -21,31 +21,32 @@ class PatchedSeries {
  public:
   explicit PatchedSeries(const Model& model);
 
-  /// Series of the whole structure, filled by the owner of this object, who then calls set_complete().
+  /// Series of the whole structure. The owner of this object fills it and then calls set_complete().
   motion::Series whole;
-  /// Called once `whole` is filled: u, v, a and forces are complete up to this degree, max_root_degree at
-  /// most.
+  /// Call it when `whole` is filled. degree: u, v, a and forces are complete up to this degree, which is at most
+  /// max_root_degree.
   void set_complete(std::size_t degree);
-  /// Replaces a part of the series on [x, x + reach].
+  /// Replaces the series of the degrees of freedom and forces in `near` by expansions about x, valid on [x, x + reach].
   void patch(const motion::LocalSeries::LocalExpansion& near, double x, double reach);
-  /// Bounds the rates of all contacts up to x from the origin: ContactSeries::bound_rates.
+  /// Calls ContactSeries::bound_rates(x) for all contacts: bounds their rates up to the distance x from the origin.
   void bound_rates(double x) {
     for (motion::ContactSeries& contact : contacts_) contact.bound_rates(x);
   }
 
   [[nodiscard]] std::size_t degree() const { return degree_; }
   [[nodiscard]] const std::vector<motion::ContactSeries>& contacts() const { return contacts_; }
-  /// o for each degree of freedom. Empty: all are zero.
+  /// Origin o_i of each degree of freedom. Empty: all origins are zero.
   [[nodiscard]] const std::vector<double>& origins() const { return origins_; }
 
-  /// Writes the coefficients about x: whole.levels + 3 for a degree of freedom, whole.levels + 1 for a force.
+  /// Write the coefficients of an expansion about x: whole.levels + 3 numbers for a degree of freedom, whole.levels + 1 for a
+  /// force.
   void displacement(int dof, double x, double* out) const;
   void force(std::size_t slot, double x, double* out) const;
 
-  /// Evaluates all but accelerations; evaluate_at(): all.
+  /// Evaluates u, v and forces at the place x; evaluate_at() also accelerations.
   void evaluate_without_accelerations(double x, motion::Point& point) const;
   void evaluate_at(double x, motion::Point& point) const;
-  /// Evaluates the degrees of freedom and forces of one contact, by the same sums.
+  /// Evaluates u, v and forces of one contact only; the results are bitwise equal to those of the whole evaluation.
   void evaluate_without_accelerations(double x, std::size_t contact, motion::Point& point) const;
 
  private:
@@ -57,8 +58,8 @@ class PatchedSeries {
   std::array<double, events::max_root_degree + 1> to_rate_{},
       to_acceleration_{};  // (k + 1)/s, (k + 1) (k + 2)/s^2
   std::vector<motion::ContactSeries> contacts_;
-  std::vector<double> origins_, force_origins_;              // empty: all are zero
-  mutable std::vector<double> dof_offsets_, force_offsets_;  // x - o; scratch
+  std::vector<double> origins_, force_origins_;              // empty: all origins are zero
+  mutable std::vector<double> dof_offsets_, force_offsets_;  // x - o_i; work arrays
 };
 
 }  // namespace signorini::exact

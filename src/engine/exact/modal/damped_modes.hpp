@@ -1,19 +1,19 @@
-// damped_modes.hpp: complex modes of a structure with springs, dashpots and constraints, in its unconstrained
-// modes.
+// damped_modes.hpp: complex modes of a structure with springs, dashpots and constraints, expressed in its unconstrained modes.
 //
 //   q_j'' + c_j q_j' + d_j q_j + sum_a u_ja lambda_a = p_j
-//   lambda_a = (k_a + c_a d/dt) v_a . q     or, where a is rigid,   v_a . q = 0
+//   lambda_a = (k_a + c_a d/dt) v_a . q     or, if term a is rigid,   v_a . q = 0
 //
 //   q = x e^(l t),   P_j(l) = l^2 + c_j l + d_j:     T(l) (lambda, x_G) = 0
 //   T = | 1 + kappa_a sum_j v_ja u_jb / P_j    -kappa_a v_ja |      j outside G in sums, inside in columns
 //       | u_jb                                  P_j          |      kappa_a = k_a + l c_a
 //
-// If a is rigid, the 1 is absent and kappa = 1: the limit of infinite stiffness. G contains the modes whose
-// P_j is small, which avoids divisions by small differences. Initial values of the roots are those of a dense
-// problem in doubles. Newton steps on T in extended precision refine them; shapes follow from the null
-// vectors of T. A mode without coupling to any term (v_j = 0) has two roots of its own. Modes of equal poles
-// are rotated so that as few as possible are coupled to terms; equal roots have all null vectors of T. Nearly
-// equal roots with a common shape are a failure.
+// If term a is rigid, the 1 is absent and kappa = 1: the limit of infinite stiffness. G contains the modes whose P_j is small,
+// so that no division by a small difference occurs.
+//
+// The roots of a dense eigenproblem in doubles are initial values. Newton steps on T in extended precision refine them, and the
+// null vectors of T give the shapes. A mode that is coupled to no term (v_j = 0) keeps its two roots. Modes with equal poles
+// are rotated so that as few as possible are coupled to terms. A multiple root uses all null vectors of T. Nearly equal roots
+// with a common shape are a failure.
 //
 //   motion   q = Re sum_k shape_k y_k,  y_k' = l_k y_k + from_rate_k . p,   y = from_q q + from_rate q'
 //
@@ -26,28 +26,28 @@
 
 namespace signorini::modal {
 
-/// A spring with dashpot, or a constraint. u: direction of its force, v: form on which the force depends; one
-/// entry for each mode.
+/// A spring with a dashpot, or a constraint (rigid), in the unconstrained modes. u: direction of its force; v: form of which
+/// its force is a function. One entry for each mode.
 struct ModalTerm {
   Eigen::VectorXd u, v;
   double stiffness = 0.0, damping = 0.0;
   bool rigid = false;
 };
 
-/// Limit for the number of terms.
+/// Largest number of terms for which modes are computed.
 inline constexpr std::size_t max_damped_terms = 9;
 
 struct DampedModes {
-  std::string failure;                 ///< reason why the modes cannot be used; empty: they can
-  Eigen::VectorXcd root;               ///< im >= 0, |l| ascending; one root of each pair
-  Eigen::MatrixXcd shape;              ///< n x roots; doubled for a pair, so that real parts add up
+  std::string failure;                 ///< reason why the modes cannot be used; empty: no failure
+  Eigen::VectorXcd root;               ///< l, one root of each conjugate pair (im >= 0), |l| ascending
+  Eigen::MatrixXcd shape;              ///< n x roots; doubled for a pair, because only real parts are summed
   Eigen::MatrixXcd force;              ///< terms x roots: lambda, doubled for a pair
   Eigen::MatrixXcd from_q, from_rate;  ///< roots x n
-  double condition = 1.0;              ///< greatest |x| |y| of a root, 1 without damping and slip
-  double round_trip = 0.0;             ///< greatest error of a motion of size 1 after a round trip
+  double condition = 1.0;              ///< greatest |x| |y| of right and left eigenvectors with y . x = 1
+  double round_trip = 0.0;             ///< greatest error of a unit motion converted to modes and back
 };
 
-/// Complex modes. square, decay: d_j, ascending, and c_j.
+/// Computes the complex modes. square: d_j, ascending; decay: c_j.
 [[nodiscard]] DampedModes damped_modes(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
                                        const std::vector<ModalTerm>& terms);
 

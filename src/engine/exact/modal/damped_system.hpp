@@ -1,14 +1,14 @@
-// damped_system.hpp: contact states as terms on the unconstrained modes, and contact quantities in their
-// complex modes.
+// damped_system.hpp: the terms (springs, dashpots, constraints) that a contact state adds to the unconstrained modes, and
+// contact quantities in the complex modes of this state.
 //
-//   C = alpha M + beta K + sum_i r_i d_i d_i^T:   c_j = alpha + beta omega_j^2, and a dashpot for each d_i
+//   C = alpha M + beta K + sum_i r_i d_i d_i^T:   c_j = alpha + beta omega_j^2, and one dashpot for each d_i
 //
 //   state    terms of a contact                                      further forces
 //   closed   compliant: kn + cn d/dt along n;  rigid: n . u = -g0
-//   stick    kt along t;  without kt: t . u stays with the surface
-//   slip s   the force along n acts along n - s f t                  slider: s f q t, q the normal force
+//   stick    kt along t;  without kt: t . u follows the surface
+//   slip s   the force along n acts along n - s f t                  slider: s f q t with the normal force q
 //
-// Shapes: n unconstrained modes, K complex modes (one of each pair).
+// Sizes in this file: n unconstrained modes, K complex modes (one of each conjugate pair).
 #pragma once
 
 #include <memory>
@@ -21,26 +21,27 @@
 
 namespace signorini::modal {
 
-/// Reason why a scene cannot be followed in complex modes; empty: it can.
+/// Reason why complex modes cannot represent a scene. Empty: they can.
 [[nodiscard]] std::string damped_refusal(const Model& model);
 /// Number of springs, constraints and dampers of a state in which all contacts are closed and stick.
 [[nodiscard]] std::size_t max_state_terms(const Model& model);
 
-/// Quantities of one contact in complex modes: forms times shapes; zero if a constraint prescribes them.
+/// Gap and tangential displacement of one contact per unit amplitude of each complex mode. Zero if a constraint prescribes
+/// them.
 struct ContactRows {
   Eigen::VectorXcd gap, slide;
   int normal_term = -1, tangent_term = -1;  ///< indices of the contact's terms
-  Form normal, tangent;                     ///< the contact's rows in the state
+  Form normal, tangent;                     ///< the contact's rows in this contact state
 };
 
-/// 1 / (l_k + l_i), and the same with the conjugate of l_i. 0 for pairs whose sum is small relative to the
-/// run: these are listed in `slow`.
+/// direct: 1 / (l_k + l_i) of all pairs of roots; conjugate: the same with the conjugate of l_i. 0 for pairs whose sum is so
+/// small that the product of both modes hardly changes during the run; these pairs are listed in `slow`.
 struct RootSums {
   Eigen::MatrixXcd direct, conjugate;
   struct Slow {
     Eigen::Index k, i;
     bool conjugate;
-    std::complex<double> loss;  ///< entry of DampedState::loss, not divided by the sum of roots
+    std::complex<double> loss;  ///< entry of DampedState::loss, but not divided by the sum of roots
   };
   std::vector<Slow> slow;
 };
@@ -49,11 +50,11 @@ struct DampedState {
   DampedModes modes;
   std::vector<ModalTerm> terms;  ///< dampers of the structure first
   std::vector<ContactRows> contacts;
-  std::vector<Eigen::Index> rigid;  ///< indices of rigid terms
+  std::vector<Eigen::Index> rigid;  ///< indices of the rigid terms in `terms`
   Eigen::MatrixXd from_forces;      ///< rigid x n: (V^T U)^-1 V^T
   Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes = 1
   RootSums sums;
-  /// Dissipation by the rates of two modes, divided by the sum of their roots.
+  /// Dissipated power of the rates of two modes, divided by the sum of their roots, so that it gives the work.
   Eigen::MatrixXcd loss, loss_conjugate;
   [[nodiscard]] std::size_t bytes() const;
 };
@@ -65,11 +66,11 @@ class DampedSystem {
   /// Both arguments must outlive the object.
   DampedSystem(const Model& model, const UnconstrainedBasis& basis, double t_end);
 
-  /// Data of a state, from the cache or new; its modes may have failed.
+  /// Data of a contact state, from the cache or newly computed. Check modes.failure before use.
   [[nodiscard]] std::shared_ptr<const DampedState> state(const contact::ContactStates& states);
-  /// Number of states computed.
+  /// Number of contact states whose modes were computed, not taken from the cache.
   [[nodiscard]] long made() const { return made_; }
-  /// c_j; dampers(): the dashpots d_i; damped(): there is any damping.
+  /// c_j of all unconstrained modes; dampers(): the dashpots d_i; damped(): true if there is any damping.
   [[nodiscard]] const Vector& decay() const { return decay_; }
   [[nodiscard]] const std::vector<ModalTerm>& dampers() const { return dampers_; }
   [[nodiscard]] bool damped() const { return damped_; }

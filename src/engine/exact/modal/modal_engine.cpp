@@ -15,10 +15,10 @@
 namespace signorini::modal {
 namespace {
 
-constexpr std::size_t max_parts = 256;   // limit for parts of a step: each holds the amplitudes of all modes
-constexpr int max_touches = 5;           // warnings of the same kind
-constexpr double lost_in_modes = 1e-12;  // limit for the error of a round trip: spectrum.cpp, damped_flow.cpp
-constexpr int max_corrections = 4;       // corrections of an event time; one suffices unless two guards graze
+constexpr std::size_t max_parts = 256;   // limit of the parts of a step: each stores all amplitudes
+constexpr int max_touches = 5;           // number of warnings about touches
+constexpr double lost_in_modes = 1e-12;  // limit of the error of a conversion to modes and back
+constexpr int max_corrections = 4;       // limit of corrections of an event time; one is usually enough
 
 }  // namespace
 
@@ -33,7 +33,7 @@ ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& struc
       taylor_(model, structure, systems, t_end, {false, use.step_seed}),
       turning_points_(model.contacts.size()),
       peaks_(use.peaks) {
-  resolves_low_flights = true;  // the leading derivative follows a guard that leaves zero
+  resolves_low_flights = true;  // a guard that leaves zero is followed by its leading derivative
   if (!basis_.failure().empty()) return;
   if (proportional_refusal(model).empty()) {
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
@@ -53,8 +53,8 @@ void ModalEngine::warn_of_fallback(double t, const std::string& why) {
                                  model::time_in_scene_units(model_, t), why));
 }
 
-/// Continues a segment with the series, which starts at the segment's beginning and repeats the reported
-/// part.
+/// Continues a segment with the Taylor series. The series starts at the beginning of the segment; its steps up to t_, which
+/// were already reported, are skipped.
 engine::Step ModalEngine::fall_back_to_series() {
   warn_of_fallback(t_, "a guard stays too close to zero for the error bounds of the modal flow");
   modal_ = false;
@@ -68,8 +68,7 @@ engine::Step ModalEngine::fall_back_to_series() {
 std::string ModalEngine::start_modes(const engine::Segment& segment) {
   if (!basis_.failure().empty()) return basis_.failure();
   const decide::Decision& decision = *segment.decision;
-  // Most decisions do not change the motion. Then q is kept, without the rounding of a conversion to u and
-  // back.
+  // Most decisions do not change the motion. Then q_ and rate_ stay valid, and a conversion with rounding errors is avoided.
   if (!modal_ || q_.size() == 0 || decision.u != end_.u || decision.v != end_.v) {
     q_ = basis_.amplitudes(decision.u);
     rate_ = basis_.amplitudes(decision.v);
@@ -94,8 +93,8 @@ void ModalEngine::start(const engine::Segment& segment) {
   ++restarts_;
 }
 
-/// Updates cancellation_. Responses of slow modes to loads have terms far greater than the motion, which
-/// cancel. The ratio is that of their rounding to the error of a round trip through the modes.
+/// Updates cancellation_: the rounding error due to terms that cancel, relative to the admissible error of a conversion to
+/// modes and back. Responses of slow modes to loads are sums of terms far greater than the motion.
 void ModalEngine::update_cancellation() {
   const motion::StructureEnergy energy = energy_of(q_, rate_);
   max_velocity_ = std::max(max_velocity_, std::sqrt(2.0 * (energy.kinetic + energy.elastic)));
@@ -120,8 +119,8 @@ void ModalEngine::warn_of_touches(const Passage& passage, double begin) {
                       model::time_in_scene_units(model_, begin)));
 }
 
-/// Time from here to the root of the guard with u, v and the forces that the decision will compute, and its
-/// uncertainty by the rounding of the modes.
+/// Time from t_ to the root of the guard, computed with the forces that the decision will use, and the uncertainty of this time
+/// due to the rounding of the modes.
 ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motion::Point& point) const {
   const std::size_t c = model_.layout.contact_of_guard(slot);
   const ContactMotion now = motion::motion_of(model_.contacts[c], c, *segment_.forcing, t_, point);
@@ -131,8 +130,8 @@ ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motio
           -rounding::many_operations * flow_->magnitude(slot, now_) / slope};
 }
 
-/// Moves the end of the last part to the root of the guard with forces computed from u and v. In modes the
-/// guard is zero only up to the rounding of the modes, which exceeds the noise of the decision. Returns the
+/// Moves the end of the last part to the root of the guard, with forces computed from u and v as in the decision. In modes the
+/// guard is zero only up to the rounding of the modes, which exceeds the rounding bound of the decision. Returns the
 /// uncertainty of the time.
 double ModalEngine::refine_crossing(std::size_t slot) {
   Part& part = parts_.back();
@@ -176,7 +175,7 @@ engine::Step ModalEngine::advance() {
     if (!std::isfinite(passage.length)) {
       step.kind = engine::Step::Kind::failed;
       step.end = t_;
-      step.reason = "the motion overflows";
+      step.reason = "the motion overflows: it is not finite";
       return step;
     }
     warn_of_touches(passage, t_);
@@ -200,7 +199,7 @@ engine::Step ModalEngine::advance() {
     if (parts_.size() >= max_parts) break;
   }
   for (const auto& [kind, time] : last_turning_times_)
-    if (time < t_) turning_times_.push_back(time);  // the event was moved later
+    if (time < t_) turning_times_.push_back(time);  // not after the refined event
   std::sort(turning_times_.begin(), turning_times_.end());
   step.end = t_;
   step.resolution = std::max(step.resolution, motion::resolution_at(t_, parts_.back().length));
@@ -212,7 +211,7 @@ engine::Step ModalEngine::advance() {
 ModalPoint ModalEngine::at(double t) const {
   if (t == t_) return now_;
   ModalPoint point;
-  if (t > t_) {  // the event was moved
+  if (t > t_) {  // after the refined event
     flow_->advance(now_, t - t_, point);
     return point;
   }
@@ -223,7 +222,7 @@ ModalPoint ModalEngine::at(double t) const {
   return point;
 }
 
-/// 1/2 (q'^2 + omega^2 q^2), in which no terms cancel.
+/// Energy 1/2 (q'^2 + omega^2 q^2); no terms of this sum cancel.
 motion::StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
   return {0.5 * rate.squaredNorm(), 0.5 * basis_.omega_squared().dot(q.cwiseAbs2())};
 }
@@ -241,14 +240,15 @@ ModalEngine::Motion ModalEngine::motion(const ModalPoint& z, bool accelerations)
   return m;
 }
 
-/// Computes forces and energy from known u and v.
+/// Computes the forces and the energy of a point whose u and v are known.
 void ModalEngine::fill_rest(const ModalPoint& z, const Motion& motion, motion::Point& point) const {
   point.forces.resize(model_.force_count());
   flow_->forces(z, point);
   point.energy = energy_of(motion.q, motion.rate);
 }
 
-/// Computes u, v, forces, and a if the motion contains accelerations; stores q at the end of the step.
+/// Computes u, v, forces and energy of the point, and a if the motion contains accelerations. If the point is end_, also stores
+/// q_ and rate_.
 void ModalEngine::fill(const ModalPoint& z, Motion&& motion, motion::Point& point) {
   if (motion.change.size() > 0) {
     basis_.motions({&motion.q, &motion.rate, &motion.change}, {&point.u, &point.v, &point.a});
@@ -274,7 +274,7 @@ ModalEngine::Rows ModalEngine::rows_of(std::vector<int> dofs) const {
   return {std::move(dofs), std::move(shapes)};
 }
 
-/// Same for some rows, with bitwise equal results; all other entries are NaN.
+/// Computes some entries of u, v and a, bitwise equal to those of fill(). All other entries are NaN.
 void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion,
                             motion::Point& point) const {
   Vector u, v, a;
@@ -344,7 +344,7 @@ engine::StepFacts ModalEngine::facts() const {
     return facts;
   }
   facts = taylor_.facts();
-  facts.contact_turning_points = nullptr;  // points are computed as a whole
+  facts.contact_turning_points = nullptr;  // evaluation computes all contacts
   return facts;
 }
 
@@ -352,9 +352,9 @@ std::optional<engine::FastModeBound> ModalEngine::fast_mode_bound(double omega) 
   return flow_->fast_mode_bound(parts_.front().at, t_ - parts_.front().begin, omega);
 }
 
-/// Each amplitude is a sum over the whole structure, so its rounding error is relative to |q|, not to the
-/// amplitude. For velocities and accelerations it is larger by w and w^2, w the highest frequency. Forces:
-/// those of springs and dashpots.
+/// Each amplitude is a sum over the whole structure, so its rounding error is relative to |q|, not to the amplitude. The errors
+/// of velocities and accelerations are larger by the factors w and w^2, where w is the highest circular frequency. Contact
+/// forces are bounded by those of springs and dashpots.
 engine::FastModeBound ModalEngine::term_sizes() const {
   const Motion m = motion(parts_.front().at, false);
   const auto norm = [](const Vector& of) { return of.norm(); };

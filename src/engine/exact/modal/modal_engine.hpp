@@ -1,12 +1,11 @@
-// modal_engine.hpp: engine `exact` in modes: its cost depends on the motion, not on the mesh.
+// modal_engine.hpp: engine `exact` in modes: its time per step depends on the motion, hardly on the mesh.
 //
-//   start     q = Phi^T M u,  z = Y q
-//   advance   proof that an interval contains no event, z in closed form
+//   start     unconstrained modes q = Phi^T M u,  modes of the contact state z = Y q
+//   advance   find an interval that provably contains no event; z at its end in closed form
 //   event     q = X z,  u = Phi q
 //
-// The Taylor series of ExactEngine takes segments that the modes cannot follow: with forces that they do not
-// represent, or with modes that are not accurate enough. Such segments are counted, and the first one is
-// reported.
+// ExactEngine's Taylor series takes the segments that modes cannot: segments with forces that have no closed form in modes, and
+// segments whose modes are not accurate enough. Such segments are counted, and a warning reports the first of them.
 #pragma once
 
 #include "engine/exact/exact_engine.hpp"
@@ -14,25 +13,25 @@
 
 namespace signorini::modal {
 
-/// Intended use of the steps.
+/// Options of ModalEngine.
 struct ModalOptions {
   SharedModalData* share = nullptr;              ///< data shared with a listener, or null
-  bool peaks = true;                             ///< turning points of contacts are searched
-  std::uint64_t step_seed = 0;                   ///< seed for steps taken in series
-  std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched; nullopt: all
+  bool peaks = true;                             ///< search turning points of the contacts
+  std::uint64_t step_seed = 0;                   ///< seed of random step lengths of the Taylor series
+  std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched(); nullopt: all
 };
 
 class ModalEngine final : public engine::Stepper, public engine::DenseOutput, private engine::FastModes {
  public:
-  /// All arguments except t_end must outlive the object. Computes the unconstrained modes; if there are none,
-  /// the series follows the whole motion.
+  /// All arguments except t_end must outlive the object. Computes the unconstrained modes; if this fails, the Taylor series
+  /// takes all segments.
   ModalEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
               double t_end, const ModalOptions& use = {});
 
   void start(const engine::Segment& segment) override;
   [[nodiscard]] engine::Step advance() override;
   [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
-  /// Inside a step the accelerations are omitted, which saves two thirds of the time.
+  /// Omits the accelerations inside a step, which saves two thirds of the time.
   void evaluate(double t, motion::Point& point) override;
   void evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) override;
   void accelerate(double t, motion::Point& point) override;
@@ -45,7 +44,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
     return modal_ ? 0.0 : taylor_.guard_error(guard, motion, contact);
   }
   [[nodiscard]] engine::StepFacts facts() const override;
-  /// The uncoupled modes in which the engine follows motions; null: there are none, or the modes are complex.
+  /// The uncoupled modes that the engine uses. Null if it uses complex modes or none.
   [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
   [[nodiscard]] engine::StepperReport report() override;
 
@@ -55,6 +54,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   [[nodiscard]] double form_norm(const Combination& form) const override {
     return basis_.amplitudes_of(form).norm();
   }
+  /// A part of a step, with the motion at its beginning.
   struct Part {
     double begin = 0.0, length = 0.0;
     ModalPoint at;
@@ -64,13 +64,12 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   [[nodiscard]] std::string start_modes(const engine::Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
   [[nodiscard]] motion::StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
-  /// Amplitudes of the unconstrained modes, their rates and accelerations; change: empty if no accelerations
-  /// are needed.
+  /// Amplitudes q of the unconstrained modes, their rates, and their accelerations (change; empty if not needed).
   struct Motion {
     Vector q, rate, change;
   };
   [[nodiscard]] Motion motion(const ModalPoint& z, bool accelerations) const;
-  /// Indices of entries of u, and their rows of Phi.
+  /// Some degrees of freedom and their rows of Phi.
   struct Rows {
     std::vector<int> dofs;
     RowMatrix shapes;
@@ -89,11 +88,11 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
-  std::shared_ptr<ModalCache::Entry> kept_;  // null: no ModalCache is used
+  std::shared_ptr<ModalCache::Entry> kept_;  // null if no ModalCache is used
   std::unique_ptr<UnconstrainedBasis> own_basis_;
   const UnconstrainedBasis& basis_;
   Rows watched_, of_contacts_;
-  std::unique_ptr<ModalFlow> flow_;  // null without unconstrained modes
+  std::unique_ptr<ModalFlow> flow_;  // null if there are no unconstrained modes
   exact::ExactEngine taylor_;
   events::TurningPointDetector turning_points_;
   bool peaks_;
@@ -103,12 +102,12 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   std::vector<Part> parts_;  // parts of the last step
   ModalPoint now_;           // point at the end of the last step
   double t_ = 0.0;
-  Vector q_, rate_;  // at the end of the last step
+  Vector q_, rate_;  // amplitudes and rates at the end of the last step
   motion::Point end_;
-  // Largest displacements and velocities so far, in the norm of M.
+  // Largest norms |u|_M and |v|_M of the motion so far.
   double max_displacement_ = 0.0, max_velocity_ = 0.0;
-  double cancellation_ = 1.0;  // ratio for the last step: update_cancellation()
-  double works_end_ = 0.0;     // time up to which works were added
+  double cancellation_ = 1.0;  // see update_cancellation(); for the last step
+  double works_end_ = 0.0;     // end of the last interval of integrate()
   ModalPoint works_point_;
   bool has_works_ = false;
   LastTurningTimes last_turning_times_;  // turning points of the last step

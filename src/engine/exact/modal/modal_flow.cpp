@@ -5,7 +5,8 @@
 namespace signorini::modal {
 namespace {
 
-// Chosen: the transient of a search takes about 40 periods; runs to a section are short, and their works are not used.
+// Chosen for orbit searches: the transient takes about 40 periods; later runs to a section are short, and their works are not
+// used.
 constexpr double headroom = 8.0, much_longer = 1e4;
 
 }  // namespace

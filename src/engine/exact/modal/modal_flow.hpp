@@ -1,6 +1,6 @@
-// modal_flow.hpp: interface of a method by which engine `exact` follows a segment in modes.
+// modal_flow.hpp: interface of a method that computes the motion in a segment in modes, for engine `exact`.
 //
-//   start -> pass -> advance -> rearm -> pass ... ;   motion, forces and works at any point in between
+//   start -> pass -> advance -> rearm -> pass ...       motion, forces and works: at any point in between
 //
 // There are two methods: uncoupled modes for damping proportional to the mass (proportional_flow.hpp), and complex
 // modes for all other linear laws (damped_flow.hpp).
@@ -22,19 +22,19 @@ namespace signorini::modal {
 
 class ModalSystem;
 
-/// An interval without an event, or up to the first one.
+/// An interval that contains no event before its end.
 struct Passage {
   double length = 0.0;
-  std::optional<std::size_t> triggered;  ///< slot of the guard that reaches zero at its end
-  bool unseen = false;                   ///< TriggeredGuard::never_positive
-  std::vector<std::size_t> touches;      ///< slots whose guards touch zero within rounding
+  std::optional<std::size_t> triggered;  ///< slot of the guard that reaches zero at the end; nullopt: none
+  bool unseen = false;                   ///< see TriggeredGuard::never_positive
+  std::vector<std::size_t> touches;      ///< slots of guards that touch zero within rounding in the interval
 };
 
 /// Time of the last turning point of each TurningPointDetector::TurningPoint::kind.
 using LastTurningTimes = std::map<std::size_t, double>;
 
-/// Magnitudes, in the norm of M, of the terms whose sums are the amplitudes of the unconstrained modes, their
-/// rates, and omega times the amplitudes.
+/// Magnitudes, in the norm of M, of the terms that are summed to the amplitudes of the unconstrained modes, their rates, and
+/// omega times the amplitudes.
 struct SumTerms {
   double amplitude = 0.0, rate = 0.0, omega_amplitude = 0.0;
 };
@@ -42,56 +42,56 @@ struct SumTerms {
 class ModalFlow {
  public:
   virtual ~ModalFlow() = default;
-  /// q, rate: amplitudes of the unconstrained modes at the beginning, and their rates; now: receives the same
-  /// motion in this flow's modes. The segment must live until the next start. Returns the reason why the
-  /// segment cannot be followed; empty: it can.
+  /// Starts a segment, which must stay valid until the next start. q, rate: amplitudes of the unconstrained modes and their
+  /// rates at its beginning. now: receives the same motion in the modes of the flow. Returns the reason why the flow cannot
+  /// take the segment, or an empty string.
   [[nodiscard]] virtual std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                           ModalPoint& now) = 0;
-  /// The next interval from `at`, of length `remaining` at most, for which the proof succeeds.
+  /// Longest interval from `at` that provably contains no event before its end; at most `remaining` long.
   [[nodiscard]] virtual Passage pass(const ModalPoint& at, double remaining) = 0;
-  /// Called after a passage without an event: updates the armed guards.
+  /// Called after a passage without an event: arms waiting guards that are clearly positive at `at`.
   virtual void rearm(const ModalPoint& at) = 0;
-  /// The motion `time` later, in closed form.
+  /// Computes the motion `to`, a time `time` after `from`, in closed form.
   virtual void advance(const ModalPoint& from, double time, ModalPoint& to) const = 0;
-  /// Amplitudes of the unconstrained modes, their rates and, if change is not null, their accelerations.
+  /// Writes the amplitudes of the unconstrained modes, their rates and, if change is not null, their accelerations.
   virtual void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const = 0;
-  /// N and T of all contacts, at a point whose u and v are known.
+  /// Writes N and T of all contacts into a point whose u and v are known.
   virtual void forces(const ModalPoint& at, motion::Point& point) const = 0;
-  /// Rate of a guard at time t.
+  /// Time derivative of a guard at time t.
   [[nodiscard]] virtual double slope(std::size_t slot, const ModalPoint& at, const motion::Point& point,
                                      double t) const = 0;
-  /// Sum of the magnitudes of a guard's terms.
+  /// Sum of the magnitudes of the terms of a guard, to which its rounding error is relative.
   [[nodiscard]] virtual double magnitude(std::size_t slot, const ModalPoint& at) const = 0;
-  /// Finds extremes of N, T, g and ut beyond their earlier ranges in the last passage, which begins at time
-  /// `begin`. observed: the passage begins with a step, whose beginning was already examined.
+  /// Finds extremes of N, T, g and ut beyond their earlier ranges in the last passage, from `from` at time `begin`. observed:
+  /// the passage is the first of a step, so its beginning was already examined.
   virtual void find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
                                    events::TurningPointDetector& turning, LastTurningTimes& turns) = 0;
-  /// Adds the works between two points of the segment, which are `time` apart.
+  /// Adds the works between two points of the segment. time: interval between both.
   virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time,
                          motion::WorkIntegrals& works) const = 0;
-  /// Same meaning as FastModes::fast_mode_bound, for the given time from `from` on.
+  /// Same meaning as FastModes::fast_mode_bound(), for the interval of length `time` from `from`.
   [[nodiscard]] virtual std::optional<engine::FastModeBound> fast_mode_bound(const ModalPoint& from,
                                                                              double time,
                                                                              double omega) const = 0;
-  /// The uncoupled modes of contact states; null: the flow uses complex modes.
+  /// The uncoupled modes of the contact states. Null if the flow uses complex modes.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
-  /// StepFacts::eigenvector_condition of the segment.
+  /// See StepFacts::eigenvector_condition; for the current segment.
   [[nodiscard]] virtual double eigenvector_condition() const = 0;
-  /// Magnitudes of the terms in the sums over modes; 0: the terms do not cancel.
+  /// Magnitudes of the terms in the sums over modes. Zero if the terms do not cancel.
   [[nodiscard]] virtual SumTerms terms(const ModalPoint& /*at*/) const { return {}; }
   /// Number of contact states whose modes were computed.
   [[nodiscard]] virtual long states_made() const = 0;
 };
 
-// Unconstrained modes, and complex modes of contact states, stored for all runs of one structure.
+// Cache of unconstrained modes, and of complex modes of contact states, for all runs of one structure.
 //
-//   ModalCache memory;      ListenerNeeds::modal->memory = &memory: successive runs, e.g. of orbits and their branches
+//   ModalCache memory;      ListenerNeeds::modal->memory = &memory: for successive runs, e.g. of orbits and branches
 //
-// Computing the complex modes of a state takes as long as many periods of motion with them. They depend on
-// the structure alone, except for the choice of pairs of modes whose sum of roots is small relative to the
-// run (damped_system.hpp). Stored data are computed for runs 8 times as long as the first one. They are used
-// for runs up to this length, and for runs shorter by a factor of at most 1e4. In the shortest runs the works
-// of such pairs are less accurate; the motion is not affected.
+// Computing the complex modes of a contact state takes as long as many periods of motion in these modes. The modes depend on
+// the structure alone. Only the list of pairs with a small sum of roots (RootSums::slow in damped_system.hpp) depends on the
+// length of the run. Stored data are computed for 8 times the length of the first run. They are used for runs up to this
+// length, and for runs up to 1e4 times shorter. In the shortest runs the works of listed pairs are less accurate; the motion is
+// not affected.
 
 class ModalSystem;
 
@@ -101,46 +101,45 @@ class ModalCache {
     Entry(const Model& of, double longest) : model(of), basis(model), t_end(longest) {}
     Entry(const Entry&) = delete;
     Entry& operator=(const Entry&) = delete;
-    const Model model;  ///< load histories and start are unused; directions of loads count
+    const Model model;  ///< load directions are used; load histories and start are not
     const UnconstrainedBasis basis;
     const double t_end;
-    std::unique_ptr<DampedSystem> damped;  ///< created on request
+    std::unique_ptr<DampedSystem> damped;  ///< created on first use; null before
   };
 
-  /// Stored data for this structure, or new data; t_end: end of the run.
+  /// Returns the stored data if they fit this structure and the run length t_end, otherwise new data.
   [[nodiscard]] std::shared_ptr<Entry> entry_for(const Model& model, double t_end);
 
  private:
   std::shared_ptr<Entry> kept_;
 };
 
-/// Data shared by the engine and a listener of its run.
+/// Data that the engine shares with a listener of its run.
 struct SharedModalData {
-  ModalCache* memory = nullptr;  ///< from earlier runs; null: none
-  ModalSystem* modes = nullptr;  ///< set by the engine: its modes; null: none, or complex ones
+  ModalCache* memory = nullptr;  ///< data of earlier runs, or null
+  ModalSystem* modes = nullptr;  ///< set by the engine: its uncoupled modes; null if it has none
 };
 
 // Extreme values of N, T, g and ut within a passage, in modes.
 //
-//   1. places where an extreme may exceed the earlier range, from the slow modes
-//   2. there, steps whose fast part is of the size of rounding
+//   1. intervals in which an extreme beyond the earlier range is possible, from the slow modes and a bound on the fast modes
+//   2. in these intervals, steps so short that the fast modes contribute only rounding
 //
-// A proof (modal_proof.hpp, damped_proof.hpp) is a step of length step_length() from a point, with these
-// functions:
-//   length_without_turning(at, known, x_end)         part of [0, x_end] without an extreme beyond the ranges
-//   expand_for_turning(at, known, share, remaining)  a new step, with a fast part up to that share of the
+// A Proof (modal_proof.hpp, damped_proof.hpp) represents a step of length step_length() from a point. It has these functions:
+//   length_without_turning(at, known, x_end)         x up to which [0, x_end] contains no extreme beyond the ranges
+//   expand_for_turning(at, known, share, remaining)  makes a new step whose fast part is at most this share of the
 //                                                    ranges; returns its length
 //   find_turning_at_start(at, time, turning, turns)  extremes at the point `at`
 //   series(at)                                       slow parts of the contacts' quantities on the step
 
-/// Bounds on the contribution of fast modes, relative to the range of the quantity. To locate an extreme, it
-/// must be of the size of rounding. To exclude an extreme, it may be larger: a larger bound allows longer
-/// steps, but does not separate a value near the greatest one so far from a greater one. Chosen values.
+/// Admissible contribution of fast modes, relative to the range of the quantity; chosen. To locate an extreme, the contribution
+/// must be as small as rounding. To exclude an extreme, it may be larger: a larger limit allows longer steps, but cannot
+/// exclude an extreme if the quantity is close to its greatest value so far.
 inline constexpr double fine_fast_share = rounding::elimination, max_fast_share = 1e-4,
                         min_fast_share = 1e-10, fast_share_step = 10.0;
 
-/// advance(from, step, to): the closed form. begin: the time of `from`; observed: the passage begins with a segment,
-/// whose beginning was already examined.
+/// Finds the turning points in a passage of this length from `from` at time `begin`. advance(from, step, to) computes the
+/// motion in closed form. observed: the passage is the first of a step, so its beginning was already examined.
 template <class Proof, class Advance>
 void find_turning_points_in_passage(Proof& proof, const Advance& advance, const ModalPoint& from,
                                     double begin, double length, bool observed,
@@ -158,7 +157,7 @@ void find_turning_points_in_passage(Proof& proof, const Advance& advance, const 
   };
   double share = max_fast_share;
   for (bool moved = true; done < length;) {
-    // A quantity that was monotone up to here may have its extreme at this point.
+    // A quantity that was monotone in the last step may have its extreme at this point.
     if (moved) proof.find_turning_at_start(point, begin + done, turning, turns);
     const double look = proof.expand_for_turning(point, turning, share, length - done);
     const double safe =
@@ -175,7 +174,7 @@ void find_turning_points_in_passage(Proof& proof, const Advance& advance, const 
       share = std::max(min_fast_share, share / fast_share_step);
       continue;
     }
-    // At the end of the passage a slope may be only rounding and then has no direction.
+    // Stop at the end of the passage, where slopes may be only rounding and have no significant sign.
     if (!(done < length)) return;
     const double step = proof.expand_for_turning(point, turning, fine_fast_share, length - done);
     if (!(step > 0.0)) return;

@@ -1,10 +1,9 @@
-// modal_system.hpp: a structure and its contacts in its unconstrained modes, and in the modes of a contact
-// state.
+// modal_system.hpp: equations of a structure with contacts in its unconstrained modes, and in the modes of a contact state.
 //
 //   q'' + alpha q' + D q = Phi^T ( P - sum_k ( n_k N_k + t_k T_k ) ),            u = Phi q
-//   N = N_g g + N_c,  T = T_g g + T_u ut + T_c in a state:   z'' + alpha z' + L z = Y p,   q = X z
+//   with N = N_g g + N_c and T = T_g g + T_u ut + T_c in a contact state:   z'' + alpha z' + L z = Y p,   q = X z
 //
-// alpha: the damping is alpha M. D + U V^T = X L Y (spectrum.hpp).
+// The damping is alpha M, and D + U V^T = X L Y (spectrum.hpp).
 #pragma once
 
 #include <memory>
@@ -18,7 +17,7 @@
 
 namespace signorini::modal {
 
-/// Forces of one contact as functions of its gap and ut; coefficients are zero if a state has no force.
+/// Forces of one contact as linear functions of its gap and ut. All coefficients of a force that does not act are zero.
 struct ForceLaw {
   double N_gap = 0.0, N_constant = 0.0;
   double T_gap = 0.0, T_ut = 0.0, T_constant = 0.0;
@@ -28,14 +27,14 @@ struct ForceLaw {
   [[nodiscard]] double N_rate(double vn) const { return N_gap * vn; }
   [[nodiscard]] double T_rate(double vn, double vt) const { return T_gap * vn + T_ut * vt; }
 };
-/// applied: constant applied normal force of a slider.
+/// Forces of a contact in this state. applied: constant applied normal force of a slider.
 [[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double applied);
 
-/// Reason why damping or contacts couple the modes of contact states; empty: they do not.
+/// Reason why damping or contacts couple the modes of contact states. Empty: the modes are uncoupled.
 [[nodiscard]] std::string coupling_refusal(const Model& model);
-/// Reason why a scene cannot be followed in uncoupled modes; empty: it can.
+/// Reason why uncoupled modes cannot represent a scene. Empty: they can.
 [[nodiscard]] std::string proportional_refusal(const Model& model);
-/// Number of springs of contacts that act if all contacts are closed and stick.
+/// Number of contact springs that act if all contacts are closed and stick.
 [[nodiscard]] std::size_t max_state_springs(const Model& model);
 
 /// The modes of one combination of contact states.
@@ -43,16 +42,16 @@ struct StateModes {
   Spectrum spectrum;
   std::vector<Amplitudes> normal, tangent;            ///< coefficients of each mode in n_k . u and t_k . u
   std::vector<Amplitudes> from_normal, from_tangent;  ///< Y n_k, Y t_k
-  std::vector<Amplitudes> load, from_load;            ///< same for each load's direction
-  ModePairs pairs;                                    ///< if a contact slips and X is written out
+  std::vector<Amplitudes> load, from_load;            ///< coefficients of each mode in load_i . u; Y load_i
+  ModePairs pairs;                                    ///< computed if a contact slips and X is stored explicitly
 };
 
-/// Y p: modal forces by loads and the constant parts of contact forces in the state, from t on.
+/// Modal forces Y p due to the loads after time t and the constant parts of the contact forces in the contact state.
 [[nodiscard]] Amplitudes constant_forces(const Model& model, const StateModes& state,
                                          const contact::ContactStates& states, const motion::Forcing& forcing,
                                          double t);
 
-/// Limits of the cache of states, for motions that return to earlier states.
+/// Limits of the cache of modes, for motions that return to earlier contact states.
 inline constexpr base::CacheLimits max_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {
@@ -62,9 +61,9 @@ class ModalSystem {
 
   [[nodiscard]] double alpha() const { return alpha_; }
   [[nodiscard]] const UnconstrainedBasis& basis() const { return basis_; }
-  /// The modes of a state, from the cache or new. Its spectrum may have failed.
+  /// Modes of the contact states, from the cache or newly computed. Check the failure() of the spectrum before use.
   [[nodiscard]] std::shared_ptr<const StateModes> state(const contact::ContactStates& states);
-  /// Number of states computed.
+  /// Number of contact states whose modes were computed, not taken from the cache.
   [[nodiscard]] long made() const { return made_; }
 
  private:

@@ -1,8 +1,7 @@
-// complex_lanes.hpp: complex numbers whose products are four multiplications, and vectorised sums of them.
+// complex_lanes.hpp: complex numbers with fast products, and vectorised sums of complex numbers.
 //
-// std::complex must treat infinities in products and quotients, which takes several times as long as the
-// arithmetic. Infinities do not occur here. Functions like inverse() and size_of() allow a kernel to be
-// written once for real and complex numbers.
+// std::complex checks products and quotients for infinities, which takes several times as long as the arithmetic. Infinities do
+// not occur here. With functions like inverse() and size_of(), one kernel serves real and complex numbers.
 #pragma once
 
 #include <cmath>
@@ -42,7 +41,7 @@ template <class R>
 [[nodiscard]] inline long double size_of(long double a) { return std::abs(a); }
 template <class R>
 [[nodiscard]] R size_of(BasicComplex<R> a) {
-  constexpr R least = R(1e-250), most = R(1e250);  // squares lose no digits between; hypot is slow
+  constexpr R least = R(1e-250), most = R(1e250);  // squares between these keep all digits; hypot is slow
   const R square = a.re * a.re + a.im * a.im;
   return square > least && square < most ? std::sqrt(square) : std::hypot(a.re, a.im);
 }
@@ -50,7 +49,7 @@ template <class R>
 [[nodiscard]] inline bool is_zero(Complex a) { return a.re == 0.0 && a.im == 0.0; }
 [[nodiscard]] inline double real_part(double a) { return a; }
 [[nodiscard]] inline double real_part(Complex a) { return a.re; }
-/// Contribution of a mode's term to a real quantity: the term, or the sum of the term and its conjugate.
+/// Contribution of a mode to a real quantity: its real term a, or the sum of a complex term and its conjugate.
 [[nodiscard]] inline double real_contribution(double a) { return a; }
 [[nodiscard]] inline double real_contribution(Complex a) { return 2.0 * a.re; }
 [[nodiscard]] inline Complex complex_sqrt(Complex a) {
@@ -61,24 +60,24 @@ template <class R>
   return a.re >= 0.0 ? Complex{re, a.im >= 0.0 ? im : -im} : Complex{im, a.im >= 0.0 ? re : -re};
 }
 
-// Sums over the poles of a spectrum near one value l = home + own.
+// Sums over the poles D_i of a spectrum, for one value l = (pole `home`) + own.
 //
 //   one_i = 1/(l - D_i),   two_i = one_i^2,   sum_i one_i w_i,   sum_i two_i w_i
 //
-// Real and imaginary parts are in separate arrays. Every sum is computed as four partial sums.
+// Real and imaginary parts are in separate arrays. Every sum is computed as four partial sums, so that it can be vectorised.
 
-/// Writes 1/(l - D_i) to re, im. base + tiny: the poles D_i; home_base + home_tiny: the pole `home`.
+/// Writes 1/(l - D_i), i < n, to re and im. base + tiny: the poles D_i; home_base + home_tiny: the pole `home`.
 void inverse_distances(const double* base, const double* tiny, std::ptrdiff_t n, double home_base,
                        double home_tiny, const Complex& own, double* re, double* im);
 /// Writes the squares of n complex numbers.
 void square_all(const double* re, const double* im, std::ptrdiff_t n, double* square_re, double* square_im);
-/// sum_i (re_i + i im_i) w_i
+/// Returns the sum of (re_i + sqrt(-1) im_i) w_i.
 [[nodiscard]] Complex weighted_sum(const double* re, const double* im, const double* w, std::ptrdiff_t n);
-/// out_i = sum_a small_a side_ia / (D_i - l); side: n x rank, by columns.
+/// Writes out_i = sum_a small_a side_ia / (D_i - l) for real l. side: n x rank, stored by columns.
 void cauchy_vector(const double* base, const double* tiny, std::ptrdiff_t n, double home_base,
                    double home_tiny, double own, const double* small, const double* side, std::ptrdiff_t rank,
                    double* out);
-/// sum_i (re_i + i im_i)
+/// Returns the sum of re_i + sqrt(-1) im_i.
 [[nodiscard]] Complex complex_sum(const double* re, const double* im, std::ptrdiff_t n);
 
 }  // namespace signorini::modal

@@ -34,7 +34,7 @@ void DampedFlow::forces(const ModalPoint& at, motion::Point& point) const {
 
 namespace {
 
-constexpr double worst_loss_of_trip = 1e-12, worst_dependence = 1e4;  // as for real modes, spectrum.cpp
+constexpr double worst_loss_of_trip = 1e-12, worst_dependence = 1e4;  // limits as in spectrum.cpp
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
   Eigen::VectorXd q(n), rate(n);
   double entry = 0.5;
   for (Eigen::VectorXd* x : {&q, &rate})
-    for (Eigen::Index i = 0; i < n; ++i) {  // a logistic map: all modes, the same in every run
+    for (Eigen::Index i = 0; i < n; ++i) {  // logistic map: excites all modes, the same in every run
       entry = 3.99 * entry * (1.0 - entry) + 1e-3;
       (*x)[i] = 2.0 * entry - 1.0;
     }

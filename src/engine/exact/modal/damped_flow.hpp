@@ -1,4 +1,4 @@
-// damped_flow.hpp: the flow in the complex modes of a contact state, for all linear laws and histories.
+// damped_flow.hpp: ModalFlow in the complex modes of a contact state, for all linear laws and all histories in closed form.
 //
 //   motion: damped_motion.hpp, proof: damped_proof.hpp, works: damped_works.hpp
 #pragma once
@@ -60,13 +60,13 @@ class DampedFlow final : public ModalFlow {
   long made_before_;
 };
 
-// Test of the accuracy of complex modes: a motion converted to modes and back is unchanged.
+// Accuracy test of complex modes: a motion that is converted to modes and back must be unchanged.
 //
 //   | Re X y - q |,  | Re X L y - q' |   for   y = Y_q q + Y_r q',   relative to a motion of size 1
 
-/// Converts a motion that satisfies the constraints, with an energy of about 1 in each mode, to modes and
-/// back. Sets round_trip, and failure if the error is too large or the modes are nearly dependent. The modes
-/// must have the rotations of the pencil.
+/// Tests the modes with a motion that satisfies the constraints and has an energy of about 1 in each mode. Sets round_trip, and
+/// failure if the error is too large or the modes are nearly linearly dependent. The modes must be those with the rotations of
+/// the pencil.
 void test_round_trip(const DampedPencil& pencil, DampedModes& modes);
 
 }  // namespace signorini::modal

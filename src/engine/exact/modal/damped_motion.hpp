@@ -1,11 +1,11 @@
-// damped_motion.hpp: the motion of a segment in complex modes, and every quantity on it in closed form.
+// damped_motion.hpp: the motion of a segment in complex modes, with all quantities in closed form.
 //
 //   q = Q b(x) + Re sum_k shape_k y_k,   y_k(x) = e^(l_k x) y_k(0),   x = t - t0
-//   f = Re sum_k row_k y_k + time_coefficients . b(x)          gaps, slides, forces, guards
+//   f = Re sum_k row_k y_k + time_coefficients . b(x)          f: gap, ut, force or guard
 //
-// Q is the response to loads and moving constraints: the response of each mode (time_basis.hpp), and the
-// displacement u_c that constraints prescribe. The force of a constraint is the sum of those of the modes,
-// and the reaction to the loads p:
+// Q is the response to loads and moving constraints: the sum of the responses of all modes (time_basis.hpp) and of the
+// displacement u_c that constraints prescribe. The force of a constraint is the sum of the forces of all modes and of the
+// reaction to the loads p:
 //   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace signorini::modal {
 
-/// A quantity f of the equation above.
+/// A linear quantity f = Re sum_k row_k y_k + time_coefficients . b(x) of the motion.
 struct ModalQuantity {
   Eigen::VectorXcd row;
   TimeCoefficients time_coefficients;
@@ -36,7 +36,7 @@ struct ModalQuantity {
 
 class DampedMotion {
  public:
-  /// kept: system of a structure with the same matrices (modal_flow.hpp), or null.
+  /// kept: existing system of a structure with the same matrices (ModalCache), or null to create one.
   DampedMotion(const Model& model, const UnconstrainedBasis& basis, double t_end,
                DampedSystem* kept = nullptr)
       : model_(model),
@@ -45,7 +45,7 @@ class DampedMotion {
         own_(kept == nullptr ? std::make_unique<DampedSystem>(model, basis, t_end) : nullptr),
         system_(kept == nullptr ? *own_ : *kept) {}
 
-  /// Same meaning as ModalFlow::start.
+  /// See ModalFlow::start().
   [[nodiscard]] std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now);
   void advance(const ModalPoint& from, double time, ModalPoint& to) const;
@@ -58,7 +58,7 @@ class DampedMotion {
   [[nodiscard]] const TimeBasis& time() const { return time_; }
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const decide::Decision& decision() const { return *decision_; }
-  /// Q and its rate, n x b.
+  /// Q and its time derivative, n rows and one column for each function in b.
   [[nodiscard]] const Eigen::MatrixXd& forced_response() const { return forced_response_; }
   [[nodiscard]] const Eigen::MatrixXd& forced_response_rate() const { return forced_response_rate_; }
 
@@ -70,9 +70,9 @@ class DampedMotion {
   [[nodiscard]] ModalQuantity derivative(const ModalQuantity& f) const {
     return {f.row.cwiseProduct(root()), time_.derivative(f.time_coefficients)};
   }
-  /// Quantity of a form on a contact.
+  /// Quantity that a form has at a contact.
   [[nodiscard]] ModalQuantity quantity_of(const Form& form, std::size_t contact) const;
-  /// Quantity of a form on the structure, given in unconstrained modes.
+  /// Quantity of a form of the structure, which is given in unconstrained modes.
   [[nodiscard]] ModalQuantity quantity_of(const Vector& form) const {
     return {state_->modes.shape.transpose() * form, forced_response_.transpose() * form};
   }
@@ -80,15 +80,15 @@ class DampedMotion {
   [[nodiscard]] double value(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseProduct(at.y).sum().real() + f.time_coefficients.dot(time_.at(at.time));
   }
-  /// Same meaning as ModalFlow::fast_mode_bound, for the modes with |l| > omega.
+  /// See ModalFlow::fast_mode_bound(). Fast modes are those with |l| > omega.
   [[nodiscard]] engine::FastModeBound fast_mode_bound(const ModalPoint& from, double time,
                                                       double omega) const;
-  /// Sum of the magnitudes of the terms of f.
+  /// Sum of the magnitudes of the terms of f, to which its rounding error is relative.
   [[nodiscard]] double magnitude(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseAbs().dot(at.y.cwiseAbs()) +
            f.time_coefficients.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
   }
-  /// Same meaning as ModalFlow::terms.
+  /// See ModalFlow::terms().
   [[nodiscard]] SumTerms terms(const ModalPoint& at) const;
 
  private:
@@ -107,7 +107,7 @@ class DampedMotion {
   const decide::Decision* decision_ = nullptr;
   TimeBasis time_;
   Eigen::MatrixXd forced_response_, forced_response_rate_, change_;
-  Eigen::VectorXd lengths_, swings_;  // lengths of the shapes, and of omega times the shapes
+  Eigen::VectorXd lengths_, swings_;  // norms of the shapes, and of omega times the shapes
   Eigen::VectorXd place_lengths_, rate_lengths_, place_swings_;
   std::vector<ContactQuantities> contacts_;
 };

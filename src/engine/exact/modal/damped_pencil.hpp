@@ -1,9 +1,9 @@
-// damped_pencil.hpp: T(l) of damped_modes.hpp, and its roots.
+// damped_pencil.hpp: the matrix T(l) of damped_modes.hpp and its roots; and the band matrix K - s M.
 //
-//   T(l) (lambda, x_G) = 0,   l <- l - d^T T c / d^T T' c      d, c: approximate null vectors of T
+//   T(l) (lambda, x_G) = 0,   l <- l - d^T T c / d^T T' c      Newton step with approximate null vectors d, c of T
 //
-// Terms are scaled: springs by sqrt(k), constraints to length 1. Modes of equal poles are rotated so that as
-// few as possible are coupled to terms. A mode is in G if its pole is near l, otherwise in the sums.
+// Terms are scaled: springs by sqrt(k), constraints to length 1. Modes with equal poles are rotated so that as few as possible
+// are coupled to terms. A mode is in G if its pole is near l; otherwise T contains it in the sums.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,21 +19,21 @@
 
 namespace signorini::modal {
 
-// K - s M as a band, factored for any shift.
+// K - s M as a band matrix, factorised for any shift s.
 //
 //   P (K - s M) P^T = L D L^T,   negative pivots in D = number of omega_i^2 < s   (Sylvester)
 //
-// P orders the degrees of freedom so that the band is narrow (reverse Cuthill-McKee). R is double for
-// counting, and long double for accurate frequencies: the rounding error of a low frequency grows with the
-// highest one.
+// P orders the degrees of freedom so that the band is narrow (reverse Cuthill-McKee). The number type R is double for counting
+// frequencies, and long double for computing them, because the rounding error of a low frequency grows with the highest
+// frequency.
 
-/// Place of each degree of freedom in an order in which the band of both matrices is narrow.
+/// Position of each degree of freedom in an order in which both matrices have a narrow band.
 [[nodiscard]] std::vector<int> narrow_order(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
 template <class R>
 class BandPencil {
  public:
-  /// mass, stiffness: n x n, symmetric, both triangles stored; place: a permutation.
+  /// mass, stiffness: n x n, symmetric, both triangles stored; place: result of narrow_order().
   BandPencil(const SparseMatrix& mass, const SparseMatrix& stiffness, const std::vector<int>& place)
       : n_(place.size()) {
     for (const SparseMatrix* matrix : {&mass, &stiffness})
@@ -49,14 +49,14 @@ class BandPencil {
 
   [[nodiscard]] std::size_t size() const { return n_; }
 
-  /// Factors K - s M; returns the number of negative pivots.
+  /// Factorises K - s M. Returns the number of negative pivots.
   std::size_t factor(R s) {
     const std::size_t rows = width_ + 1;
     for (std::size_t p = 0; p < factor_.size(); ++p) factor_[p] = k_[p] - s * m_[p];
     std::size_t negative = 0;
     for (std::size_t j = 0; j < n_; ++j) {
       R* column = factor_.data() + j * rows;
-      // A zero pivot is one rounding away from either sign.
+      // A zero pivot may have either sign within rounding; it is replaced by a tiny positive one.
       if (column[0] == R(0))
         column[0] = std::numeric_limits<R>::epsilon() * (std::abs(k_[j * rows]) + R(1e-300L));
       if (column[0] < R(0)) ++negative;
@@ -73,7 +73,7 @@ class BandPencil {
     return negative;
   }
 
-  /// x := (K - s M)^-1 x with the last factors.
+  /// Solves x := (K - s M)^-1 x with the last factors.
   void solve(R* x) const {
     const std::size_t rows = width_ + 1;
     for (std::size_t j = 0; j < n_; ++j) {
@@ -125,7 +125,7 @@ class BandPencil {
   std::vector<R> m_, k_, factor_;  // columns of width + 1 entries, the diagonal first
 };
 
-/// Pivot that counts as zero, relative to the greatest pivot of T, or to 1; chosen.
+/// Limit below which a pivot of T counts as zero, relative to the greatest pivot, or to 1; chosen.
 inline constexpr long double singular_pencil = 1e-10L;
 
 class DampedPencil {
@@ -134,13 +134,13 @@ class DampedPencil {
   using Long = long double;
   using Wide = WideComplex;
 
-  /// T at some l, its derivative by l, and the modes in G.
+  /// T at one l, its derivative dT/dl, and the modes in G.
   struct Local {
     SmallMatrix<Wide> t{}, slope{};
     std::vector<Index> near;
-    Long unit = 1;  ///< displacements are in units of 1 / unit
+    Long unit = 1;  ///< x_G is in units of 1 / unit
     std::vector<Wide> kappa;
-    std::vector<Long> scale;  ///< scale of each term: forces are in units of 1 / scale
+    std::vector<Long> scale;  ///< of each term: lambda is in units of 1 / scale
     std::size_t size = 0;
   };
 
@@ -152,24 +152,26 @@ class DampedPencil {
   [[nodiscard]] std::size_t rank() const { return terms_.size(); }
   [[nodiscard]] const Eigen::VectorXd& omega_squared() const { return omega_squared_; }
   [[nodiscard]] const Eigen::VectorXd& decay() const { return decay_; }
-  /// Rotated and scaled terms: kappa = stiffness() + l damping(). Their lambda is that of the given term
-  /// divided by scale().
+  /// Rotated and scaled terms, with kappa = stiffness() + l damping(). Their lambda equals that of the given terms divided by
+  /// scale().
   [[nodiscard]] const std::vector<ModalTerm>& terms() const { return terms_; }
   [[nodiscard]] double stiffness(std::size_t term) const { return stiffness_[term]; }
   [[nodiscard]] double damping(std::size_t term) const { return damping_[term]; }
   [[nodiscard]] double scale(std::size_t term) const { return term_scale_[term]; }
-  /// Modes that are coupled to at least one term; uncoupled_modes(): all others.
+  /// Modes that are coupled to at least one term. uncoupled_modes(): all other modes.
   [[nodiscard]] const std::vector<Index>& coupled_modes() const { return coupled_; }
   [[nodiscard]] const std::vector<Index>& uncoupled_modes() const { return uncoupled_; }
-  /// First index of each group of equal poles and its rotation: given = vectors x rotated.
+  /// First index of each group of equal poles and the rotation R of its modes: q_given = R q_rotated.
   [[nodiscard]] const std::vector<std::pair<Index, Eigen::MatrixXd>>& rotations() const { return rotations_; }
 
+  /// P_j(l), see damped_modes.hpp.
   [[nodiscard]] Wide pole(Index j, Wide l) const { return l * l + l * decay_[j] + Wide(omega_squared_[j]); }
-  /// Roots of the coupled modes in doubles, from  x' = (0 1; -K -C) x  in the null space of the constraints.
+  /// Approximate roots of the coupled modes in double precision: eigenvalues of  x' = (0 1; -K -C) x  in the null space of the
+  /// constraints.
   [[nodiscard]] Eigen::VectorXcd starting_roots() const;
-  /// Computes T and its derivative. False: too many modes are in G.
+  /// Computes T(l) and its derivative. False: too many modes are in G.
   [[nodiscard]] bool assemble_at(Wide l, Local& local) const;
-  /// Refines a root by Newton steps; nullopt: they do not converge.
+  /// Refines a root by Newton steps. nullopt: no convergence.
   [[nodiscard]] std::optional<Wide> refined_root(Wide l) const;
 
  private:

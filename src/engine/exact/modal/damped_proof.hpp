@@ -1,8 +1,8 @@
-// damped_proof.hpp: intervals without a zero of a guard, in complex modes: the method of modal_proof.hpp for
-// any roots.
+// damped_proof.hpp: finds intervals that provably contain no zero of a guard, in complex modes. Method of modal_proof.hpp,
+// generalised to complex roots.
 //
 //   g(t + h x) = sum of modes with |l| h <= 4 (a polynomial in x) + time_coefficients . b + fast part,
-//   |fast part| <= sum |row_k y_k| e^max(0, Re l_k h)  over the other modes
+//   |fast part| <= sum |row_k y_k| e^max(0, Re l_k h)  over the modes with |l_k| h > 4
 #pragma once
 
 #include "engine/events/active_guards.hpp"
@@ -16,14 +16,14 @@ class DampedProof {
  public:
   explicit DampedProof(const DampedMotion& motion) : motion_(motion) {}
 
-  /// Called after motion.start.
+  /// Called after DampedMotion::start().
   void start();
   [[nodiscard]] Passage pass(const ModalPoint& at, double remaining);
   void rearm(const ModalPoint& at);
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at) const;
 
-  // Interface required by modal_flow.hpp.
+  // Functions of a Proof in modal_flow.hpp (find_turning_points_in_passage).
   [[nodiscard]] double step_length() const { return h_; }
   [[nodiscard]] double length_without_turning(const ModalPoint& at, const events::TurningPointDetector& known,
                                               double x_end) const;
@@ -37,10 +37,10 @@ class DampedProof {
   struct Watched {
     std::size_t slot = 0;
     double noise = 0.0;
-    ModalQuantity guard, leading_derivative;  // leading_derivative: of order ActiveGuards::leading
-    double now = 0.0;                         // value of guard or leading_derivative
+    ModalQuantity guard, leading_derivative;  // the second of order leading_order()
+    double now = 0.0;                         // value of the guard or of its leading derivative
   };
-  struct Part {  // a quantity on a step
+  struct Part {  // polynomial of a quantity on a step, its remainder, and bounds on the fast part
     std::vector<double> p;
     double rest = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;
   };
@@ -67,9 +67,9 @@ class DampedProof {
   Eigen::VectorXd amplitude_, size_;  // |y|, |l|
   Eigen::Index slow_ = 0;             // number of slow modes
   std::size_t count_ = 0;             // number of coefficients of the slow modes
-  double h_ = 0.0, turn_ = 0.0;  // turn_: largest |l| h of slow modes, and w h of slow waves of the forcing
+  double h_ = 0.0, turn_ = 0.0;  // turn_: largest |l| h of slow modes and w h of slow waves in b
   bool all_slow_ = false;        // the next step treats all modes as slow
-  Eigen::MatrixXcd terms_;       // y_k (l_k h)^j / j!, slow modes
+  Eigen::MatrixXcd terms_;       // y_k (l_k h)^j / j! of slow modes k
   std::vector<motion::ContactSeries> series_;
 };
 

@@ -1,12 +1,12 @@
-// damped_works.hpp: works and dissipations of an interval in complex modes, in closed form.
+// damped_works.hpp: works and dissipated energies in an interval, in complex modes and in closed form.
 //
-//   int y_k y_i = [y_k y_i] / (l_k + l_i)       and with the conjugate of y_i
+//   int y_k y_i = [y_k y_i] / (l_k + l_i)       and the same with the conjugate of y_i
 //   int y_k (c . b) = [y_k (r . b)],  r D = -l_k r + c                       time_basis.hpp
 //
-// Damping dissipates int q'^T C q', friction int T p'. The work of surfaces is int -T s', that of loads int f
-// d . u'. Each is a sum over pairs of modes, pairs of a mode and a forced part c . b, and pairs of forced
-// parts. Pairs whose l_k + l_i is small relative to the run use the series of (e^(s h) - 1) / s. The energy
-// balance is an independent check.
+// Damping dissipates int q'^T C q', friction int T p'. The work of surfaces is int -T s', that of loads int f d . u'. Each
+// integral is a sum over three kinds of pairs: two modes, a mode and a forced part c . b, and two forced parts. Pairs of modes
+// whose sum s = l_k + l_i is small relative to the run use the series of (e^(s h) - 1) / s. The energy balance checks the
+// result independently.
 #pragma once
 
 #include <optional>
@@ -20,22 +20,24 @@ class DampedWorkIntegrals {
  public:
   explicit DampedWorkIntegrals(const DampedMotion& motion) : motion_(motion) {}
 
-  /// Called after motion.start.
+  /// Called after DampedMotion::start().
   void start();
+  /// Adds the works between two points of the segment.
   void add(const ModalPoint& from, const ModalPoint& to, motion::WorkIntegrals& works) const;
 
  private:
+  /// An interval between two points, and the integrals of b on it.
   struct Stretch {
     const ModalPoint &from, &to;
     Eigen::VectorXd b_from, b_to;
     Eigen::MatrixXd products;  // integrals of b b^T; empty if no integral has two forced parts
   };
-  /// Data of the integral of f g that are constant in a segment. Modes times forced parts contribute the
-  /// difference of y . responses b between the ends of the interval.
+  /// Data of the integral of f g that are constant in a segment. Products of modes and forced parts contribute the difference
+  /// of y . (responses b) between the ends of the interval.
   struct ProductIntegral {
     ModalQuantity f, g;
-    Eigen::MatrixXcd responses;           // modes x b; empty: none
-    bool pairs = false, courses = false;  // the integral has products of modes, of forced parts
+    Eigen::MatrixXcd responses;           // modes x functions b; empty if there are no such products
+    bool pairs = false, courses = false;  // true if f g has products of two modes; of two forced parts
   };
   [[nodiscard]] ProductIntegral product_integral(ModalQuantity f, ModalQuantity g);
   [[nodiscard]] ModalQuantity without_modes(TimeCoefficients course) const;
@@ -50,14 +52,14 @@ class DampedWorkIntegrals {
   void add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const;
 
   const DampedMotion& motion_;
-  std::vector<ProductIntegral> loads_;  // rates along active loads, times the loads
+  std::vector<ProductIntegral> loads_;  // power of each active load
   struct ContactProducts {
     std::optional<ProductIntegral> applied_normal_force, slip, surface, dashpot;
   };
   std::vector<ContactProducts> contacts_;
-  Eigen::MatrixXd forced_loss_;      // b x b: dissipation by forced parts
-  Eigen::MatrixXcd loss_responses_;  // dissipation by modes times forced parts
-  bool courses_overlap_ = false;     // at least one integral has products of forced parts
+  Eigen::MatrixXd forced_loss_;      // dissipation by two forced parts
+  Eigen::MatrixXcd loss_responses_;  // dissipation by a mode and a forced part
+  bool courses_overlap_ = false;     // at least one integral has products of two forced parts
 };
 
 }  // namespace signorini::modal

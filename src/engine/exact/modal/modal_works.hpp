@@ -1,12 +1,11 @@
-// modal_works.hpp: works and dissipations of an interval in modes, in closed form.
+// modal_works.hpp: works and dissipated energies in an interval, in uncoupled modes and in closed form.
 //
-//   y'' + alpha y' + l y = 0:   int y_k' y_l' and int y_k y_l' are forms on the values of y and y' at both
-//   ends, divided by (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l)
+//   y'' + alpha y' + l y = 0:   int y_k' y_l' and int y_k y_l' are quadratic functions of y and y' at both ends,
+//                               divided by (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l); see mode_pairs.hpp
 //
-// Damping dissipates alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l', which is alpha sum int z_k'^2 if
-// no contact slips. Friction dissipates int T p', in which g and ut' are sums over modes as well. The energy
-// balance is an independent check. Forces are constant in the interval; modes without frequency move like
-// z = a + d t + y, d = p/alpha.
+// Damping dissipates alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l'. If no contact slips, this is alpha sum int z_k'^2.
+// Friction dissipates int T p', a sum over pairs of modes, because T depends on g. The energy balance checks the result
+// independently. Forces are constant in the interval; a mode with zero frequency moves like z = a + d t + y, d = p/alpha.
 #pragma once
 
 #include "engine/exact/modal/modal_proof.hpp"
@@ -18,37 +17,37 @@ class ModalWorkIntegrals {
  public:
   ModalWorkIntegrals(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
 
-  /// False if a frequency is too low for the closed form of works, but too high to count as zero.
+  /// False if a frequency is too low for the closed form of the works, but too high to be regarded as zero.
   [[nodiscard]] static bool is_accurate_for(const Spectrum& spectrum, double t_end);
 
-  /// All arguments except t_end must live until the next start.
+  /// Starts a segment. All references must stay valid until the next start.
   void start(const engine::Segment& segment, const StateModes& state, const Oscillators& oscillators,
              const Amplitudes& forces, double t_end);
-  /// Adds the integrals over the time between two points of the segment.
+  /// Adds the works between two points of the segment. time: interval between both.
   void add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to, double time,
            motion::WorkIntegrals& works) const;
 
-  /// Square of a mode's frequency, and the oscillating part y of the mode with its rate r at both ends of an
-  /// interval.
+  /// l of a mode, and its oscillating part y and rate r = y' at the beginning (0) and the end (1) of an interval.
   template <class S>
   struct Ends {
     S l{}, y0{}, r0{}, y1{}, r1{};
   };
-  /// Same for all modes, for sums over pairs of them.
+  /// Ends of all modes as arrays, for sums over pairs of modes.
   struct EndArrays {
     Eigen::ArrayXd l, y0, r0, y1, r1;
   };
 
  private:
+  /// An interval between two points, with the data of all modes.
   struct Stretch {
     const ModalPoint &from, &to;
     double time;
     std::vector<Ends<double>> real;
     std::vector<Ends<Complex>> pair;
-    std::vector<double> drift;  // d of real modes
+    std::vector<double> drift;  // d of real modes; 0 if they oscillate
     Amplitudes area;            // int z
   };
-  /// int q'^T q', and for each contact int (sum a_k y_k)(sum b_k y_k')
+  /// rates: int q'^T q'. crossed: for each slipping contact int (sum a_k y_k)(sum b_k y_k').
   struct Sums {
     double rates = 0.0;
     std::vector<double> crossed;
@@ -71,7 +70,7 @@ class ModalWorkIntegrals {
   const StateModes* state_ = nullptr;
   const Oscillators* oscillators_ = nullptr;
   const Amplitudes* forces_ = nullptr;
-  std::vector<std::pair<std::size_t, double>> loads_;  // active loads, and their values
+  std::vector<std::pair<std::size_t, double>> loads_;  // indices and values of the active loads
   std::vector<std::size_t> slipping_;                  // indices of slipping contacts
 };
 

@@ -24,7 +24,7 @@ ModePairs::ModePairs(const Spectrum& spectrum, double alpha) {
 
 namespace {
 
-/// T: double or Four, for modes i to i + 3.
+/// Terms of pair_integrals() for mode i (T = double), or for modes i to i + 3 (T = Double4).
 template <class T>
 [[gnu::always_inline]] inline void meet(const ModeEnds& a, double alpha, std::ptrdiff_t k, std::ptrdiff_t i,
                                         const double* shared, double* yy_out, double* mixed_out, T& sum) {

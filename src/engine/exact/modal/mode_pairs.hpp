@@ -1,8 +1,8 @@
-// mode_pairs.hpp: coefficients of pairs of modes of a state that do not depend on the motion.
+// mode_pairs.hpp: coefficients of work integrals for pairs of modes of a contact state; independent of the motion.
 //
 //   e_kl = 1 / ( (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l) ),      shared_kl = x_k^T x_l e_kl
 //
-// For real modes k != l; 0 for two modes without frequency. Symmetric, stored for l < k.
+// Defined for real modes k != l; 0 if both frequencies are zero. Symmetric, so only l < k is stored.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace signorini::modal {
 
-/// Empty if the state's X is not written out.
+/// shared_kl of all pairs of modes. Not available if the spectrum does not store X.
 class ModePairs {
  public:
   ModePairs() = default;
@@ -23,34 +23,34 @@ class ModePairs {
   [[nodiscard]] std::size_t bytes() const { return sizeof(double) * shared_.size(); }
 
  private:
-  std::vector<double> shared_;  // k = 1, 2, ... one after the other
+  std::vector<double> shared_;  // rows k = 1, 2, ... one after the other; row k has k entries
 };
 
 /// Computes shared_kl for all l < k.
 void pairs_of_mode(const Spectrum& spectrum, double alpha, Eigen::Index k, double* shared);
 
-// Sums over pairs of one mode with each mode before it.
+// Sums over the pairs of one mode k with each mode i < k.
 //
-//   y = oscillating part of a mode, y0, r0 = y, y' at the beginning, y1, r1 at the end of an interval
+//   y: oscillating part of a mode;  y0, r0: y, y' at the beginning of an interval;  y1, r1: y, y' at its end
 //   l = omega^2,  e = 1/( d^2 + 2 alpha^2 (l_k + l_i) ),  d = l_i - l_k
 //   int y_k' y_i' = -e ( 2 alpha l_k l_i [yy] + alpha (l_k + l_i) [rr] + d (l_k [yr] - l_i [ry]) )
 //   int y_k y_i'  =  e ( l_i (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_i [ry]) )
 //
-// [yy] = y_k y_i at the end minus its value at the beginning, [yr] the same of y_k y_i', [ry] of y_k' y_i,
-// [rr] of y_k' y_i'. Every sum is computed as four partial sums.
+// Brackets are differences between end and beginning: [yy] of y_k y_i, [yr] of y_k y_i', [ry] of y_k' y_i, [rr] of y_k' y_i'.
+// Every sum is computed as four partial sums.
 
-/// Arrays with one entry for each mode.
+/// Arrays of l, y0, r0, y1 and r1, with one entry for each mode.
 struct ModeEnds {
   const double *l, *y0, *r0, *y1, *r1;
 };
 
-/// For mode k and all i < k: writes [yy] and int y_k y_i' (mixed), returns the sum of -x_k^T x_i int y_k'
-/// y_i'. shared: shared_ki.
+/// For mode k and all i < k: writes [yy] to yy and int y_k y_i' to mixed. Returns the sum of -x_k^T x_i int y_k' y_i'. shared:
+/// the coefficients shared_ki.
 [[nodiscard]] double pair_integrals(const ModeEnds& ends, double alpha, std::ptrdiff_t k,
                                     const double* shared, double* yy, double* mixed);
 
-/// sum over i < k of n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ): the contribution of these pairs of modes
-/// to int (sum n y)(sum t y').
+/// Contribution of the pairs of mode k with all i < k to int (sum n y)(sum t y'): the sum of n_k t_i mixed_i + t_k n_i ( yy_i -
+/// mixed_i ).
 [[nodiscard]] double cross_integral(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
                                     const double* mixed);
 

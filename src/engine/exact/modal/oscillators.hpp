@@ -2,9 +2,8 @@
 //
 //   z'' + alpha z' + l z = p:   z - p/l = e^(-alpha t/2) ( a cos(w t) + b sin(w t) ),   w^2 = l - alpha^2/4
 //
-// If sqrt(l) t is small, the Taylor series in t is used instead: it is an entire function of l, so that zero
-// frequencies and critical damping need no special cases. A mode with a complex l represents itself and its
-// conjugate.
+// If sqrt(l) t is small, the Taylor series in t is used instead. Its terms are polynomials in l, so zero frequencies and
+// critical damping need no special cases. A mode with a complex l also represents its conjugate.
 #pragma once
 
 #include <cmath>
@@ -13,19 +12,19 @@
 
 namespace signorini::modal {
 
-/// The motion at one time: real amplitudes z and their rates, or for complex modes (damped_motion.hpp) their
-/// amplitudes y and the time since the segment's beginning.
+/// The motion at one time. For uncoupled modes: amplitudes z and their rates. For complex modes (damped_motion.hpp): amplitudes
+/// y, and the time since the beginning of the segment.
 struct ModalPoint {
   Amplitudes z, rate;
   Eigen::VectorXcd y;
   double time = 0.0;
 };
 
-/// Bound on |sum_k x_k A_k| for |x_k| = 1: the root of the sum of squares of A_k if the x_k are orthogonal,
-/// otherwise the sum of |A_k|.
+/// Bound on |sum_k A_k x_k| for shapes with |x_k| = 1: square root of the sum of A_k^2 if the x_k are orthogonal, otherwise the
+/// sum of |A_k|.
 class SumOfModes {
  public:
-  /// Same meaning as StepFacts::eigenvector_condition.
+  /// dependence: see StepFacts::eigenvector_condition.
   explicit SumOfModes(double dependence) : orthogonal_(dependence <= 1.0 + 1e-6) {}
   void add(double amplitude) { sum_ += orthogonal_ ? amplitude * amplitude : amplitude; }
   [[nodiscard]] double value() const { return orthogonal_ ? std::sqrt(sum_) : sum_; }
@@ -43,21 +42,20 @@ class Oscillators {
   [[nodiscard]] double alpha() const { return alpha_; }
   [[nodiscard]] const std::vector<double>& real() const { return real_; }
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_; }
-  /// w of real modes; 0 for those that do not oscillate.
+  /// w of real modes; 0 for modes that do not oscillate.
   [[nodiscard]] const std::vector<double>& damped_omega() const { return damped_omega_; }
-  /// w of pairs: its imaginary part is the growth rate of one mode of each pair relative to e^(-alpha t/2).
+  /// w of pairs. The imaginary part is the growth rate of one mode of the pair, relative to e^(-alpha t/2).
   [[nodiscard]] const std::vector<Complex>& pair_damped_omega() const { return pair_damped_omega_; }
-  /// The motion after `time`; alpha time <= 4. Forces p are constant.
+  /// Computes the motion `to` a time `time` after `from`, under constant forces p. Requires alpha time <= 4.
   void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
-  /// z''
+  /// Accelerations z''.
   [[nodiscard]] Amplitudes accelerations(const ModalPoint& at, const Amplitudes& p) const;
-  /// Amplitude of a mode that does not oscillate: larger than any other, but finite, because zero times
-  /// infinity is NaN.
+  /// Stands for an infinite amplitude (of a mode that does not oscillate). Finite, because zero times infinity is NaN.
   static constexpr double never = 1e300;
-  /// Amplitude of each mode's oscillation about p/l; for a pair, which may grow or decay, the initial one.
+  /// Amplitude of the oscillation of each mode about p/l. For a pair, which may grow or decay, the initial amplitude.
   void amplitudes(const ModalPoint& at, const Amplitudes& p, std::vector<double>& real,
                   std::vector<double>& pair) const;
-  /// Integrals of z over the time between the two points.
+  /// Integrals of z from one point to the other. time: interval between both.
   void integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
                  Amplitudes& out) const;
 
@@ -68,7 +66,7 @@ class Oscillators {
   std::vector<Complex> pairs_, pair_damped_omega_;
 };
 
-/// coefficients[j] = time^j / j! times the derivative of order j of z, 0 <= j < count.
+/// Writes the Taylor terms out[j * stride] = time^j / j! d^j z / dt^j, 0 <= j < count, of a mode z'' + alpha z' + l z = p.
 template <class S>
 void taylor_of_mode(S z, S rate, S p, S l, double alpha, double time, std::size_t count, std::size_t stride,
                     S* out) {

@@ -12,7 +12,7 @@ ProportionalFlow::ProportionalFlow(const Model& model, const UnconstrainedBasis&
       proof_(model, system_.alpha()),
       works_(model, system_.alpha()) {}
 
-/// Reason why uncoupled modes cannot follow a segment; empty: they can.
+/// Reason why uncoupled modes cannot represent the motion in a segment. Empty: they can.
 std::string ProportionalFlow::unsupported_reason(const engine::Segment& segment) {
   if (segment.forcing->varies()) return "forces or surface motions that vary";
   state_ = system_.state(segment.decision->states);

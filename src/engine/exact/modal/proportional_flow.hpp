@@ -1,4 +1,4 @@
-// proportional_flow.hpp: the motion in the modes of a contact state for the damping alpha M.
+// proportional_flow.hpp: ModalFlow in the uncoupled modes of a contact state, for the damping alpha M.
 //
 //   z'' + alpha z' + L z = Y p,   q = X z           modal_system.hpp, modal_proof.hpp, modal_works.hpp
 #pragma once
@@ -52,7 +52,7 @@ class ProportionalFlow final : public ModalFlow {
   ModalProof proof_;
   ModalWorkIntegrals works_;
   const engine::Segment* segment_ = nullptr;
-  std::shared_ptr<const StateModes> state_;  // kept while proof and works refer to it
+  std::shared_ptr<const StateModes> state_;  // keeps the modes alive while proof_ and works_ refer to them
   Oscillators oscillators_;
   Amplitudes forces_;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t max_at_once = 3;
 
-/// y[s][i] := row[i] . x[s] for Rows rows, consecutive in memory, and Vectors vectors.
+/// Computes y[s][first + i] := row_i . x[s] for `Rows` rows, which are consecutive in memory, and `Vectors` vectors.
 template <std::size_t Rows, std::size_t Vectors>
 [[gnu::always_inline]] inline void rows_times(const double* row, std::ptrdiff_t columns,
                                               const double* const* x, double* const* y,

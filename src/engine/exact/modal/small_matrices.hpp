@@ -1,4 +1,4 @@
-// small_matrices.hpp: L U factors of a few rows with complete pivoting, and the null vectors of a singular matrix.
+// small_matrices.hpp: L U factors of small matrices with complete pivoting, null vectors of singular ones, and thin products.
 //
 //   P G Q = L U
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace signorini::modal {
 
-/// Limit for the springs of closed contacts in a state of the modal flow.
+/// Largest size of a small matrix: limit of the springs of closed contacts in a contact state of the modal flow.
 inline constexpr std::size_t max_rank = 12;
 
 template <class S>
@@ -52,7 +52,7 @@ class SmallLu {
   /// True if a pivot is exactly zero: no solve is possible.
   [[nodiscard]] bool singular() const { return singular_; }
 
-  /// tr(G^-1 B)
+  /// Returns tr(G^-1 B).
   template <class T>
   [[nodiscard]] S trace_of_solution(const SmallMatrix<T>& b) const {
     S trace{};
@@ -71,7 +71,7 @@ class SmallLu {
     return trace;
   }
 
-  /// G^-1 b
+  /// Returns G^-1 b.
   [[nodiscard]] SmallVector<S> solve(const SmallVector<S>& b) const {
     SmallVector<S> x{}, result{};
     for (std::size_t i = 0; i < rank_; ++i) {
@@ -86,7 +86,7 @@ class SmallLu {
     return result;
   }
 
-  /// G^-T b
+  /// Returns G^-T b.
   [[nodiscard]] SmallVector<S> solve_transposed(const SmallVector<S>& b) const {
     SmallVector<S> x{}, result{};
     for (std::size_t i = 0; i < rank_; ++i) {
@@ -101,8 +101,8 @@ class SmallLu {
     return result;
   }
 
-  /// c with G c = 0 and d with d^T G = 0, with the last `nullity` pivots taken as zero; `which` selects one
-  /// of the null vectors.
+  /// Computes null vectors c, d with G c = 0 and d^T G = 0. The last `nullity` pivots are regarded as zero; `which` (0 ..
+  /// nullity - 1) selects one of the null vectors.
   void null_vectors(SmallVector<S>& c, SmallVector<S>& d, std::size_t nullity = 1,
                     std::size_t which = 0) const {
     SmallVector<S> x{}, w{};
@@ -123,7 +123,7 @@ class SmallLu {
     }
   }
 
-  /// Size of pivot k, descending.
+  /// Magnitude of pivot k. Magnitudes are about descending.
   [[nodiscard]] auto pivot(std::size_t k) const { return size_of(a_[k][k]); }
 
  private:
@@ -135,13 +135,13 @@ class SmallLu {
 
 // A large matrix times a few vectors, A x_1, A x_2, ..., in one pass through memory.
 //
-// Four rows and up to three vectors are processed at once, so that loaded entries are used several times and
-// additions do not wait for each other. Every sum is computed as four partial sums, of the places k, k + 4,
-// ..., so it is identical in every build.
+// Four rows and up to three vectors are processed at once, so that loaded entries are used several times and additions do not
+// wait for each other. Every sum is computed as four partial sums (entries k, k + 4, ...), so the result is identical in every
+// build.
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// y[s] := a x[s]; no y may be an x.
+/// Computes y[s] := a x[s] for all s. No y may be the same vector as an x.
 void thin_product(const RowMatrix& a, const std::vector<const Eigen::VectorXd*>& x,
                   const std::vector<Eigen::VectorXd*>& y);
 

@@ -9,12 +9,11 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double filling = 1e-30;       // of the greatest entry, in zero rows
-constexpr double equal = 1e-13;         // relative distance at which poles are equal up to rounding
-constexpr double unseen_share = 1e-13;  // equal modes: largest coupling of a mode that counts as uncoupled
-/// Limit for |X Y q - q| of a q with entries within 1: states of the pipeline have 1e-13 at 201 unknowns, and
-/// the relative error of an event is about the same. Chosen; the test "flows: stiff beside soft" depends on
-/// it.
+constexpr double filling = 1e-30;       // replaces zero entries of U, relative to the greatest entry
+constexpr double equal = 1e-13;         // relative distance below which poles are regarded as equal
+constexpr double unseen_share = 1e-13;  // largest coupling of an uncoupled mode, relative to that of equal modes
+/// Limit of |X Y q - q| for a q with entries between -1 and 1; chosen. The contact states of the pipeline have 1e-13 at 201
+/// unknowns, and the relative error of an event is about the same. The test "flows: stiff beside soft" depends on this limit.
 constexpr double worst_round_trip = 1e-12;
 constexpr double worst_condition = 1e4;
 
@@ -44,13 +43,13 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
     failure_ = "too many springs of closed contacts for the modes of a contact state";
     return;
   }
-  if (rank_ == 0) {  // the unconstrained modes themselves, which are orthonormal
+  if (rank_ == 0) {  // the modes are the unconstrained modes
     squares_.assign(poles.size(), 1.0);
     value_base_ = values_;
     value_offset_.assign(poles.size(), 0.0);
     return;
   }
-  // Equal poles are consecutive, and remain so among the coupled modes.
+  // Groups of equal poles, which are consecutive.
   group_begin_.resize(poles.size());
   group_end_ = group_begin_;
   for (std::size_t first = 0, last = 0; first < poles.size(); first = last) {
@@ -84,7 +83,7 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   test();
 }
 
-/// Rotates equal modes so that V has at most `rank` nonzero rows among them.
+/// Rotates modes with equal poles so that V has at most `rank` nonzero rows for each group of equal poles.
 void Spectrum::rotate_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
   for (std::size_t first = 0; first < group_end_.size(); first = group_end_[first]) {
     const auto row = static_cast<Eigen::Index>(first),
@@ -151,20 +150,20 @@ void Spectrum::order_values() {
 void Spectrum::test() {
   Eigen::VectorXd q(static_cast<Eigen::Index>(order_.size() + 2 * pairs_.size())), back;
   double entry = 0.5;
-  for (Eigen::Index i = 0; i < q.size(); ++i) {  // a logistic map: all modes, the same in every run
+  for (Eigen::Index i = 0; i < q.size(); ++i) {  // logistic map: excites all modes, the same in every run
     entry = 3.99 * entry * (1.0 - entry) + 1e-3;
     q[i] = 2.0 * entry - 1.0;
   }
   Amplitudes z;
   to_modes(q, z);
   from_modes({&z}, {&back});
-  round_trip_ = (back - q).norm();  // maxCoeff may skip NaN
+  round_trip_ = (back - q).norm();  // a norm keeps a NaN; maxCoeff may skip it
   if (!(round_trip_ < worst_round_trip))
     failure_ = "the modes of the contact state do not reproduce a motion that is converted to them and back";
   if (!(condition_ < worst_condition)) failure_ = "the modes of the contact state are nearly parallel";
 }
 
-// Conversions between a motion and its amplitudes: sums over 1 / (D_i - l_k).
+// Conversions between a motion and its amplitudes, as sums with the factors 1 / (D_i - l_k).
 
 template <class S>
 void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool form, std::vector<S>& z) const {
@@ -194,7 +193,7 @@ void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool for
     for (std::size_t a = 0; a < rank_; ++a) z[k] += small[k * rank_ + a] * sums[a * count + k];
 }
 
-/// Coordinate of the uncoupled mode j in the vector of root k: -1/(D_j - l) U_j c.
+/// Entry of the right eigenvector x of root k for the uncoupled mode j: U_j c / (D_j - l).
 template <class S>
 S Spectrum::uncoupled_coordinate(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const {
   S sum{};
@@ -233,7 +232,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     const std::vector<double> mixed = real;
     for (const Close& pair : close_) real[pair.k] -= pair.product * mixed[pair.l];
   }
-  if (form) {  // all modes contribute to a form on uncoupled coordinates
+  if (form) {  // X has entries of all modes in the rows of uncoupled modes
     for (std::size_t j = 0; j < uncoupled_.size(); ++j)
       if (const double entry = turned[uncoupled_[j]]; entry != 0.0) {
         for (std::size_t k = 0; k < real_.size(); ++k)

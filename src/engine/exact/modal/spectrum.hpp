@@ -1,16 +1,16 @@
-// spectrum.hpp: eigenvalues and eigenvectors of a diagonal plus a few springs.
+// spectrum.hpp: eigenvalues and eigenvectors of a diagonal matrix plus a matrix of low rank (a few contact springs).
 //
 //   A = D + U V^T,   det( 1 + V^T (D - l)^-1 U ) = 0
 //   right  x = (D - l)^-1 U c,   left  y = (D - l)^-1 V d,   y^T x = 1
 //   (1 + V^T (D - l)^-1 U) c = 0,   (1 + U^T (D - l)^-1 V) d = 0
 //
-// D: squares of the frequencies of the unconstrained modes; U, V: springs of closed contacts in these modes,
-// not symmetric if a contact slips. All roots l are computed together (Ehrlich, Aberth). A root is stored as
-// a pole and an offset, so that D_i - l is accurate however close they are. Vectors are Cauchy vectors, and
-// products with them are sums over 1 / (D_i - l_k), n^2 operations; if they fit in memory, X and Y are
-// stored. Equal poles are separated, and zero rows filled, by far less than their rounding, so that every
-// root is simple.
-// Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994), 1266.
+// D contains the squares of the frequencies of the unconstrained modes, called poles. U and V are the springs of closed
+// contacts in these modes; U V^T is not symmetric if a contact slips. All roots l are computed simultaneously (Ehrlich,
+// Aberth). A root is stored as a pole and an offset from it, so that D_i - l is accurate however small it is. The matrices X
+// and Y of the eigenvectors have entries with the factor 1 / (D_i - l_k); products with them take n^2 operations. X and Y are
+// stored if they are small enough. Equal poles are separated, and zero rows are filled, by far less than rounding, so that
+// every root is simple. Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994),
+// 1266.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,10 +24,10 @@
 
 namespace signorini::modal {
 
-/// Separation of equal poles, relative to a pole: below all rounding.
+/// Separation of equal poles, relative to the pole; far below rounding.
 inline constexpr double pole_separation = 1e-22;
 
-/// D, ascending, as a sum of two numbers, the second of which separates equal poles.
+/// The poles D_i in ascending order, each as the sum base + separation. The separation makes equal poles distinct.
 struct Poles {
   explicit Poles(const Eigen::VectorXd& values);
   Poles() = default;
@@ -39,45 +39,45 @@ struct Poles {
   }
 };
 
-/// Eigenvalues of one kind: the real ones, or those of conjugate pairs with positive imaginary part.
+/// Either the real eigenvalues, or one eigenvalue of each conjugate pair (that with positive imaginary part).
 template <class S>
 struct Roots {
-  std::vector<std::size_t> pole_index;  ///< index of the pole
+  std::vector<std::size_t> pole_index;  ///< index of the pole to which the offset refers
   std::vector<S> offset;                ///< distance from that pole
   std::vector<S> value;
-  std::vector<S> right, left;  ///< c and d, `rank` numbers for each root; |x| = 1, y^T x = 1
+  std::vector<S> right, left;  ///< c and d, `rank` numbers for each root, scaled to |x| = 1, y^T x = 1
   [[nodiscard]] std::size_t size() const { return pole_index.size(); }
 };
 
-/// Amplitudes of all modes of a spectrum; the amplitude of a pair also represents that of its conjugate.
+/// Amplitudes of all modes of a spectrum. Of a conjugate pair only one amplitude is stored; the other is its conjugate.
 struct Amplitudes {
   std::vector<double> real;
   std::vector<Complex> pair;
 };
 
-/// c and h = U^T x of each mode, `rank` numbers each. For two modes
+/// c and h = U^T x of each mode, `rank` numbers each. They give the products of two different modes:
 ///   x_k^T x_l = (h_k . c_l - c_k . h_l) / (l_k - l_l)
 struct VectorProducts {
   std::vector<double> c, h;
   std::vector<Complex> c_pair, h_pair;
 };
 
-/// Number of unknowns up to which X and Y are stored: 16 n^2 bytes for a state, 16 MB at the limit.
+/// Number of modes up to which X and Y are stored. They take 16 n^2 bytes for each contact state, 16 MB at the limit.
 inline constexpr std::size_t max_stored_modes = 1024;
 
 class Spectrum {
  public:
-  /// U, V: n x rank; fails if rank > max_rank. `symmetric`: V is U up to positive factors of its columns, so that all
-  /// roots are real.
+  /// u, v: U and V, n x rank; sets failure() if rank > max_rank. symmetric: V is U up to positive factors of its columns, so
+  /// that all roots are real. written_up_to: number of modes up to which X and Y are stored.
   Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
            std::size_t written_up_to = max_stored_modes);
 
-  /// Reason why the modes cannot be used; empty: they can.
+  /// Reason why the modes cannot be used. Empty: they can.
   [[nodiscard]] const std::string& failure() const { return failure_; }
-  /// Eigenvalues in the order of Amplitudes: by magnitude.
+  /// Eigenvalues in the order of Amplitudes: ascending real ones; pairs() contains one of each conjugate pair.
   [[nodiscard]] const std::vector<double>& real() const { return values_; }
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_.value; }
-  /// Greatest |x| |y|; round_trip(): |X Y q - q| of a test vector q with entries within 1.
+  /// Greatest |x| |y| of all modes. round_trip(): |X Y q - q| for a test vector q with entries between -1 and 1.
   [[nodiscard]] double condition() const { return condition_; }
   [[nodiscard]] double round_trip() const { return round_trip_; }
 
@@ -85,20 +85,21 @@ class Spectrum {
   [[nodiscard]] Amplitudes zero() const {
     return {std::vector<double>(real().size(), 0.0), std::vector<Complex>(pairs().size())};
   }
-  /// z := Y q, the amplitudes of a motion; of_form(): row := X^T form, the coefficients of the modes in a
+  /// Computes the amplitudes z := Y q of a motion. of_form(): computes row := X^T form, the coefficients of the modes in a
   /// form.
   void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { to_modes({&q}, {&z}); }
   void to_modes(const std::vector<const Eigen::VectorXd*>& q, const std::vector<Amplitudes*>& z) const;
   void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }
   [[nodiscard]] const VectorProducts& products() const { return products_; }
-  /// x_k^T x_l of real modes, k != l; x_k^T x_k of a real mode and of a pair's.
+  /// x_k^T x_l of two different real modes. norm_squared() and pair_norm_squared(): x_k^T x_k of a real mode and of a complex
+  /// one.
   [[nodiscard]] double product(std::size_t k, std::size_t l) const;
   [[nodiscard]] double norm_squared(std::size_t k) const { return squares_[k]; }
   [[nodiscard]] Complex pair_norm_squared(std::size_t k) const { return pair_squares_[k]; }
   [[nodiscard]] std::size_t rank() const { return rank_; }
-  /// q := X z, for several z at once.
+  /// Computes q := X z for several z at once.
   void from_modes(const std::vector<const Amplitudes*>& z, const std::vector<Eigen::VectorXd*>& q) const;
-  /// Memory of X and Y, if they are stored.
+  /// Memory of X and Y in bytes; 0 if they are not stored.
   [[nodiscard]] std::size_t stored_bytes() const;
 
  private:
@@ -107,17 +108,16 @@ class Spectrum {
   bool search(std::vector<S>& offset);
   template <class S>
   void start(std::vector<S>& offset) const;
-  /// Newton steps on the characteristic polynomial, and on the polynomial divided by the factors of the other
-  /// roots.
+  /// Newton step on the characteristic polynomial p, and (deflated) on p divided by the factors l - l_i of all other roots.
   template <class S>
   struct Correction {
     S newton, deflated;
   };
   template <class S>
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
-  /// Effect of the poles outside a group on a root near it (default group: poles equal to home). g:
-  /// G0 = 1 + V^T (D - l)^-1 U without the group; slope: its derivative; s: the group's own matrix S, which
-  /// is not singular near its poles:
+  /// Equations of a root near a group of poles (by default, all poles equal to that of index home). g: G0 = 1 + V^T (D - l)^-1
+  /// U, summed over the poles outside the group; slope: derivative of G0; s: the matrix S of the group, which stays finite near
+  /// its poles:
   ///   S = D_group - l + U_group G0^-1 V_group^T
   ///   det(A - l) = product of (D_i - l) outside * det G0 * det S
   template <class S>
@@ -143,7 +143,7 @@ class Spectrum {
   void reassign_pole(std::size_t k, std::vector<S>& offset);
   template <class S>
   void find_vectors(Roots<S>& roots);
-  /// Roots that double precision cannot separate: lists of their places.
+  /// Clusters of roots that double precision cannot separate: lists of indices of roots.
   [[nodiscard]] std::vector<std::vector<std::size_t>> find_clusters(const Roots<double>& roots) const;
   [[nodiscard]] std::pair<std::size_t, std::size_t> poles_of(const std::vector<std::size_t>& members,
                                                              const Roots<double>& roots) const;
@@ -190,7 +190,7 @@ class Spectrum {
   void test();
 
   std::size_t rank_;
-  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> rotations_;  // equal modes: the first one, rotation
+  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> rotations_;  // for each group of equal poles: index of the first, rotation
   std::vector<Eigen::Index> coupled_, uncoupled_;                    // indices among all modes
   Eigen::MatrixXd u_uncoupled_;
   std::vector<double> uncoupled_poles_;
@@ -199,24 +199,24 @@ class Spectrum {
   Poles poles_;
   Eigen::MatrixXd u_, v_;
   std::vector<double> terms_;                                // v_i u_i^T, rank^2 numbers for each pole
-  std::vector<double> weights_;                              // same, n numbers for each place of the matrix
-  std::vector<std::size_t> home_, group_begin_, group_end_;  // groups: equal poles
+  std::vector<double> weights_;                              // same numbers, ordered by matrix entry: n numbers for each
+  std::vector<std::size_t> home_, group_begin_, group_end_;  // pole of each root; ends of each group of equal poles
   Roots<double> real_;
   Roots<Complex> pairs_;
-  std::vector<std::size_t> order_;  // places of real_ and, after its end, of uncoupled_
+  std::vector<std::size_t> order_;  // for each amplitude: index in real_ or, after its end, in uncoupled_
   std::vector<double> values_;
   struct Close {
     std::size_t k, l;
-    double product;  // in close_: y_k^T x_l, which is zero except for rounding
+    double product;  // in close_: y_k^T x_l, zero except for rounding; in alike_: x_k^T x_l
   };
   std::vector<Close> close_;
-  // x_k^T x_l of modes k > l with such a small l_k - l_l that products_ are inaccurate.
+  // x_k^T x_l of modes k > l whose difference l_k - l_l is so small that products_ are inaccurate.
   std::vector<Close> alike_;
   std::vector<double> squares_;
   std::vector<Complex> pair_squares_;
-  std::vector<double> value_base_, value_offset_;  // values of real modes; differences keep their digits
+  std::vector<double> value_base_, value_offset_;  // real eigenvalues as sums, for accurate differences
   VectorProducts products_;
-  RowMatrix x_, y_;  // X, Y: a pair has two columns, 2 Re x and -2 Im x, and two rows, Re y and Im y
+  RowMatrix x_, y_;  // X, Y; a conjugate pair has columns 2 Re x, -2 Im x and rows Re y, Im y
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
 };

@@ -1,4 +1,4 @@
-// All roots of the secular function at once, by the method of Ehrlich and Aberth, starting at the poles.
+// Computes all roots of a spectrum simultaneously, by the method of Ehrlich and Aberth, starting near the poles.
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@ namespace signorini::modal {
 namespace {
 
 constexpr int max_sweeps = 200;
-constexpr double nearly = 1e-9;  // relative step below which rounding may end the convergence
+constexpr double nearly = 1e-9;  // relative step below which convergence may be limited by rounding
 constexpr double straight =
-    1e-14;                     // relative step on which G0 is linear: its square, times close roots' loss
-constexpr double lift = 1e-3;  // shift of a start off the real axis, from which complex roots are not found
-constexpr double real_share = 1e-7;  // imaginary part of the offset of a real root, due to rounding
-constexpr double paired = 1e-8;      // relative distance of conjugates
+    1e-14;                     // relative step for which a linear update of G0 is accurate
+constexpr double lift = 1e-3;  // imaginary shift of initial values: complex roots are not found from the real axis
+constexpr double real_share = 1e-7;  // largest relative imaginary part of the offset of a real root
+constexpr double paired = 1e-8;      // largest relative distance of a root from the conjugate of its partner
 
 Complex complex_of(std::complex<double> a) { return {a.real(), a.imag()}; }
 template <class S>
@@ -41,8 +41,8 @@ Complex start_of(std::complex<double> value, std::size_t index) {
 
 }  // namespace
 
-/// First-order estimates of the offsets: eigenvalues of the small matrix of a group of close poles, with the
-/// effect of all other poles.
+/// Initial values of the offsets, accurate to first order: eigenvalues of the small matrix of each group of equal poles,
+/// including the effect of all other poles.
 template <class S>
 void Spectrum::start(std::vector<S>& offset) const {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -85,7 +85,7 @@ void Spectrum::start(std::vector<S>& offset) const {
       if (size > limit) value[j] *= 2.0 * part * limit / size;
       const std::size_t k = first + j;
       offset[k] = start_of<S>(value[j] - poles_.pole_difference(k, first),
-                              k);  // from the group's first pole to its own
+                              k);  // relative to pole k instead of the group's first pole
       if (!(size_of(offset[k]) > 0.0)) offset[k] = S(pole_separation * std::max(poles_.base[k], 1e-250));
     }
   }
@@ -115,7 +115,7 @@ void Spectrum::begin_local(std::size_t home, Local<S>& local) const {
   local.count = group_end_[home] - local.first;
 }
 
-/// G0, its slope and sum 1/(l - D_i) over the poles outside the group of `home`; returns that sum.
+/// Computes G0 and its derivative at l = (pole `home`) + own. Returns the sum of 1/(l - D_i) over the poles outside the group.
 template <class S>
 S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   begin_local(home, local);
@@ -137,7 +137,7 @@ S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   return poles;
 }
 
-/// S' = -1 - U G0^-1 G0' G0^-1 V^T
+/// Derivative of the group's matrix: S' = -1 - U G0^-1 G0' G0^-1 V^T.
 template <class S>
 SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local) const {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -158,7 +158,7 @@ SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local
   return change;
 }
 
-/// Same, vectorised.
+/// Vectorised version for complex roots.
 template <>
 Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) const {
   begin_local(home, local);
@@ -179,7 +179,7 @@ Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) c
   return complex_sum(re, im, n);
 }
 
-/// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nullopt if a matrix is singular.
+/// Derivative of log(det G0 det S): tr(G0^-1 G0') + tr(S^-1 S'). nullopt if G0 or S is singular.
 template <class S>
 std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const {
   const SmallLu<S> lu(local.g, rank_);
@@ -211,14 +211,14 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
     const S from_pole = own + poles_.pole_difference(home, i);
     if (i == k)
       sum += inverse(from_pole);
-    else if (apart)  // 1/(l - D_i) - 1/(l - l_i); the terms nearly cancel
+    else if (apart)  // 1/(l - D_i) - 1/(l - l_i) without cancellation
       sum += shift[i] * inverse(from_pole * f);
   }
   return {inverse(poles + *slope), inverse(sum + *slope)};
 }
 
-/// One Newton step in extended precision, for roots whose offsets are inaccurate because they are close to
-/// others. local: G0 at the root.
+/// Refines the offset of a real root by one Newton step in extended precision, because offsets of close roots are inaccurate.
+/// local: receives G0 at the refined root.
 Spectrum::Wide Spectrum::refined_offset(std::size_t home, Wide own, Local<Wide>& local) const {
   const Wide poles = gather(home, own, local);
   const std::optional<Wide> slope = trace(home, own, local);
@@ -235,7 +235,7 @@ Spectrum::Wide Spectrum::refined_offset(std::size_t home, Wide own, Local<Wide>&
   return own - step;
 }
 
-/// Moves an offset to the nearest pole, past equal ones.
+/// Makes the offset of root k refer to the pole nearest to the root.
 template <class S>
 void Spectrum::reassign_pole(std::size_t k, std::vector<S>& offset) {
   std::size_t best = home_[k];
@@ -256,7 +256,7 @@ void Spectrum::reassign_pole(std::size_t k, std::vector<S>& offset) {
 template <class S>
 bool Spectrum::search(std::vector<S>& offset) {
   start(offset);
-  std::vector<S> shift(n_);  // D_i - l_i
+  std::vector<S> shift(n_);  // D_i - l_i of all roots
   for (std::size_t i = 0; i < n_; ++i) shift[i] = -offset[i];
   std::vector<double> last(n_, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> unsettled(n_);
@@ -265,7 +265,7 @@ bool Spectrum::search(std::vector<S>& offset) {
     std::vector<std::size_t> left;
     for (const std::size_t k : unsettled) {
       const Correction<S> found = correction(k, offset, shift);
-      // If two approximations collide, their mutual correction would be less than their distance.
+      // If two approximations nearly coincide, the deflated step is too short to separate them: take part of the Newton step.
       const bool collides =
           size_of(found.newton) > 1e3 * size_of(found.deflated) || !std::isfinite(size_of(found.deflated));
       const S step =
@@ -342,16 +342,16 @@ template void Spectrum::group_matrix(const SmallLu<Wide>&, Wide, std::size_t, Lo
 template SmallMatrix<Spectrum::Wide> Spectrum::group_slope(const SmallLu<Wide>&, const Local<Wide>&) const;
 template void Spectrum::group_matrix(const SmallLu<Complex>&, Complex, std::size_t, Local<Complex>&) const;
 
-// Vectors of roots that are too close to each other for the search: all from one small matrix.
+// Eigenvectors of clusters of roots that are too close for the search: all from one small matrix S.
 //
-//   S(l + e) = S + e S', on null vectors R, L of S:   (L^T S R + e L^T S' R) w = 0
+//   S(l + e) = S + e S';  in the space of the null vectors R (right), L (left) of S:   (L^T S R + e L^T S' R) w = 0
 //
-// The group of S contains the poles of all these close roots, so that G0 is not singular.
+// The group of S contains the poles of all roots of the cluster, so that G0 is not singular.
 
 namespace {
 
-/// Distance of such roots relative to the offset: ten times the error of the search. S is linear over it up
-/// to its square.
+/// Largest distance of neighbouring roots in a cluster, relative to their offsets: ten times the error of the search. S is
+/// linear on this distance, up to its square.
 constexpr double together = 1e-8;
 
 }  // namespace
@@ -383,7 +383,7 @@ std::vector<std::vector<std::size_t>> Spectrum::find_clusters(const Roots<double
   return lists;
 }
 
-/// Range of poles for a list of roots: the poles of these roots, and neighbours until there are as many as
+/// Range of poles for a cluster: the poles of its roots, extended by neighbouring poles until it has at least as many poles as
 /// roots.
 std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::size_t>& members,
                                                        const Roots<double>& roots) const {
@@ -393,7 +393,7 @@ std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::si
     last = std::max(last, group_end_[roots.pole_index[k]]);
   }
   const std::size_t home = roots.pole_index[members.front()];
-  while (last - first < members.size()) {  // extends towards the nearer one
+  while (last - first < members.size()) {  // extend towards the nearer pole
     const bool down = last == n_ || (first > 0 && poles_.pole_difference(home, first - 1) <
                                                       poles_.pole_difference(last, home));
     (down ? first : last) = down ? group_begin_[first - 1] : group_end_[last];
@@ -416,7 +416,7 @@ NullVectors null_vectors_of(const SmallMatrix<Extended>& s, std::size_t count, s
   return all;
 }
 
-/// L^T S R
+/// Returns L^T S R.
 SmallMatrix<Extended> between(const NullVectors& null, const SmallMatrix<Extended>& s, std::size_t count) {
   SmallMatrix<Extended> result{};
   for (std::size_t i = 0; i < null.left.size(); ++i)
@@ -427,13 +427,14 @@ SmallMatrix<Extended> between(const NullVectors& null, const SmallMatrix<Extende
 }
 
 struct Turned {
-  Extended middle = 0;                      // mean of all e
-  Eigen::VectorXd values;                   // relative to the mean
-  Eigen::MatrixXd right;                    // w, one in each column
-  std::vector<SmallVector<Extended>> left;  // scaled so that L^T S' R becomes 1
+  Extended middle = 0;                      // mean of all values of e
+  Eigen::VectorXd values;                   // values of e relative to the mean
+  Eigen::MatrixXd right;                    // vectors w as columns
+  std::vector<SmallVector<Extended>> left;  // scaled so that L^T S' R becomes the unit matrix
 };
 
-/// Eigenproblem of here + e by_e; nullopt if by_e is singular or values are complex.
+/// Solves the eigenproblem (here + e by_e) w = 0 of size m. nullopt if by_e is singular or an e is complex. rounding: values of
+/// e within it count as equal.
 std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatrix<Extended>& by_e,
                              std::size_t m, double rounding) {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -471,8 +472,8 @@ std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatri
 
 }  // namespace
 
-/// Separates a cluster of close roots. False: there are too many poles for the small matrices, or these are
-/// singular for another reason.
+/// Separates a cluster of close roots and stores their eigenvectors. False: the cluster needs too many poles for the small
+/// matrices, or the matrices are singular for another reason.
 bool Spectrum::split_cluster(const std::vector<std::size_t>& members, Roots<double>& roots) {
   const std::size_t m = members.size(), home = roots.pole_index[members.front()];
   Wide own = 0;
@@ -488,7 +489,7 @@ bool Spectrum::split_cluster(const std::vector<std::size_t>& members, Roots<doub
   if (lu.singular()) return false;
   group_matrix(lu, own, home, local);
   const NullVectors null = null_vectors_of(local.s, local.count, m);
-  // Poles are known to their rounding: roots closer than that are one root.
+  // Poles are known only up to rounding, so roots closer than that are treated as equal.
   const double rounding = rounding::eps * static_cast<double>(std::abs(own + Wide(poles_.base[home])));
   const std::optional<Turned> turn = turned(between(null, local.s, local.count),
                                             between(null, group_slope(lu, local), local.count), m, rounding);

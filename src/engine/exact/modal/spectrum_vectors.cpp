@@ -1,4 +1,4 @@
-// The vectors of a spectrum, and products of them.
+// The eigenvectors of a spectrum, and scalar products of eigenvectors.
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,14 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double close_roots = 1e-3;  // relative distance of eigenvalues whose vectors mix by rounding
+constexpr double close_roots = 1e-3;  // relative distance of eigenvalues below which rounding mixes their vectors
 constexpr std::size_t max_neighbours = 6;
-constexpr double alike = 1e-5;  // relative distance of eigenvalues below which c and h lose five digits
+constexpr double alike = 1e-5;  // relative distance of eigenvalues below which products by c and h lose five digits
 
 }  // namespace
 
-/// Entries of X or Y for the coupled modes: side small / (D - l).
+/// Eigenvector of root k for the coupled modes: side small / (D - l). side, small: U, c for a right vector; V, d for a left
+/// one.
 template <class S>
 void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
                       std::vector<S>& out) const {
@@ -38,7 +39,7 @@ void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, cons
   }
 }
 
-/// c = -G0^-1 V^T right, d = -G0^-T U^T left: null vectors of a group, continued outside it.
+/// Computes c = -G0^-1 V^T right and d = -G0^-T U^T left from the null vectors of the group's matrix S.
 template <class S>
 void Spectrum::outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
                              const SmallVector<S>& left, SmallVector<S>& c, SmallVector<S>& d) const {
@@ -54,8 +55,8 @@ void Spectrum::outside_group(const SmallLu<S>& lu, const Local<S>& local, const 
   d = lu.solve_transposed(d);
 }
 
-/// Null vectors of the small matrices; for real roots in extended precision, because double precision loses
-/// up to five digits if roots are close to each other.
+/// Computes c and d of all roots from null vectors of small matrices. Real roots use extended precision, because double
+/// precision loses up to five digits if roots are close to each other.
 template <class S>
 void Spectrum::find_vectors(Roots<S>& roots) {
   constexpr bool is_real = std::is_same_v<S, double>;
@@ -88,8 +89,8 @@ void Spectrum::find_vectors(Roots<S>& roots) {
   }
 }
 
-/// Stores c and d, scaled so that |x| = 1 and y^T x = 1 for the vectors that follow from the rounded offset,
-/// c and d.
+/// Stores the offset, c and d of root k, rounded to doubles, and then scales c and d so that |x| = 1 and y^T x = 1 for the
+/// vectors computed from the rounded values.
 template <class S, class W>
 void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c_wide,
                             const SmallVector<W>& d_wide) {
@@ -129,8 +130,8 @@ Eigen::VectorXd Spectrum::coupled_vector(const std::vector<double>& small, const
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(n_));
 }
 
-/// Removes components along each other from the vectors of close eigenvalues: Y := (1 - E) Y, E the entries
-/// of Y X for two close eigenvalues.
+/// Finds the corrections that make the vectors of close eigenvalues orthogonal: Y := (1 - E) Y, where E contains the entries
+/// y_k^T x_l of pairs of close eigenvalues.
 void Spectrum::split_close_roots() {
   std::vector<std::size_t> order;
   for (const std::size_t k : order_)
@@ -146,13 +147,13 @@ void Spectrum::split_close_roots() {
   }
 }
 
-/// Computes x^T x of all modes; the pole closest to the root contributes most.
+/// Computes x^T x of all modes, and the factor of the condition due to uncoupled modes.
 void Spectrum::find_squares() {
   double worst = 1.0;
   const auto square = [&](const auto& roots, std::size_t k) {
     using S = typename std::decay_t<decltype(roots.offset)>::value_type;
     S sum{};
-    double beside = 1.0;  // |x|, with the uncoupled coordinates
+    double beside = 1.0;  // |x| including the entries of uncoupled modes
     std::vector<S> x;
     cauchy(roots, k, roots.right.data() + k * rank_, u_, x);
     for (const S& entry : x) sum += entry * entry;
@@ -161,7 +162,7 @@ void Spectrum::find_squares() {
       sum += entry * entry;
       beside = std::hypot(beside, size_of(entry));
     }
-    // The condition gives the length of its left vector, for the coupled coordinates alone.
+    // condition_ was computed with |x| = 1 of the coupled entries alone; `beside` corrects it.
     worst = std::max(worst, std::isfinite(beside) ? beside : std::numeric_limits<double>::infinity());
     return sum;
   };
@@ -175,7 +176,7 @@ void Spectrum::find_squares() {
   condition_ *= worst;
 }
 
-/// Computes x_k^T x_l from the vectors, for pairs of modes whose l_k - l_l is inaccurate.
+/// Computes x_k^T x_l directly from the vectors, for pairs of modes with so small l_k - l_l that products() is inaccurate.
 void Spectrum::find_alike() {
   for (std::size_t l = 0; l < order_.size(); ++l)
     for (std::size_t k = l + 1; k < order_.size() && std::abs(difference(k, l)) <= alike * values_[k]; ++k) {
@@ -224,8 +225,8 @@ void Spectrum::find_products() {
   fill(pairs_, c_pair, h_pair);
   std::vector<double> c_seen, h_seen;
   fill(real_, c_seen, h_seen);
-  // The shape of an uncoupled mode is a unit vector: U c represents it as the limit of a residue, and its
-  // product with another shape has one term only.
+  // The shape of an uncoupled mode is a unit vector, so its product with another shape has one term only: c = 0, and h is its
+  // row of U.
   c.assign(order_.size() * rank_, 0.0);
   h = c;
   for (std::size_t p = 0; p < order_.size(); ++p)
@@ -247,13 +248,13 @@ template void Spectrum::cauchy(const Roots<Complex>&, std::size_t, const Complex
 template void Spectrum::find_vectors(Roots<double>&);
 template void Spectrum::find_vectors(Roots<Complex>&);
 
-// X and Y stored as matrices: a product with them is n^2 multiplications instead of n^2 divisions.
+// X and Y stored as matrices. Products with them then need n^2 multiplications instead of n^2 divisions.
 
 std::size_t Spectrum::stored_bytes() const {
   return sizeof(double) * static_cast<std::size_t>(x_.size() + y_.size());
 }
 
-/// side * small / (D - l) of one root, at the places of the coupled modes; zero elsewhere.
+/// Eigenvector of root k in the order of all modes: entries of cauchy() for coupled modes, zero for uncoupled modes.
 template <class S>
 void Spectrum::entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small,
                        const Eigen::MatrixXd& side, std::vector<S>& out) const {
@@ -267,7 +268,7 @@ void Spectrum::store_matrices() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
              n = static_cast<Eigen::Index>(coupled_.size() + uncoupled_.size());
-  std::vector<Eigen::Index> place(order_.size());  // places of real_ and uncoupled_ among amplitudes
+  std::vector<Eigen::Index> place(order_.size());  // position of real_ and uncoupled_ in Amplitudes
   for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<Eigen::Index>(p);
   y_.setZero(reals + 2 * pairs, n);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, reals + 2 * pairs);
@@ -287,7 +288,7 @@ void Spectrum::store_matrices() {
     for (std::size_t j = 0; j < uncoupled_.size(); ++j)
       entry[static_cast<std::size_t>(uncoupled_[j])] =
           uncoupled_coordinate(pairs_, k, j, uncoupled_poles_[j]);
-    for (Eigen::Index i = 0; i < n; ++i) {  // x z + its conjugate
+    for (Eigen::Index i = 0; i < n; ++i) {  // x z plus its conjugate is 2 Re x Re z - 2 Im x Im z
       right(i, at) = 2.0 * entry[static_cast<std::size_t>(i)].re;
       right(i, at + 1) = -2.0 * entry[static_cast<std::size_t>(i)].im;
     }
@@ -302,7 +303,7 @@ void Spectrum::store_matrices() {
   for (const Close& pair : close_) y_.row(place[pair.k]) -= pair.product * mixed.at(pair.l);
   for (std::size_t j = 0; j < uncoupled_.size(); ++j) {
     const Eigen::Index at = place[real_.size() + j];
-    y_.row(at) = -(right.row(uncoupled_[j]) * y_).eval();  // none of this row yet, and none of right's column
+    y_.row(at) = -(right.row(uncoupled_[j]) * y_).eval();  // this row of y_ and this column of `right` are still zero
     y_(at, uncoupled_[j]) += 1.0;
     right(uncoupled_[j], at) = 1.0;
   }

@@ -1,11 +1,10 @@
-// unconstrained_modes.hpp: all modes of a structure whose contacts are open.
+// unconstrained_modes.hpp: all vibration modes of a structure whose contacts are open.
 //
 //   K phi = omega^2 M phi,   Phi^T M Phi = 1
 //
-// Frequencies are bracketed by counting negative pivots of K - s M (damped_pencil.hpp). Shapes are computed
-// by inverse iteration and the Rayleigh quotient in extended precision. They are made orthonormal from low to
-// high, because a symmetric correction would add forces of high modes to low modes. Free motions have
-// omega = 0 exactly.
+// Frequencies are bracketed by counting negative pivots of K - s M (damped_pencil.hpp). Shapes are computed by inverse
+// iteration and the Rayleigh quotient in extended precision. They are made orthonormal one after the other, from low to high
+// frequencies; a symmetric correction would add forces of high modes to low modes. Free motions get omega = 0 exactly.
 // Sources: Bathe, Finite Element Procedures, section 11.4 (Sturm); Parlett, The Symmetric Eigenvalue Problem,
 // chapter 4 (Rayleigh quotient iteration).
 #pragma once
@@ -21,16 +20,16 @@ struct UnconstrainedModes {
   Vector omega_squared;    ///< omega^2, ascending; 0 for free motions
   Eigen::MatrixXd shapes;  ///< n x n, columns M-orthonormal
   int free = 0;            ///< number of motions without stiffness
-  std::string failure;     ///< reason why the modes could not be computed; empty: they were
+  std::string failure;     ///< reason why the modes could not be computed; empty: no failure
 
   [[nodiscard]] bool found() const { return failure.empty(); }
 };
 
-/// True if the band of both matrices is narrow enough to save time.
+/// True if the band of both matrices is so narrow that modes by band matrices save time.
 [[nodiscard]] bool has_narrow_band(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
-/// All modes. mass, stiffness: symmetric, mass positive definite. Costs about n^2 (10 + band^2) operations,
-/// and 3 n^3 for matrix products. If `failure` is set, the other members are empty.
+/// Computes all modes. mass, stiffness: symmetric, mass positive definite. Takes about n^2 (10 + band^2) operations, and 3 n^3
+/// for matrix products. If `failure` is set, the other members are empty.
 [[nodiscard]] UnconstrainedModes unconstrained_modes(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
 // A structure, its contacts and its loads in its unconstrained modes.
@@ -39,18 +38,18 @@ struct UnconstrainedModes {
 
 /// True if the matrix is symmetric up to rounding.
 [[nodiscard]] bool is_symmetric(const SparseMatrix& a);
-/// True if all loads, compressions and surfaces are constant between their jumps.
+/// True if all loads, given normal forces and surface motions are piecewise constant.
 [[nodiscard]] bool has_constant_excitation(const Model& model);
 
 class UnconstrainedBasis {
  public:
   explicit UnconstrainedBasis(const Model& model);
 
-  /// Reason why there are no modes; empty: there are modes.
+  /// Reason why the modes could not be computed; empty: no failure.
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// omega^2, ascending.
   [[nodiscard]] const Vector& omega_squared() const { return omega_squared_; }
-  /// Forms of contacts and directions of loads, one entry for each mode.
+  /// Phi^T times the normal form of a contact; tangent(), load(): Phi^T times the tangential form and the load direction.
   [[nodiscard]] const Vector& normal(std::size_t contact) const { return normal_[contact]; }
   [[nodiscard]] const Vector& tangent(std::size_t contact) const { return tangent_[contact]; }
   [[nodiscard]] const Vector& load(std::size_t load) const { return load_[load]; }
@@ -58,19 +57,19 @@ class UnconstrainedBasis {
   [[nodiscard]] const std::vector<Vector>& tangents() const { return tangent_; }
   [[nodiscard]] const std::vector<Vector>& loads() const { return load_; }
 
-  /// Phi, by rows.
+  /// Phi, stored by rows.
   [[nodiscard]] const RowMatrix& shapes() const { return shapes_; }
   /// Phi^T M
   [[nodiscard]] const Eigen::MatrixXd& projection() const { return projection_; }
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
-  /// Modal coefficients of a form or a direction of the structure.
+  /// Phi^T form: coefficients of a form, or of a force direction, in the modes.
   [[nodiscard]] Vector amplitudes_of_form(const Vector& form) const { return shapes_.transpose() * form; }
   [[nodiscard]] Vector amplitudes_of(const Combination& form) const {
     Vector q = Vector::Zero(shapes_.cols());
     for (const auto& [dof, factor] : form.terms) q += factor * shapes_.row(dof).transpose();
     return q;
   }
-  /// u := Phi q, for several q at once.
+  /// Computes u := Phi q for several q at once.
   void motions(const std::vector<const Vector*>& q, const std::vector<Vector*>& u) const {
     thin_product(shapes_, q, u);
   }

@@ -15,11 +15,11 @@ using Long = DampedPencil::Long;
 using Wide = DampedPencil::Wide;
 using Local = DampedPencil::Local;
 
-constexpr Long equal_roots = 1e-13L;  // relative distance at which roots are the same root
+constexpr Long equal_roots = 1e-13L;  // relative distance below which roots are regarded as equal
 
 struct Root {
   Wide l;
-  std::size_t members = 1;  // number of equal roots, of which this is the first
+  std::size_t members = 1;  // multiplicity of the root
 };
 
 class Search {
@@ -69,7 +69,7 @@ bool Search::find_roots() {
   return true;
 }
 
-/// Stores equal roots consecutively; the first one holds their number.
+/// Merges equal roots into one root with their multiplicity; ascending by |l|.
 void Search::merge_roots() {
   std::sort(roots_.begin(), roots_.end(), [](const Root& a, const Root& b) {
     return std::pair(size_of(a.l), a.l.re) < std::pair(size_of(b.l), b.l.re);
@@ -87,7 +87,7 @@ void Search::merge_roots() {
   roots_ = std::move(parted);
 }
 
-/// Extends null vectors of T to all modes; right: null if the shape is already known.
+/// Computes the entries of eigenvectors for all modes from null vectors of T. right: null if the right vector is already known.
 void Search::spread(const Local& local, Wide l, const SmallVector<Wide>* right, const SmallVector<Wide>& left,
                     Vectors& out) const {
   const auto near = [&](Index j) { return std::find(local.near.begin(), local.near.end(), j); };
@@ -113,7 +113,7 @@ void Search::spread(const Local& local, Wide l, const SmallVector<Wide>* right, 
   }
 }
 
-/// y^T L'(l) x
+/// Returns y^T L'(l) x, where L(l) is the matrix of the equations in all modes.
 Wide Search::product(Wide l, const Vectors& left, const Vectors& right) const {
   Wide sum;
   for (Index j = 0; j < n_; ++j) {
@@ -134,7 +134,7 @@ Wide Search::product(Wide l, const Vectors& left, const Vectors& right) const {
 
 std::complex<double> narrow(Wide a) { return {static_cast<double>(a.re), static_cast<double>(a.im)}; }
 
-/// Stores a root with its vectors, scaled so that |x| = 1 and y^T L' x = 1.
+/// Stores a root and its vectors, scaled so that |x| = 1 and y^T L' x = 1. product: y^T L' x before scaling.
 void Search::keep(Wide l, const Vectors& v, Wide product, DampedModes& out) {
   Long size = 0, left = 0, from = 0;
   for (const Wide x : v.x) size += x.re * x.re + x.im * x.im;
@@ -179,7 +179,7 @@ bool Search::add_seen(const Root& root, DampedModes& out) {
     all[i] = no_vectors();
     spread(local, root.l, &right, left, all[i]);
   }
-  // Equal roots: x are combined so that y_i^T L' x_k = 0 for i != k.
+  // Multiple root: combine the right vectors x so that y_i^T L' x_k = 0 for i != k.
   SmallMatrix<Wide> products{};
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t k = 0; k < m; ++k) products[i][k] = product(root.l, all[i], all[k]);
@@ -208,7 +208,7 @@ bool Search::add_seen(const Root& root, DampedModes& out) {
   return true;
 }
 
-/// Adds the two roots of a mode that is coupled to no term, and the mode's excitation.
+/// Adds the two roots of mode j, which is coupled to no term but may be excited by the forces of terms.
 bool Search::add_unseen(Index j, DampedModes& out) {
   const Long c = pencil_.decay()[j], d = pencil_.omega_squared()[j], inside = c * c / 4 - d;
   std::vector<Wide> roots;

@@ -9,13 +9,13 @@
 namespace signorini::modal {
 namespace {
 
-/// Limit for the amplification of rounding in the response to a force, for a slow mode or a mode near
-/// resonance. The same limit holds for the closed form of works (modal_works.cpp).
+/// Limit of the amplification of rounding errors in the response of a slow mode, or a mode near resonance, to a force. Equal to
+/// the limit for works in modal_works.cpp.
 constexpr double max_loss = 1e3;
 
 }  // namespace
 
-/// u_c: the displacement that constraints prescribe, in unconstrained modes.
+/// Displacement u_c that the constraints prescribe, in unconstrained modes; one column for each function of the time basis.
 Eigen::MatrixXd DampedMotion::constraint_displacements(const engine::Segment& segment,
                                                        const Vector& q) const {
   const auto rigid = static_cast<Eigen::Index>(state_->rigid.size());
@@ -35,7 +35,7 @@ Eigen::MatrixXd DampedMotion::constraint_displacements(const engine::Segment& se
   return state_->static_shapes * asked;
 }
 
-/// Forces that do not depend on the motion: loads, and such parts of contact forces. One row for each
+/// Forces that do not depend on the motion: loads, and the constant or prescribed parts of contact forces. One row for each
 /// unconstrained mode, one column for each function of the time basis.
 Eigen::MatrixXd DampedMotion::forces() const {
   const double t = decision_->jet.t;
@@ -60,7 +60,7 @@ Eigen::MatrixXd DampedMotion::forces() const {
   return p;
 }
 
-/// u_c'' + C u_c' + K u_c for the displacement `held`, including springs and dashpots of contacts.
+/// Forces u_c'' + C u_c' + K u_c for the displacement u_c = held, including springs and dashpots of contacts.
 Eigen::MatrixXd DampedMotion::inertia_of(const Eigen::MatrixXd& held) const {
   const Eigen::MatrixXd rate = time_.derivative(held);
   Eigen::MatrixXd p = time_.derivative(rate) + system_.decay().asDiagonal() * rate +

@@ -11,10 +11,10 @@ namespace {
 
 using Long = DampedPencil::Long;
 
-constexpr Long near_pole = 0.03L;      // limit for |P_j| relative to |l|^2 + d_j of the modes in G; chosen
-constexpr std::size_t max_near = 3;    // limit for the modes in G
-constexpr double equal_poles = 1e-13;  // relative distance at which poles are equal up to rounding
-constexpr double unseen_part = 1e-13;  // equal poles: largest coupling of a mode that counts as uncoupled
+constexpr Long near_pole = 0.03L;      // modes with |P_j| below this part of |l|^2 + d_j are in G; chosen
+constexpr std::size_t max_near = 3;    // largest number of modes in G
+constexpr double equal_poles = 1e-13;  // relative distance below which poles are regarded as equal
+constexpr double unseen_part = 1e-13;  // largest coupling of an uncoupled mode, relative to that of equal poles
 constexpr int max_steps = 30;          // limit of Newton steps; 3 to 5 are usual
 
 }  // namespace
@@ -37,7 +37,7 @@ DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd&
         std::any_of(terms_.begin(), terms_.end(), [&](const ModalTerm& term) { return term.v[j] != 0.0; });
     (any ? coupled_ : uncoupled_).push_back(j);
   }
-  double pull = 0.0;  // effect of the terms on free modes
+  double pull = 0.0;  // largest stiffness that a term adds to a mode
   for (const ModalTerm& term : terms_)
     pull = std::max(pull, term.u.cwiseAbs().maxCoeff() * term.v.cwiseAbs().maxCoeff());
   const auto stiff =
@@ -48,7 +48,7 @@ DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd&
     reference_omega_ = std::sqrt(static_cast<Long>(pull));
 }
 
-/// Rotates modes of equal poles so that at most as many of them as there are terms are coupled to terms.
+/// Rotates the modes of each group of equal poles so that not more of them are coupled than there are terms.
 void DampedPencil::rotate_equal_poles() {
   const auto terms = static_cast<Index>(terms_.size());
   for (Index first = 0, last = 0; first < size(); first = last) {
@@ -77,7 +77,7 @@ void DampedPencil::rotate_equal_poles() {
   }
 }
 
-/// Eigenvalues of a dense matrix, scaled so that stiff and soft modes have comparable entries.
+/// Eigenvalues of a dense matrix, which is scaled so that stiff and soft modes have comparable entries.
 Eigen::VectorXcd DampedPencil::starting_roots() const {
   const auto m = static_cast<Index>(coupled_.size());
   Eigen::MatrixXd k = omega_squared_(coupled_).asDiagonal(), c = decay_(coupled_).asDiagonal();
@@ -105,7 +105,7 @@ Eigen::VectorXcd DampedPencil::starting_roots() const {
   const double least = count > 0 ? 1e-6 * s.maxCoeff() + 1e-300 : 0.0;
   s = s.cwiseMax(least);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(2 * count, 2 * count);
-  for (Index i = 0; i < count; ++i) {  // from high to low; place and rate of a mode are adjacent
+  for (Index i = 0; i < count; ++i) {  // high to low modes; displacement and rate of a mode are adjacent
     const Index row = count - 1 - i;
     all(2 * i, 2 * i + 1) = s[row];
     for (Index j = 0; j < count; ++j) {
@@ -149,7 +149,7 @@ bool DampedPencil::assemble_at(Wide l, Local& local) const {
     }
     add_far(j, l, local);
   }
-  if (local.near.size() > max_near) {  // the farthest ones can be in the sums
+  if (local.near.size() > max_near) {  // keep the modes with the smallest |P_j| in G; the sums take the others
     std::sort(local.near.begin(), local.near.end(), [&](Index i, Index j) {
       return size_of(pole(i, l)) * (own + Long(omega_squared_[j])) <
              size_of(pole(j, l)) * (own + Long(omega_squared_[i]));
@@ -195,7 +195,7 @@ std::optional<DampedPencil::Wide> DampedPencil::refined_root(Wide l) const {
     if (!std::isfinite(size)) return size_of(value) == Long(0) ? std::optional(l) : std::nullopt;
     l += step;
     if (size <= 8 * std::numeric_limits<Long>::epsilon() * own) return l;
-    if (size <= Long(1e-15) * own && size >= last) return l;  // the step oscillates within rounding
+    if (size <= Long(1e-15) * own && size >= last) return l;  // steps no longer decrease: only rounding
     last = size;
   }
   return std::nullopt;

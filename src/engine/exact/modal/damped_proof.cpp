@@ -9,9 +9,9 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double quarter_of_guard = 0.25;          // limit for all fast modes together
-constexpr double noise_beside_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
-constexpr double turn_of_step = 4.0;               // |l| h of the fastest slow mode
+constexpr double quarter_of_guard = 0.25;          // part of a guard: limit of the sum of all fast modes
+constexpr double noise_beside_guard = 1.0 / 16.0;  // part of the decision's rounding bound
+constexpr double turn_of_step = 4.0;               // largest |l| h of a slow mode
 constexpr std::size_t highest_degree = 30;
 constexpr double slow_rounding = 1.0 + 1e-12;
 
@@ -65,7 +65,7 @@ void DampedProof::measure(const ModalPoint& at) {
   for (Watched& guard : guards_) guard.now = motion_.value(watched(guard), at);
 }
 
-/// Number of slow modes, `first` at least, such that the sum of all others is at most `most`.
+/// Number of slow modes, at least `first`, such that the other modes contribute at most `most` to f.
 Eigen::Index DampedProof::slow_for(const ModalQuantity& f, Eigen::Index first, double most) const {
   double sum = 0.0;
   Eigen::Index k = amplitude_.size();
@@ -134,7 +134,7 @@ DampedProof::Part DampedProof::part_of(const ModalQuantity& f, const ModalPoint&
   const auto row = f.row.head(slow_);
   const Eigen::VectorXd modes = (terms_.transpose() * row).real();
   for (std::size_t j = 0; j < count_; ++j) part.p[j] += modes[static_cast<Eigen::Index>(j)];
-  // each further term of a mode's series is at most half of the previous one
+  // Each further term of the series of a mode is at most half of the previous term.
   part.rest = waves.rest + 2.0 * row.cwiseAbs().dot(terms_.col(terms_.cols() - 1).cwiseAbs());
   for (Eigen::Index k = slow_; k < size_.size(); ++k) {
     const double most =
@@ -180,7 +180,7 @@ Passage DampedProof::pass(const ModalPoint& at, double remaining) {
   return done ? *done : pass(at, remaining);
 }
 
-/// Quantities of a contact in the order of TurningPointDetector::watched_fields.
+/// N, T, gap and ut of contact c: the order of TurningPointDetector::watched_fields.
 std::array<const ModalQuantity*, 4> DampedProof::watched_quantities(std::size_t c) const {
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   return {&own.N, &own.T, &own.gap, &own.ut};
@@ -200,7 +200,7 @@ double DampedProof::length_without_turning(const ModalPoint& at, const events::T
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double off_place = part.fast_bound + part.rest;
-      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // as ModalProof::length_without_turning
+      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // see ModalProof::length_without_turning
           range.is_exceeded(
               part.p[0], part.p[1],
               off_place + rounding::elimination * motion_.magnitude(*watched_quantities(c)[f], at)))
@@ -248,7 +248,7 @@ const std::vector<motion::ContactSeries>& DampedProof::series(const ModalPoint& 
   return series_;
 }
 
-/// Detects extremes at the boundary of two passages: values that are monotone up to it and reverse there.
+/// Finds extremes exactly at the beginning of a passage: quantities that were monotone up to this point and reverse there.
 void DampedProof::find_turning_at_start(const ModalPoint& at, double time,
                                         events::TurningPointDetector& turning,
                                         LastTurningTimes& turns) const {

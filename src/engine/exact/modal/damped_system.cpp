@@ -15,17 +15,17 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr Index max_damper_dofs = 24;  // limit for degrees of freedom with discrete dampers
-constexpr double hardly = 1e-3;        // |l_k + l_i| t_end: below, the integral is a series in it
+constexpr Index max_damper_dofs = 24;  // largest number of degrees of freedom with discrete dampers
+constexpr double hardly = 1e-3;        // limit of |l_k + l_i| t_end for RootSums::slow
 
-/// Decomposition of the damping: C = alpha M + beta K + sum of r d d^T of a few dampers.
+/// Decomposition of the damping matrix: C = alpha M + beta K + sum of r d d^T for a few dampers; each entry is a pair r, d.
 struct Damping {
   double alpha = 0.0, beta = 0.0;
   std::vector<std::pair<double, Vector>> dampers;
 };
 
-/// Excess of C over alpha M + beta K, and sums of the magnitudes of its terms, on the degrees of freedom where rounding
-/// of these terms does not explain it.
+/// Excess R = C - alpha M - beta K (more), and the sums of the magnitudes of its terms, on the degrees of freedom on which R
+/// exceeds the rounding of these terms.
 struct Rest {
   std::vector<int> dofs;
   Eigen::MatrixXd more, terms;
@@ -57,17 +57,17 @@ Rest rest_of(const Model& model, double alpha, double beta) {
   return rest;
 }
 
-/// R = sum of r d d^T over eigenvectors of D^-1/2 R D^-1/2, d = D^1/2 x, D: the diagonal of the terms, so
-/// that forces and moments have one unit. Rounding moves an eigenvalue by at most the norm of the rounding in
-/// the matrix (Weyl). An inclined damper at stiff members leads to spurious eigenvalues of that size, of
-/// either sign, which are dropped.
+/// Decomposes the excess R = sum of r d d^T by the eigenvalues r and eigenvectors x of D^-1/2 R D^-1/2, with d = D^1/2 x. D is
+/// the diagonal of Rest::terms, which gives forces and moments the same unit. Rounding changes an eigenvalue by at most the
+/// norm of the rounding errors of the matrix (Weyl). Eigenvalues below this limit, of either sign, are dropped; an inclined
+/// damper at stiff members causes such spurious eigenvalues.
 std::optional<Damping> dampers_of(const Model& model, double alpha, double beta) {
   const Rest rest = rest_of(model, alpha, beta);
   if (static_cast<Index>(rest.dofs.size()) > max_damper_dofs) return std::nullopt;
   Damping result{alpha, beta, {}};
   if (rest.dofs.empty()) return result;
   const Eigen::VectorXd root = rest.terms.diagonal().cwiseSqrt();
-  if (!(root.minCoeff() > 0.0)) return std::nullopt;  // a row without a diagonal belongs to no damper
+  if (!(root.minCoeff() > 0.0)) return std::nullopt;  // no damper has a zero diagonal entry
   const Eigen::VectorXd inverse = root.cwiseInverse();
   const double rounded =
       rounding::many_operations * (inverse.asDiagonal() * rest.terms * inverse.asDiagonal()).norm();
@@ -84,8 +84,8 @@ std::optional<Damping> dampers_of(const Model& model, double alpha, double beta)
   return result;
 }
 
-/// The decomposition with the scene's alpha and beta, or with the best fit. nullopt: there is none with few
-/// dampers.
+/// Decomposition with the alpha and beta of the scene, or else with the alpha and beta that fit C best. nullopt: neither leads
+/// to few dampers.
 std::optional<Damping> damping_of(const Model& model) {
   if (auto given = dampers_of(model, model.alpha, model.beta)) return given;
   const auto product = [](const SparseMatrix& a, const SparseMatrix& b) { return a.cwiseProduct(b).sum(); };
@@ -102,7 +102,7 @@ std::optional<Damping> damping_of(const Model& model) {
 
 namespace {
 
-/// True if there are rigid terms whose forces are not unique (linear/redundant_rows.hpp).
+/// True if rigid terms constrain the same motion, so that their forces are not unique (linear/redundant_rows.hpp).
 bool holds_twice(const std::vector<ModalTerm>& terms) {
   std::vector<Index> rigid;
   for (std::size_t a = 0; a < terms.size(); ++a)
@@ -126,7 +126,7 @@ std::size_t max_state_terms(const Model& model) {
 }
 
 std::string damped_refusal(const Model& model) {
-  if (model.size() == 0) return "nothing moves";
+  if (model.size() == 0) return "no degrees of freedom";
   for (const Contact& contact : model.contacts) {
     if (!contact.obeys_coulomb()) return "user-defined laws";
     if (contact.sliding_point()) return "shear elements";
@@ -204,7 +204,7 @@ void DampedSystem::find_constraints(DampedState& out) const {
     v.col(i) = term.v;
   }
   out.from_forces = base::solve_dense(v.transpose() * u, v.transpose());
-  // The constraints are satisfied by motions of low stiffness, so that stiff modes have small contributions.
+  // Of all displacements that satisfy the constraints, take one of low stiffness, so that stiff modes contribute little.
   const Vector soft =
       (basis_.omega_squared().array() + basis_.omega_squared()[std::min(n - 1, m + 3)]).inverse().matrix();
   const Eigen::MatrixXd weighted = soft.asDiagonal() * v;

@@ -10,7 +10,7 @@
 namespace signorini::modal {
 namespace {
 
-/// (e^(s h) - 1) / s where |s| h < 1e-3: the next term is 1e-15 of the sum.
+/// Computes (e^(s h) - 1) / s for |s| h < 1e-3 by a series. The first omitted term is at most 1e-15 of the sum.
 std::complex<double> grown(std::complex<double> s, double h) {
   const std::complex<double> x = s * h;
   return h * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x / 120.0))));
@@ -24,7 +24,7 @@ void DampedWorkIntegrals::start() {
   courses_overlap_ = false;
   loads_.clear();
   std::vector<std::pair<TimeCoefficients, ModalQuantity>>
-      alike;  // loads with the same history act as one load
+      alike;  // loads with equal histories are combined
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const TimeCoefficients factor = motion_.time().of(model.loads[i].history.piece(t));
     if (factor.isZero(0.0)) continue;
@@ -61,7 +61,7 @@ void DampedWorkIntegrals::prepare_contact(std::size_t c) {
   }
 }
 
-/// int q'^T C q', as far as it is known per segment.
+/// Prepares the parts of int q'^T C q' that are constant in a segment.
 void DampedWorkIntegrals::prepare_loss() {
   loss_responses_.resize(0, 0);
   forced_loss_.resize(0, 0);
@@ -106,7 +106,7 @@ DampedWorkIntegrals::ProductIntegral DampedWorkIntegrals::product_integral(Modal
   return pairing;
 }
 
-/// int (Re a . y)(Re b . y)
+/// Returns the integral of (Re a . y)(Re b . y) over the interval s.
 double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
                                      const Stretch& s) const {
   const RootSums& sums = motion_.state().sums;
@@ -127,7 +127,7 @@ double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::Vec
   return sum;
 }
 
-/// Contribution of products of modes and forced parts to an integral.
+/// Contribution of the products of modes and forced parts to an integral. answers: ProductIntegral::responses.
 double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
   if (answers.size() == 0) return 0.0;
   return (s.to.y.transpose() * (answers * s.b_to) - s.from.y.transpose() * (answers * s.b_from))
@@ -142,7 +142,7 @@ double DampedWorkIntegrals::integral(const ProductIntegral& pairing, const Stret
   return sum;
 }
 
-/// int q'^T C q'
+/// Returns the integral of q'^T C q' over the interval s.
 double DampedWorkIntegrals::loss(const Stretch& s) const {
   if (!motion_.system().damped()) return 0.0;
   const DampedState& state = motion_.state();

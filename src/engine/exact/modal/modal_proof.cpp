@@ -11,12 +11,13 @@
 namespace signorini::modal {
 namespace {
 
-/// True if the guard's rate, fast modes included, is negative between the places `from` and `to` of the step.
+/// True if the guard's rate, including a bound on fast modes, is negative between the places `from` and `to` (0 to 1) of the
+/// step.
 bool decreases(const GuardOnStep& guard, double h, double from, double to) {
   const std::vector<double>& p = guard.p;
   std::vector<double> q(p.size() - 1);
   for (std::size_t j = 0; j < q.size(); ++j) q[j] = -static_cast<double>(j + 1) * p[j + 1];
-  for (std::size_t i = 0; i + 1 < q.size(); ++i)  // about `from`
+  for (std::size_t i = 0; i + 1 < q.size(); ++i)  // shift the polynomial to the origin `from`
     for (std::size_t j = q.size() - 1; j-- > i;) q[j] += from * q[j + 1];
   double power = 1.0, rest = 0.0;
   for (double& entry : q) {
@@ -28,7 +29,8 @@ bool decreases(const GuardOnStep& guard, double h, double from, double to) {
   return q[0] > 0.0 && events::first_root(q.data(), q.size() - 1, 0.0).kind == events::FirstRoot::Kind::none;
 }
 
-/// The only zero of g between two places of the step, by the Illinois method (bracketed secants).
+/// Only zero of g between two places of the step, by the Illinois method (bracketed secants). `from` if g(from) <= 0; `to` if
+/// g(to) >= 0.
 double only_fall(const std::function<double(double)>& g, double from, double to) {
   double low = g(from), high = g(to);
   if (!(low > 0.0)) return from;
@@ -57,12 +59,13 @@ double only_fall(const std::function<double(double)>& g, double from, double to)
   return x;
 }
 
-/// Examines a guard that starts at zero, as find_guard_zero().
+/// Part of find_guard_zero() for a guard that starts at zero and is represented by its leading derivative.
 bool leave_zero(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& arming, double& limit) {
   std::vector<double>& q = guard.p;
   double scale = 0.0;
   for (const double entry : q) scale += std::abs(entry);
-  // The decision has proved that the guard rises; the remainder of the series is subtracted.
+  // Subtracts the bounds on fast modes and rounding, but at most half of the derivative: the decision has proved that it is
+  // positive.
   q[0] -= std::min(guard.fast_bound + rounding::many_operations * scale, 0.5 * q[0]);
   if (!(q[0] > 0.0)) {
     arming.discard_leading_order(slot);
@@ -125,7 +128,7 @@ bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
 
 std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event, double h,
                                    bool& full) {
-  if (doubted || (limit == 0.0 && !full)) {  // otherwise a guard is too close to zero for fast modes
+  if (doubted || (limit == 0.0 && !full)) {  // if not doubted: a guard is too small to treat modes as fast
     full = full || !doubted;
     return std::nullopt;
   }
@@ -148,8 +151,8 @@ double stays_above(const double* a, std::size_t degree, double x_end, double sig
 
 namespace {
 
-constexpr double quarter = 0.25;                  // of a guard: limit for all fast modes together
-constexpr double rounding_of_guard = 1.0 / 16.0;  // relative to the bound that the decision uses
+constexpr double quarter = 0.25;                  // part of a guard: limit of the sum of all fast modes
+constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound
 
 double sum_of(const Amplitudes& weights, const Amplitudes& values) {
   double sum = 0.0;
@@ -166,7 +169,8 @@ double size_of_sum(const Amplitudes& weights, const Amplitudes& values) {
   return sum;
 }
 
-/// Rewrites the guard's form in terms of g, ut and their rates, with the constants of the forces.
+/// Replaces N and T in the guard's form by their laws: returns the coefficients of g, ut, vn and vt. constant: receives the
+/// rest.
 ModalKinematics reduced(const Form& form, const ForceLaw& law, double& constant) {
   ModalKinematics result;
   const double N = form.N;
@@ -253,7 +257,7 @@ double ModalProof::magnitude(std::size_t slot, const ModalPoint& at) const {
   return std::abs(guard->constant) + size_of_sum(guard->place, at.z) + size_of_sum(guard->rate, at.rate);
 }
 
-/// Value of the guard's leading derivative.
+/// Value of the leading derivative of the guard.
 double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
   const std::size_t order = active_guards_.leading_order(guard.slot);
   double sum = 0.0;
@@ -300,7 +304,7 @@ void ModalProof::measure(const ModalPoint& at) {
   }
 }
 
-/// Factor of the bound on mode k: |w_k|, times omega^m if the leading derivative is watched.
+/// Coefficient |w_k| of mode k in the bound on the guard. For a leading derivative of order m, times omega_k^m.
 double ModalProof::weight_of(const Watched& guard, std::size_t k) const {
   double weight = guard.size[k];
   if (starts_at_zero(guard)) weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * order_of(guard));
@@ -332,8 +336,7 @@ void ModalProof::choose_step(double remaining) {
     const double fastest = l[std::min(first, l.size() - 1)];
     if (fastest > 0.0) h_ = std::min(h_, max_slow_angle / std::sqrt(fastest));
   }
-  // Pairs may grow. A pair is slow unless the step is long relative to its period and its contribution is
-  // small.
+  // Pairs of complex modes may grow. So a pair limits the step, and is slow, unless its contribution to all guards is small.
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
       const double root = std::sqrt(size_of(pairs[k]));
@@ -361,7 +364,7 @@ void ModalProof::bound_fast_modes() {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       if (pair_slow_[k]) continue;
       const double root = std::sqrt(size_of(pairs[k]));
-      // e^(gamma h) with gamma <= |Im w|, where cosh grows
+      // growth e^(gamma h) with gamma <= |Im w|
       const double growth =
           std::exp(std::abs(complex_sqrt(pairs[k] - Complex(0.25 * alpha_ * alpha_)).im) * h_);
       const double order = order_of(guard);
@@ -373,7 +376,7 @@ void ModalProof::bound_fast_modes() {
   }
 }
 
-/// Computes the guard's slow part, and the bound on its error.
+/// Computes the polynomial p of the guard's slow part, and the bound `slack` on its error.
 void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
   const std::size_t c = decision_->layout.contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);

@@ -24,12 +24,12 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double app
   return law;
 }
 
-/// Largest relative error of works, which divide by (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) (modal_works.hpp):
-/// it is eps (omega/alpha)^2.
+/// Limit of the relative error eps (omega/alpha)^2 of works. The error is due to the division by (l_k - l_i)^2 + 2 alpha^2
+/// (l_k + l_i) (modal_works.hpp).
 constexpr double most_lost = 1e-12;
 
 std::string coupling_refusal(const Model& model) {
-  if (model.size() == 0) return "nothing moves";
+  if (model.size() == 0) return "no degrees of freedom";
   for (const Contact& contact : model.contacts) {
     if (!contact.obeys_coulomb()) return "user-defined laws";
     if (contact.takes_impulses()) return "rigid contacts";
@@ -105,7 +105,7 @@ std::shared_ptr<const StateModes> ModalSystem::state(const contact::ContactState
                        bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * contact_states.size())));
 }
 
-/// Computes the modes of contact states: the matrix is a diagonal plus at most two columns for each contact.
+/// Computes the modes of the contact states: D plus U V^T, with at most two columns of U and V for each contact.
 StateModes ModalSystem::make(const contact::ContactStates& contact_states) const {
   std::vector<Vector> u, v;
   bool symmetric = true;
@@ -146,13 +146,13 @@ StateModes ModalSystem::make(const contact::ContactStates& contact_states) const
   return made;
 }
 
-// The slow part of contact quantities: polynomials on a step, and bounds on the contribution of fast modes.
+// Contact quantities on a step: polynomials for the slow modes, and bounds on the contribution of the fast modes.
 
 namespace {
 
 constexpr std::size_t most_degree = 30;
 
-/// Errors of N, T, g and ut (TurningPointDetector::watched_fields) that follow from errors of g and ut.
+/// Errors of N, T, g and ut (order of TurningPointDetector::watched_fields) due to the error `normal` of g and `tangent` of ut.
 std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent) {
   return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
           tangent};
@@ -160,7 +160,7 @@ std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent)
 
 }  // namespace
 
-/// Selects the modes that a step of length h_ follows as polynomials.
+/// Selects the slow modes, which a step of length h_ represents by polynomials.
 void ModalProof::split_modes(bool all_slow) {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
@@ -173,9 +173,8 @@ void ModalProof::split_modes(bool all_slow) {
   for (std::size_t k = 0; k < pairs.size(); ++k) pair_slow_[k] = size_of(pairs[k]) * h_ * h_ <= square;
 }
 
-/// Bounds on the contributions of fast modes and of the remainder of slow modes to N, T, g and ut
-/// (TurningPointDetector::watched_fields), or to their rates: each mode moves by at most A, with a rate of at
-/// most sqrt(l) A.
+/// Bounds on the contributions of fast modes, and of the remainders of slow modes, to N, T, g and ut, or to their rates
+/// (of_rate). The amplitude of mode k is at most A_k, its rate at most sqrt(l_k) A_k.
 ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) const {
   const ForceLaw& law = laws_[c];
   double normal = of_rate ? normal_rest_[c].rate : normal_rest_[c].place;
@@ -188,8 +187,8 @@ ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) c
   return of_law(law, normal, tangent);
 }
 
-/// Part of [0, 1] on which each of N, T, g and ut is monotone or constant, without a turning point. N is a
-/// function of g; T is a function of g in slip and of ut in stick.
+/// For each of N, T, g and ut: the s up to which it is monotone or constant on [0, s x_end], s <= 1. N is a function of g; T is
+/// a function of g in slip and of ut in stick.
 ModalProof::WatchedValues ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
   const WatchedValues ripple = fast_bounds(c, true);
@@ -208,7 +207,7 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
                                           double x_end) const {
   if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
   std::vector<double> p(degree_ + 1);
-  double safe = 1.0;  // part of x_end
+  double safe = 1.0;  // relative to x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
     const WatchedValues ripple = fast_bounds(c, false), forth = one_way(c, x_end, p);
     const WatchedValues unsure = of_law(laws_[c], rounding::elimination * normal_size_[c].place,
@@ -217,7 +216,8 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double* a = slow_[c].coefficients(events::TurningPointDetector::watched_fields[f]);
-      // find_turning_at_start sums the slope in another order: if the slope is only rounding, its sign may differ.
+      // Includes rounding, because find_turning_at_start() sums the slope in another order: if the slope is only rounding, its
+      // sign may differ there.
       if (range.is_exceeded(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
       if (forth[f] >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
@@ -229,7 +229,7 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
   return safe * x_end;
 }
 
-/// Detects extremes at the boundary of two passages: values that are monotone up to it and reverse there.
+/// Finds extremes exactly at the beginning of a passage: quantities that were monotone up to this point and reverse there.
 void ModalProof::find_turning_at_start(const ModalPoint& at, double time,
                                        events::TurningPointDetector& turning, LastTurningTimes& turns) const {
   for (std::size_t c = 0; c < laws_.size(); ++c) {
@@ -302,7 +302,7 @@ SIGNORINI_WIDE_LANES void ModalProof::expand_real(const ModalPoint& at) {
   }
 }
 
-/// Coefficients of the slow modes in t / h, `count_` of each.
+/// Computes the Taylor coefficients of the slow modes in t / h, count_ for each mode.
 void ModalProof::expand_modes(const ModalPoint& at) {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
@@ -320,8 +320,8 @@ void ModalProof::expand_modes(const ModalPoint& at) {
                      pairs.size(), pair_coefficients_.data() + k);
 }
 
-/// Sum of a row over the modes: a polynomial for slow ones, the static value for fast ones; returns a bound on the
-/// remainder.
+/// Sums a row over all modes: polynomials of the slow modes, static values of the fast modes. still: sum of the static values
+/// of fast real modes. Returns bounds on the remainder of the value and of the rate.
 ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vector<double>& out) const {
   const std::vector<Complex>& pairs = oscillators_->pairs();
   out.assign(count_, 0.0);
@@ -330,7 +330,7 @@ ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vecto
       coefficients_.data(), terms, slow);
   const Eigen::Map<const Eigen::VectorXd> shown(row.real.data(), slow);
   Eigen::Map<Eigen::VectorXd>(out.data(), terms).noalias() = of_modes * shown;
-  // each further term of a mode's series is at most half of the previous one
+  // Each further term of the series of a mode is at most half of the previous term.
   const auto rest = static_cast<Eigen::Index>(count_ - degree_ - 1);
   double left = 2.0 * (of_modes.bottomRows(rest).cwiseAbs() * shown.cwiseAbs()).sum();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -348,7 +348,7 @@ ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vecto
   return {left, left * static_cast<double>(degree_ + 3) / h_};
 }
 
-/// Gaps and slides of all contacts as polynomials in t / h, from slow modes and the static values of fast ones.
+/// Expands gap, ut, their rates, N and T of all contacts as polynomials in t / h. Fast modes enter by their static values.
 void ModalProof::expand(const ModalPoint& at) {
   expand_modes(at);
   const std::size_t contacts = model_.contacts.size();

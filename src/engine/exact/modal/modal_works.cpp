@@ -10,8 +10,8 @@ namespace signorini::modal {
 namespace {
 
 constexpr double least_velocity =
-    1e-9;  // of the greatest modal velocity; products of smaller ones are below the rounding of a balance
-constexpr double no_frequency = 1e-12, least_frequency = 1e-3;  // relative to omega^2 t_end^2
+    1e-9;  // relative to the greatest modal velocity: works of slower modes are below rounding
+constexpr double no_frequency = 1e-12, least_frequency = 1e-3;  // limits of omega^2 t_end^2: below the first, zero
 
 template <class S>
 using Ends = ModalWorkIntegrals::Ends<S>;
@@ -22,24 +22,24 @@ struct Integrals {
   S changed{};         // y_k y_l
 };
 
-/// a [y_k y_l] + b [y_k' y_l'] + c1 [y_k y_l'] + c2 [y_k' y_l] for both integrals.
+/// Computes both integrals in the form a [y_k y_l] + b [y_k' y_l'] + c1 [y_k y_l'] + c2 [y_k' y_l].
 template <class S>
 Integrals<S> integrals(const Ends<S>& k, const Ends<S>& l, double alpha) {
   const S yy = k.y1 * l.y1 - k.y0 * l.y0, rr = k.r1 * l.r1 - k.r0 * l.r0;
   const S yr = k.y1 * l.r1 - k.y0 * l.r0, ry = k.r1 * l.y1 - k.r0 * l.y0;
   Integrals<S> result;
   result.changed = yy;
-  if (!(size_of(k.l) + size_of(l.l) > 0.0)) {  // both only decay, y = -y'/alpha
+  if (!(size_of(k.l) + size_of(l.l) > 0.0)) {  // both frequencies are zero: y = -y'/alpha
     result.rates = rr * (-0.5 / alpha);
     result.mixed = rr * (0.5 / (alpha * alpha));
     return result;
   }
   const S difference = l.l - k.l, sum = k.l + l.l;
   const S e = inverse(difference * difference + sum * (2.0 * alpha * alpha));
-  // c1 = l_k m, c2 = -l_l m, m = -difference e, b = -alpha sum e, a = l_k b + alpha c1
+  // int y_k' y_l': m = -difference e, b = -alpha sum e, a = l_k b + alpha c1, c1 = l_k m, c2 = -l_l m
   const S m = -(difference * e), b = sum * e * (-alpha);
   result.rates = (k.l * b + k.l * m * alpha) * yy + b * rr + k.l * m * yr - l.l * m * ry;
-  // m = -2 alpha e, b = difference e, a = l_l b - alpha l_l m
+  // int y_k y_l': m2 = -2 alpha e, b2 = difference e, a = l_l b2 - alpha l_l m2, c1 = l_k m2, c2 = -l_l m2
   const S m2 = e * (-2.0 * alpha), b2 = difference * e;
   result.mixed = (l.l * b2 - l.l * m2 * alpha) * yy + b2 * rr + k.l * m2 * yr - l.l * m2 * ry;
   return result;
@@ -47,7 +47,7 @@ Integrals<S> integrals(const Ends<S>& k, const Ends<S>& l, double alpha) {
 
 Ends<Complex> complex(const Ends<double>& a) { return {a.l, a.y0, a.r0, a.y1, a.r1}; }
 
-/// Sum over modes of a row with a quantity of each mode.
+/// Sum over all modes of the row entry times a quantity: real(k) of real modes, pair(k) of pairs.
 template <class Real, class Pair>
 double sum_over(const Amplitudes& row, const Real& real, const Pair& pair) {
   double sum = 0.0;
@@ -112,7 +112,7 @@ ModalWorkIntegrals::Stretch ModalWorkIntegrals::stretch(const ModalPoint& from, 
   return s;
 }
 
-/// Contribution of the drifts d_k, d_l to product int z_k' z_l'; product: x_k^T x_l of the mode shapes.
+/// Contribution of the drifts d_k and d_l to x_k^T x_l int z_k' z_l'. product: x_k^T x_l of the mode shapes.
 double ModalWorkIntegrals::with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const {
   const auto change = [&](std::size_t i) { return s.real[i].y1 - s.real[i].y0; };
   return product * (s.drift[k] * s.drift[l] * s.time + s.drift[k] * change(l) + s.drift[l] * change(k));
@@ -133,7 +133,7 @@ std::vector<std::size_t> ModalWorkIntegrals::moving(const Stretch& s) const {
   return result;
 }
 
-/// Adds the sums of two modes, at least one of which has no frequency.
+/// Adds the contribution of a pair of modes, at least one of which has zero frequency.
 void ModalWorkIntegrals::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const {
   const Integrals<double> both = integrals(s.real[k], s.real[l], alpha_);
   const double x = state_->spectrum.product(k, l);
@@ -143,7 +143,7 @@ void ModalWorkIntegrals::add_two(const Stretch& s, std::size_t k, std::size_t l,
                        state_->normal[c].real[l] * state_->tangent[c].real[k] * (both.changed - both.mixed);
 }
 
-/// Ends of all modes up to the last of 'oscillating'; zero for modes that are not in it.
+/// Arrays of the ends of all modes up to the last mode in `oscillating`. Zero for modes that are not in this list.
 ModalWorkIntegrals::EndArrays ModalWorkIntegrals::end_arrays(
     const Stretch& s, const std::vector<std::size_t>& oscillating) const {
   const Eigen::Index n = oscillating.empty() ? 0 : static_cast<Eigen::Index>(oscillating.back()) + 1;
@@ -161,7 +161,7 @@ ModalWorkIntegrals::EndArrays ModalWorkIntegrals::end_arrays(
   return arrays;
 }
 
-/// Adds all oscillating modes, each with all those before it.
+/// Adds the contributions of all pairs of oscillating modes.
 void ModalWorkIntegrals::add_oscillating(const EndArrays& arrays, Sums& sums) const {
   const ModePairs& pairs = state_->pairs;
   const Eigen::Index n = arrays.l.size();
@@ -199,7 +199,7 @@ void ModalWorkIntegrals::add_real(const Stretch& s, const std::vector<std::size_
   add_oscillating(end_arrays(s, oscillating), sums);
 }
 
-/// Adds the sums of conjugate pairs: with real modes, with other pairs and with the conjugates of pairs.
+/// Adds the contributions of complex modes: products with real modes, with complex modes and with conjugates of complex modes.
 void ModalWorkIntegrals::add_pairs(const Stretch& s, const std::vector<std::size_t>& moving,
                                    Sums& sums) const {
   const Spectrum& spectrum = state_->spectrum;
@@ -252,7 +252,7 @@ double ModalWorkIntegrals::gap_integral(const Stretch& s, std::size_t c) const {
                                                [&](std::size_t k) { return s.area.pair[k]; });
 }
 
-/// int g ut', with g = g_a + g_d t + sum a y, ut' = v_d + sum b y'; gap: at the beginning.
+/// Integral int g ut', with g = g_a + g_d t + sum a y and ut' = v_d + sum b y'. gap: g at the beginning; crossed: see Sums.
 double ModalWorkIntegrals::gap_times_slide(const Stretch& s, std::size_t c, double gap,
                                            double crossed) const {
   const Amplitudes &a = state_->normal[c], &b = state_->tangent[c];
@@ -265,7 +265,7 @@ double ModalWorkIntegrals::gap_times_slide(const Stretch& s, std::size_t c, doub
   };
   const double end = sum_over(
       b, [&](std::size_t k) { return s.real[k].y1; }, [&](std::size_t k) { return s.pair[k].y1; });
-  // int y = -[y' + alpha y]/l, or -[y]/alpha without frequency
+  // int y = -[y' + alpha y]/l, or -[y]/alpha for zero frequency
   const double area = sum_over(
       b,
       [&](std::size_t k) {

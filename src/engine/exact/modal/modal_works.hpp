@@ -47,7 +47,7 @@ class ModalWorkIntegrals {
     std::vector<double> drift;  // d of real modes; 0 if they oscillate
     Amplitudes area;            // int z
   };
-  /// rates: int q'^T q'. crossed: for each slipping contact int (sum a_k y_k)(sum b_k y_k').
+  /// rates: int q'^T q'. crossed: for each contact int (sum a_k y_k)(sum b_k y_k'); 0 unless it slips.
   struct Sums {
     double rates = 0.0;
     std::vector<double> crossed;

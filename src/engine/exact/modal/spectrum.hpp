@@ -190,7 +190,7 @@ class Spectrum {
   void test();
 
   std::size_t rank_;
-  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> rotations_;  // for each group of equal poles: index of the first, rotation
+  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> rotations_;  // per group of equal poles: first index, rotation
   std::vector<Eigen::Index> coupled_, uncoupled_;                    // indices among all modes
   Eigen::MatrixXd u_uncoupled_;
   std::vector<double> uncoupled_poles_;

@@ -44,7 +44,7 @@ std::vector<int> narrow_order(const SparseMatrix& mass, const SparseMatrix& stif
   std::vector<int> order;
   for (std::size_t i = 0; i < n; ++i) {
     if (seen[i]) continue;
-    // Start at the far end of a first walk: the levels of the breadth-first search are then narrow.
+    // Start at the last node of a first breadth-first search: the levels of the second search are then narrow.
     std::vector<bool> tried = seen;
     std::vector<int> trial;
     walk(static_cast<int>(i), tried, trial);
@@ -60,22 +60,22 @@ namespace {
 using Long = long double;
 using LongVector = std::vector<Long>;
 
-constexpr std::size_t widest_band = 48;  // half-width of the band, without the diagonal
-constexpr double free_share = 1e-14;     // of the highest omega^2: below this, a motion is free
-constexpr double doubtful = 100.0;       // times free_share: such a low mode may be a free motion
+constexpr std::size_t widest_band = 48;  // largest half-width of the band, without the diagonal
+constexpr double free_share = 1e-14;     // part of the highest omega^2 below which a motion is free
+constexpr double doubtful = 100.0;       // times free_share: below, free motion and mode cannot be distinguished
 constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are computed together
 constexpr int more_halvings =
-    11;  // for a bracket with one mode; each inverse iteration then gains a factor of 2000
+    11;  // of a bracket with one mode; each inverse iteration then reduces the error by 2000
 constexpr int quick_solves = 3;
 constexpr int max_quotients = 6;
-constexpr double worst_product = 1e-4;  // limit for the product of two shapes before orthogonalisation
+constexpr double worst_product = 1e-4;  // limit of the product of two shapes before orthogonalisation
 
 struct Bracket {
   double low = 0.0, high = 0.0;
-  std::size_t below = 0, up_to = 0;  // modes below low and below high
+  std::size_t below = 0, up_to = 0;  // number of modes below `low` and below `high`
 };
 
-/// Brackets with one mode each, or with several nearly equal ones; ascending.
+/// Divides `all` into brackets with one mode each, or with several nearly equal modes; ascending.
 std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
   std::vector<Bracket> unsettled{all}, done;
   while (!unsettled.empty()) {
@@ -84,7 +84,7 @@ std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
     if (now.up_to == now.below) continue;
     const bool one = now.up_to - now.below == 1;
     if (!one && now.high - now.low > same_frequency * now.high) {
-      // The geometric mean, because frequencies extend over decades.
+      // Geometric mean, because frequencies extend over decades.
       const double middle =
           now.high > 4.0 * now.low ? std::sqrt(now.low * now.high) : 0.5 * (now.low + now.high);
       const std::size_t count = std::clamp(pencil.factor(middle), now.below, now.up_to);
@@ -105,7 +105,7 @@ class Shapes {
  public:
   explicit Shapes(BandPencil<Long>& pencil) : pencil_(pencil), mx_(pencil.size()) {}
 
-  /// Computes the modes closest to the shift: M-orthonormal columns, and their Rayleigh quotients.
+  /// Computes the `count` modes closest to the shift: M-orthonormal columns x and their Rayleigh quotients `square` = omega^2.
   void find(Long shift, std::size_t count, int solves, std::vector<LongVector>& x, LongVector& square) {
     x.assign(count, LongVector(pencil_.size()));
     for (LongVector& column : x)
@@ -115,8 +115,8 @@ class Shapes {
     rotate(x, square);
   }
 
-  /// Computes one mode, first in doubles. With the Rayleigh quotient as the next shift, each step triples the
-  /// digits.
+  /// Computes the only mode in a bracket: first by inverse iteration in doubles, then with the Rayleigh quotient as shift, so
+  /// that each step triples the number of correct digits.
   void find_one(BandPencil<double>& quick, const Bracket& bracket, LongVector& x, Long& square) {
     std::vector<double> begun(pencil_.size()), mx(pencil_.size());
     for (double& entry : begun) entry = uniform_(random_);
@@ -150,7 +150,7 @@ class Shapes {
     return sum;
   }
 
-  /// x := (K - s M)^-1 M x, M-orthonormal.
+  /// One inverse iteration: x := (K - s M)^-1 M x, then made M-orthonormal.
   void sweep(std::vector<LongVector>& x) {
     for (LongVector& column : x) {
       pencil_.times_mass(column.data(), mx_.data());
@@ -163,7 +163,7 @@ class Shapes {
   void orthonormal(std::vector<LongVector>& x) {
     for (std::size_t k = 0; k < x.size(); ++k)
       for (int twice = 0; twice < (k > 0 ? 2 : 1); ++twice) {
-        // Squares must not overflow: a solve at an eigenvalue yields large numbers.
+        // Scale, because a solve with a shift near an eigenvalue yields large numbers, whose squares would overflow.
         Long greatest = 0;
         for (const Long entry : x[k]) greatest = std::max(greatest, std::abs(entry));
         scale(x[k], 1 / greatest);
@@ -181,7 +181,7 @@ class Shapes {
     for (Long& entry : x) entry *= factor;
   }
 
-  /// Rotates the columns so that K is diagonal on them as well.
+  /// Rotates the columns so that x^T K x is diagonal too. square: the diagonal, omega^2.
   void rotate(std::vector<LongVector>& x, LongVector& square) {
     const std::size_t count = x.size();
     std::vector<Long> energy(count * count);
@@ -218,14 +218,14 @@ class Shapes {
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
 
-/// Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order: each column changes only by columns of lower
-/// modes.
+/// Makes the shapes M-orthonormal: Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order. Each column changes only by
+/// columns of lower modes. False: the shapes are not nearly orthogonal.
 bool orthonormal_from_low_to_high(const SparseMatrix& mass, Eigen::MatrixXd& shapes) {
   for (int twice = 0; twice < 2; ++twice) {
     Eigen::MatrixXd products = shapes.transpose() * (mass * shapes);
     products.diagonal().array() -= 1.0;
     if (!(products.cwiseAbs().maxCoeff() < worst_product)) return false;
-    const bool good = products.cwiseAbs().maxCoeff() < 1e-9;  // its square is below rounding
+    const bool good = products.cwiseAbs().maxCoeff() < 1e-9;  // the neglected square is below rounding
     products.diagonal() *= 0.5;
     shapes -= (shapes * products.triangularView<Eigen::Upper>()).eval();
     if (good) break;

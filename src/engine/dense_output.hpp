@@ -38,7 +38,7 @@ struct FastModeBound {
 struct Expansion {
   const motion::Series* series = nullptr;  ///< null if the engine has no series
   std::size_t degree = 0;                  ///< u, v, a and forces are complete up to this degree
-  double x = 0.0;  ///< value of the series variable at the end of the step
+  double x = 0.0;                          ///< value of the series variable at the end of the step
   /// Equations of the contact states, with the friction of the slip rates at the beginning of the series.
   const motion::StateSystem* system = nullptr;
 };

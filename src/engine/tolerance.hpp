@@ -8,7 +8,7 @@
 
 namespace signorini::engine {
 
-/// All tolerances except rtol are absolute, in the units of the scene; angles in radians.
+/// All tolerances except rtol are absolute, in model units (model/internal_units.hpp); angles in radians.
 struct Tolerance {
   double rtol = 0.0;
   double displacement = 0.0, rotation = 0.0, velocity = 0.0, angular_velocity = 0.0;

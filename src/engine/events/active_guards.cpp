@@ -41,7 +41,7 @@ void GuardMonitor::set_waiting(std::size_t slot, double level) {
 }
 
 double GuardMonitor::allowed_depth(std::size_t contact, const GuardForm& guard) const {
-  if (layout_.contacts() == 0) return 0.0;  // not started
+  if (layout_.contacts() == 0) return 0.0;  // start() was not called yet
   const std::size_t first = layout_.guard(contact), end = layout_.guard_end(contact);
   for (std::size_t slot = first; slot < end; ++slot)
     if (!active_guards_.idle(slot) && forms_[contact][slot - first] == guard)

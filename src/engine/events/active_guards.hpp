@@ -26,7 +26,7 @@ class ActiveGuards {
   /// derivatives are unknown.
   [[nodiscard]] std::size_t leading_order(std::size_t slot) const { return guards_[slot].leading_order; }
 
-  /// Forgets the leading order: the prediction from the derivatives at the start has been refuted.
+  /// Sets the leading order to 0, because the guard does not rise as its derivatives at the start predict.
   void discard_leading_order(std::size_t slot) { guards_[slot].leading_order = 0; }
   /// Makes the guard wait: it is zero again, and its derivatives are unknown.
   void set_waiting(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
@@ -46,13 +46,13 @@ class ActiveGuards {
 
 // Zero crossings of the guards inside the steps of IDA.
 //
-//   armed      g > 0 was clearly observed: its first downward zero crossing is an event
+//   armed      g was clearly positive: its first downward zero crossing is an event
 //   not armed  g started at zero and rises; armed once g >= level, an event once g <= -level
 //   level      re_arm_tolerances times the local error tolerance of g
 //
 // IDA reports only changes of sign between the ends of a step. On a step the solution is a polynomial of
-// degree q <= 5, and so is every guard. Its Bernstein coefficients prove that it stays positive, or show
-// where it does not, so two crossings inside one step are not missed.
+// degree q <= 5, and so is every guard. The Bernstein coefficients of a guard prove that it stays positive, or lead to its
+// zeros, so two crossings inside one step are not missed.
 
 /// A waiting guard is armed once it exceeds this many local error tolerances. Below this level, the integration error may
 /// decide the sign of the guard.
@@ -60,8 +60,8 @@ inline constexpr double re_arm_tolerances = 10.0;
 
 /// Place inside the last step at which a guard reaches zero.
 struct ZeroCrossing {
-  std::size_t slot = 0;  ///< signorini/force_layout.hpp
-  double x = 0.0;        ///< 0..1 on the step
+  std::size_t slot = 0;  ///< slot of the guard (signorini/force_layout.hpp)
+  double x = 0.0;        ///< place in the step, 0 to 1
 };
 
 class GuardMonitor {
@@ -75,8 +75,8 @@ class GuardMonitor {
   void set_waiting(std::size_t slot, double level);
   /// Largest negative value (as a magnitude) that this guard may reach without an event. 0 if the guard is armed.
   [[nodiscard]] double allowed_depth(std::size_t contact, const GuardForm& guard) const;
-  /// All downward zero crossings in the part [0, limit] of the last step; scalars 0.. of the history are the guards.
-  /// Arms guards that have risen enough.
+  /// Finds all downward zero crossings in the part [0, limit] of the last step, and arms guards that have risen enough. The
+  /// first scalars of the history are the guards, in the order of slots.
   [[nodiscard]] std::vector<ZeroCrossing> check(const StepHistory& history, double limit);
 
  private:

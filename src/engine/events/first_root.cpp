@@ -171,10 +171,10 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi, doub
 
 struct Interval {
   double lo, hi;
-  Coefficients b;  // only degree + 1 entries are ever set
+  Coefficients b;  // only the first degree + 1 entries are used
 };
 
-/// Place where the control polygon crosses zero downwards.
+/// Estimate of the root: place at which the control polygon crosses zero downwards.
 double guess(std::size_t n, const Interval& now) {
   std::size_t i = 0;
   while (i < n && now.b[i] > 0.0) ++i;
@@ -227,7 +227,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     Interval& now = stack[count - 1];
     ++result.intervals;
     std::size_t above = 0, below = 0, rises = 0, falls = 0;
-    bool one_change = true;  // from above slack to below -slack, none between
+    bool one_change = true;  // one sign change, from above slack to below -slack, no value between
     for (std::size_t i = 0; i <= degree; ++i) {
       above += now.b[i] > slack ? 1 : 0;
       below += now.b[i] < -slack ? 1 : 0;
@@ -243,7 +243,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     if (below == degree + 1) return falls_at(now.lo);
     one_change = one_change && above + below == degree + 1 && now.b[0] > slack;
     if (one_change) return falls_at(only_zero(a, degree, now.lo, now.hi, guess(degree, now)));
-    if (rises == degree) {  // monotone: the values at its ends decide
+    if (rises == degree) {  // p is monotone in the interval: the values at the ends decide
       if (now.b[0] < -slack) return falls_at(now.lo);
       if (now.b[0] <= slack && now.lo > 0.0) touch(now.lo);
       --count;

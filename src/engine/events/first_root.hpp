@@ -33,10 +33,10 @@ struct Bernstein {
   int degree = 0;
   std::array<double, max_degree + 1> b{};
 
-  /// From power coefficients a_0 + a_1 x + ...
+  /// Converts a polynomial with power coefficients: a_0 + a_1 x + ...
   [[nodiscard]] static Bernstein from_powers(int degree, const std::array<double, max_degree + 1>& a);
   [[nodiscard]] double value(double x) const;
-  [[nodiscard]] double integral(double x) const;  ///< from 0 to x
+  [[nodiscard]] double integral(double x) const;  ///< integral from 0 to x
   [[nodiscard]] Bernstein derivative() const;
   [[nodiscard]] bool positive() const;              ///< all coefficients are > 0
   [[nodiscard]] bool at_least(double level) const;  ///< all coefficients are >= level

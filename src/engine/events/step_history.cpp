@@ -24,7 +24,7 @@ template <class T>
   base::lanes_at<T>(mean + s).v = sum;
 }
 
-/// For n scalars: bent = 2 bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b
+/// Computes for n scalars: bent = twice_bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b.
 SIGNORINI_WIDE_LANES void look_at_all(const Kept& rows, int order, double twice_bend, int degree,
                                       const double* weights, std::size_t n, double* bent, double* mean) {
   std::size_t s = 0;
@@ -134,10 +134,10 @@ std::optional<GuardCubic::ZeroCrossing> GuardCubic::cubic_root() const {
 }
 
 std::optional<double> GuardCubic::interior_minimum() const {
-  // Bernstein coefficients bound the cubic from below.
+  // If the inner Bernstein coefficients are positive too, so is the cubic.
   if (g0 + r0 / 3.0 > 0.0 && g1 - r1 / 3.0 > 0.0) return std::nullopt;
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
-  // p' = r0 + 2 b x + 3 c x^2; the root where p'' > 0, without cancellation or division by c = 0
+  // Root of p' = r0 + 2 b x + 3 c x^2 with p'' > 0, by a formula without cancellation or division by c = 0.
   const double root = b * b - 3.0 * c * r0;
   if (!(root > 0.0)) return std::nullopt;
   const double s = std::sqrt(root);

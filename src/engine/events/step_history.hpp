@@ -58,7 +58,7 @@ class StepHistory {
   [[nodiscard]] double value(int back, std::size_t i) const {
     return values_[static_cast<std::size_t>(slot_[static_cast<std::size_t>(back)]) * scalars_ + i];
   }
-  /// The polynomial through the last degree + 1 values.
+  /// Weights that turn the last degree + 1 values of a scalar into the polynomial through them.
   struct Basis {
     int degree = -1;
     // Nodes for which the weights below were computed; the weights are reused while the step length is constant.
@@ -82,7 +82,7 @@ class StepHistory {
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
   std::array<double, max_degree + 1> lengths_{};  // length of the step that ended at times_[b]
   int filled_ = 0;
-  bool one_basis_ = true;  // one basis serves scalars and powers
+  bool one_basis_ = true;  // scalars use powers_basis_ too
   Basis order_basis_, powers_basis_;
 };
 

@@ -1,4 +1,4 @@
-// turning_points.hpp: extreme values between the ends of a step, which an observer at its ends would miss.
+// turning_points.hpp: finds extreme values inside a step, which evaluations at the ends of the step would miss.
 //
 //   f'(x) = 0 for f = N, T, g and the body's ut, where f exceeds its earlier range
 //
@@ -42,7 +42,7 @@ class TurningPointDetector {
       return std::max(greatest, value) - std::min(least, value);
     }
     /// True if the value exceeds the range by more than its rounding and the rate points back to the range:
-    /// there is a turning point before.
+    /// so a turning point lies before this place.
     [[nodiscard]] bool is_exceeded(double value, double rate, double rounding) const {
       return (value - rounding > greatest && rate < 0.0) || (value + rounding < least && rate > 0.0);
     }

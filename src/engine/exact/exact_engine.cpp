@@ -18,7 +18,7 @@ namespace {
 
 constexpr int min_levels = 12, more_levels = 3;
 constexpr double least_share = 1e-6;    // of the greatest motion; larger degrees of freedom keep all digits
-constexpr std::size_t first_terms = 4;  // number of first terms; several, because a motion from rest has zeros
+constexpr std::size_t first_terms = 4;  // number of first terms; several, because they may be zero after a rest
 constexpr double flights_a_step = 3.0;
 constexpr double longer = 1.5, much_longer = 4.0;  // limits of the step length, relative to the previous step
 constexpr double least_step = 1.0 / longer;        // lower limit of share_of_step(): steps can still grow
@@ -34,7 +34,7 @@ constexpr double fresh = 0.25;         // weight of the last interval in the mea
 constexpr double max_cancelled = 0.9;  // limit of later terms, relative to the greatest of the first terms
 constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound
 constexpr int max_touches = 5;                    // number of warnings about touches
-constexpr char overflow[] = "the motion overflows: it is not finite";
+constexpr char overflow[] = "the motion overflows and is no longer finite";
 
 }  // namespace
 
@@ -281,7 +281,7 @@ double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x
   return sum;
 }
 
-/// GuardStart::drift() from the decision to the place x after the beginning of the series.
+/// GuardStart::drift() for the interval from the decision to the time t_ + x scale.
 double ExactEngine::drift_of(const decide::GuardStart& guard, double x) const {
   return guard.drift(t_ + x * motion_.whole.scale - segment_.decision->jet.t);
 }

@@ -161,8 +161,8 @@ struct BdfIntegrator::Memory {
     IDASetInitStep(ida, h0);
     first = h0;
     IDASetStopTime(ida, segment.end);
-    // Surface motions are not part of y, so IDA's error test does not limit the step for them. But the guards' polynomials must
-    // resolve surface motions.
+    // Surface motions are not part of y, so IDA's error test does not limit the step for them. But the polynomials of the
+    // guards must resolve them.
     const double shaking = segment.forcing->surface_omega();
     const double longest = shaking > 0.0 ? surface_step / shaking : 0.0;
     IDASetMaxStep(ida, steps > 0 ? h0 : longest);
@@ -231,8 +231,8 @@ struct BdfIntegrator::Memory {
 
   /// Corrects the velocities of massless degrees of freedom in y' at t, by one Newton step with the matrix of the last step.
   /// Reason: the derivative of a step's polynomial is one order less accurate than the polynomial; after a restart its error is
-  /// h u''/2. Solving C v = P - K u - ... for v alone would amplify the error of u by K/C. The Newton step avoids this: if h K
-  /// > C, it hardly changes the derivative.
+  /// h u''/2. Solving C v = P - K u - ... for v alone would amplify the error of u by K/C. The Newton step avoids this: for
+  /// C < h K it hardly changes the derivative.
   void settle_massless(double t) {
     double *derivative = NV_DATA_S(yp), *change = NV_DATA_S(work);
     const double cj = problem.linear().cj();

@@ -24,10 +24,10 @@ struct BdfStep {
   enum class Kind { accepted, root, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;  ///< ends of the accepted step
   double root = 0.0;              ///< Kind::root: time at which a guard reached zero, begin < root <= end
-  std::vector<decide::TriggeredGuard> triggered;  ///< Kind::root: guards that reached zero
+  std::vector<decide::TriggeredGuard> triggered;  ///< guards that reached zero; only for Kind::root
   double length = 0.0;                            ///< step length by IDA, without the rounding of end - begin
   int order = 1;                                  ///< degree of the solution's polynomial on the step
-  std::string reason;                             ///< Kind::failed: why
+  std::string reason;                             ///< reason of the failure; only for Kind::failed
 };
 
 class BdfIntegrator {

@@ -124,8 +124,8 @@ template <class T, int count>
   if constexpr (count > 5) base::lanes_at<T>(x[5] + j).v = sum += base::lanes_at<T>(x[5] + j).v;
 }
 
-/// Updates IDA's differences `vectors` = [phi_q, ..., phi_0] by the correction e: each vector is increased by the one before
-/// it.
+/// Updates IDA's differences `vectors` = [phi_q, ..., phi_0] by the correction e: to each vector, the updated
+/// vector before it is added.
 template <int count>
 [[gnu::always_inline]] inline void cascade(const double* e, N_Vector* vectors, Index n) {
   std::array<double*, count> x{};

@@ -206,7 +206,7 @@ engine::Step IdaEngine::advance() {
   }
   if (!(bdf.end > bdf.begin)) {
     step.kind = engine::Step::Kind::failed;
-    step.reason = "the step size has fallen below the resolution of time; the tolerance cannot be met";
+    step.reason = "the step size has fallen below the resolution of time, so the tolerance cannot be met; a larger rtol may help";
     return step;
   }
   bdf_.evaluate(bdf.end, point_);

@@ -3,8 +3,7 @@
 //   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   contact rows at u - r1/cj
 //
 // The terms with r1/cj are those that the condensed solver needs on its right-hand side (engine/ida/ida_linear_solver.hpp), so
-// a solve needs no additional product with K. The residual is zero for the same y and y' as without these terms, because r1 =
-// 0.
+// a solve needs no additional product with K. These terms do not change the solution, for which r1 = 0.
 #pragma once
 
 #include "engine/events/active_guards.hpp"
@@ -27,8 +26,8 @@ class IdaProblem {
   void linearise(double t, const double* y, const double* yp);
   /// Largest magnitude of an entry of the residual of the equation of motion. Unit: force.
   [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
-  /// Writes the error weights of all unknowns: 1 / tolerance, scaled by groups (factor_). rate: 1/h of the last step, which
-  /// rounding errors of velocities are multiplied by; 0 if no step length is known yet.
+  /// Writes the error weights of all unknowns: 1 / tolerance, scaled by groups (factor_). rate: 1/h of the last step, for
+  /// rounding errors that grow with 1/h; 0 if no step length is known yet.
   void weights(const double* y, double rate, double* w) const;
   /// Writes the scaled guards, one for each slot. Guards that are not armed, or unused, are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;

@@ -156,7 +156,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     apply_rows();
     if (!step_.take(*segment_.forcing, begin_, t1_, h, kept, end_))
       return "the matrix of a step is singular; another dt may help";
-    if (!end_.u.allFinite()) return "the motion overflows: it is not finite";
+    if (!end_.u.allFinite()) return "the motion overflows and is no longer finite";
     switching = new_states();
     if (switching) continue;  // the bounds stay unchanged until the states are consistent
     change = 0.0;

@@ -50,7 +50,7 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   /// Iterate of a contact during a step.
   struct ContactIterate {
     State state = State::open;  // state in the last iterate
-    double anchor = 0.0;        // p at the beginning of the step
+    double anchor = 0.0;        // slip p that applies if the contact sticks at the end of the step
     double normal_force = 0.0;  // |N| that determines the bound B of |T|
   };
   struct ForceScale {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_halvings = 60;
-constexpr double rounding_of_guard = 1.0 / 16.0;  // part of level() up to which a guard counts as zero
+constexpr double rounding_of_guard = 1.0 / 16.0;  // part of level() up to which a guard is regarded as zero
 constexpr int max_tangents = 4;                   // after these tangents and secants the crossing is bracketed
 constexpr double spare = 1.0 / 16.0;              // step doubling: part of the tolerance below which steps grow
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
@@ -108,7 +108,7 @@ bool NewmarkEngine::is_soft(std::size_t slot) const {
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
-/// Largest magnitude of the guard that counts as zero. A root search for a smaller value would follow rounding errors.
+/// Largest magnitude of the guard that is regarded as zero. A root search for a smaller value would follow rounding errors.
 double NewmarkEngine::zero_of(std::size_t slot) const {
   return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
@@ -346,7 +346,7 @@ engine::Step NewmarkEngine::advance() {
   t1_ = last ? segment_.end : grid_begin_ + static_cast<double>(++grid_steps_) * h;
   if (!(t1_ > t0_)) return failed("the step is shorter than the resolution of time; a larger dt may help");
   if (!take(h, t1_, !last, end_)) return failed(singular);
-  if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows: it is not finite");
+  if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows and is no longer finite");
   guards_.evaluate(end_, t1_);
 
   engine::Step step;

@@ -96,7 +96,7 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   NewmarkWorkIntegrals works_;
   engine::Segment segment_;
   StepGuards guards_;
-  bool solves_massless_velocities_ = false;  // massless parts: their velocities follow from the equations
+  bool solves_massless_velocities_ = false;  // there are massless parts; their velocities follow from the equations
   motion::Point begin_, end_, inner_, fine_, coarse_;
   Vector a_before_;                  // accelerations at the beginning of the previous step; empty if there is none
   double inner_time_ = 0.0;          // time of inner_; NaN: not set

@@ -3,8 +3,8 @@
 //   u1 = u0 + h v0 + h^2/4 (a0 + a1),   v1 = v0 + h/2 (a0 + a1)
 //   M a1 + C v1 + K u1 + sum ( n N1 + t T1 ) = P(t1),   rows of the contacts at t1
 //
-// Equilibrium and the contact laws hold at the end of every step, not only for h -> 0. The row T = -s f N of a slipping contact
-// is the paper's compensating load (11); predictor and corrector are one solve.
+// Equilibrium and the contact laws are satisfied at the end of every step, not only for h -> 0. The row T = -s f N of a
+// slipping contact is the paper's compensating load (11); predictor and corrector are one solve.
 // The unknown of a degree of freedom is a1 if it has mass, v1 if it has a damper but no mass, u1 if it has neither. No equation
 // is divided by h, so a step may be as short as the resolution of time.
 //
@@ -111,7 +111,7 @@ class NewmarkStep {
   long solves_ = 0;
 };
 
-// Work of the loads and dissipation in a step of average acceleration.
+// Works of the loads and of the surfaces, and dissipated energies, in a step of average acceleration.
 //
 //   loads     1/2 (P0 + P1) . du
 //   damping   h v^T C v + sum_closed cn vn dg          v, vn: means of both ends

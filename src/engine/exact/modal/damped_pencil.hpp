@@ -125,7 +125,7 @@ class BandPencil {
   std::vector<R> m_, k_, factor_;  // columns of width + 1 entries, the diagonal first
 };
 
-/// Limit below which a pivot of T counts as zero, relative to the greatest pivot, or to 1; chosen.
+/// Limit below which a pivot of T is regarded as zero, relative to the greatest pivot, or to 1; chosen.
 inline constexpr long double singular_pencil = 1e-10L;
 
 class DampedPencil {
@@ -140,7 +140,7 @@ class DampedPencil {
     std::vector<Index> near;
     Long unit = 1;  ///< x_G is in units of 1 / unit
     std::vector<Wide> kappa;
-    std::vector<Long> scale;  ///< of each term: lambda is in units of 1 / scale
+    std::vector<Long> scale;  ///< one per term: lambda is in units of 1 / scale
     std::size_t size = 0;
   };
 

@@ -37,7 +37,7 @@ class DampedProof {
   struct Watched {
     std::size_t slot = 0;
     double noise = 0.0;
-    ModalQuantity guard, leading_derivative;  // the second of order leading_order()
+    ModalQuantity guard, leading_derivative;  // leading_derivative: time derivative of order leading_order()
     double now = 0.0;                         // value of the guard or of its leading derivative
   };
   struct Part {  // polynomial of a quantity on a step, its remainder, and bounds on the fast part

@@ -48,7 +48,7 @@ struct RootSums {
 
 struct DampedState {
   DampedModes modes;
-  std::vector<ModalTerm> terms;  ///< dampers of the structure first
+  std::vector<ModalTerm> terms;  ///< first the dampers of the structure, then the terms of the contacts
   std::vector<ContactRows> contacts;
   std::vector<Eigen::Index> rigid;  ///< indices of the rigid terms in `terms`
   Eigen::MatrixXd from_forces;      ///< rigid x n: (V^T U)^-1 V^T

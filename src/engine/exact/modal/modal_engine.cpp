@@ -175,7 +175,7 @@ engine::Step ModalEngine::advance() {
     if (!std::isfinite(passage.length)) {
       step.kind = engine::Step::Kind::failed;
       step.end = t_;
-      step.reason = "the motion overflows: it is not finite";
+      step.reason = "the motion overflows and is no longer finite";
       return step;
     }
     warn_of_touches(passage, t_);

@@ -36,7 +36,7 @@ namespace signorini::modal {
 
 /// A guard g(t + h x) on a step of length h, 0 <= x <= 1.
 struct GuardOnStep {
-  std::vector<double> p;  ///< coefficients of p; if leading > 0, of the time derivative of that order
+  std::vector<double> p;  ///< p; if leading_order > 0, the time derivative of this order
   double slack = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;  ///< slack, R and R' (per time); of p if leading_order > 0
   double noise = 0.0;             ///< rounding bound of the guard at the beginning of the segment
   std::size_t leading_order = 0;  ///< see ActiveGuards::leading_order()

@@ -280,7 +280,7 @@ double ModalProof::expand_for_turning(const ModalPoint& at, const events::Turnin
   return h_;
 }
 
-/// taylor_of_mode for all slow real modes at once, term by term.
+/// Vectorised taylor_of_mode() for all slow real modes, term by term.
 SIGNORINI_WIDE_LANES void ModalProof::expand_real(const ModalPoint& at) {
   const double* l = oscillators_->real().data();
   const double square = h_ * h_, *z = at.z.real.data(), *rate = at.rate.real.data();

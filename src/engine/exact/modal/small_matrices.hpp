@@ -123,7 +123,7 @@ class SmallLu {
     }
   }
 
-  /// Magnitude of pivot k. Magnitudes are about descending.
+  /// Magnitude of pivot k. Complete pivoting makes the magnitudes decrease, except for small variations.
   [[nodiscard]] auto pivot(std::size_t k) const { return size_of(a_[k][k]); }
 
  private:

@@ -9,8 +9,8 @@
 // Aberth). A root is stored as a pole and an offset from it, so that D_i - l is accurate however small it is. The matrices X
 // and Y of the eigenvectors have entries with the factor 1 / (D_i - l_k); products with them take n^2 operations. X and Y are
 // stored if they are small enough. Equal poles are separated, and zero rows are filled, by far less than rounding, so that
-// every root is simple. Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994),
-// 1266.
+// every root is simple.
+// Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994), 1266.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ struct Poles {
   Poles() = default;
   std::vector<double> base, separation;
   [[nodiscard]] std::size_t size() const { return base.size(); }
-  /// D_a - D_b
+  /// Difference D_a - D_b, accurate also for equal poles.
   [[nodiscard]] double pole_difference(std::size_t a, std::size_t b) const {
     return (base[a] - base[b]) + (separation[a] - separation[b]);
   }

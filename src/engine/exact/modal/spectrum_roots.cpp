@@ -433,8 +433,8 @@ struct Turned {
   std::vector<SmallVector<Extended>> left;  // scaled so that L^T S' R becomes the unit matrix
 };
 
-/// Solves the eigenproblem (here + e by_e) w = 0 of size m. nullopt if by_e is singular or an e is complex. rounding: values of
-/// e within it count as equal.
+/// Solves the eigenproblem (here + e by_e) w = 0 of size m. nullopt if by_e is singular or an e is complex. rounding:
+/// values of e that differ by less are regarded as equal.
 std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatrix<Extended>& by_e,
                              std::size_t m, double rounding) {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };

@@ -53,8 +53,8 @@ class TimeBasis {
   /// highest power in p is not read. For slow roots the result is accurate within the length given to reserve_slow_roots().
   [[nodiscard]] ComplexTimeCoefficients response(std::complex<double> l,
                                                  const ComplexTimeCoefficients& p) const;
-  /// Ratio of the terms of a response to p / l on [0, time], if p is not constant: the relative rounding error of the response
-  /// is eps times this ratio. 0 if l = 0. If l is not real, or positive, the terms of the conjugate pair cancel, and so do
+  /// Largest term of a response on [0, time], relative to p time. The rounding error of the response, relative to p time, is
+  /// eps times this ratio. 0 if l = 0. If l is not real, or positive, the terms of the conjugate pair cancel, and so do
   /// their rates: the sum grows with the square of time.
   [[nodiscard]] double cancellation(std::complex<double> l, double time) const;
   /// Expands c . b(x0 + h x) in powers of x and writes the coefficients to p, which must be longer than the degree. Waves with

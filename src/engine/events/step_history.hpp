@@ -25,7 +25,7 @@ class StepHistory {
   double* restart(double t);
   /// Adds an accepted step that ends at t; returns the array for the scalars' values at t.
   double* push(double t) { return push(t, t - times_[0]); }
-  /// Same as push(t), with the step length of the integrator, which is free of the rounding of the times.
+  /// Adds an accepted step that ends at t. length: step length of the integrator, without the rounding of the times.
   double* push(double t, double length);
   /// Computes the polynomials on the last step. order: order of the BDF method in this step.
   void prepare(int order);

@@ -252,7 +252,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     if (!std::exchange(touch_warned_, true))
       warnings.push_back(
           fmt::format("contact '{}': its {} touches zero at {:.9g}, and falls below zero by less than the error of "
-                      "the steps; no event is recorded for this and later touches, which are not reported; a smaller "
+                      "the steps; no event is recorded, and later touches are not reported; a smaller "
                       "{}, or engine exact, decides whether it crosses zero",
                       model_.contacts[model_.layout.contact_of_guard(c.slot)].name,
                       contact::to_string(guards[c.slot].kind), model::time_in_scene_units(model_, c.time),

@@ -30,8 +30,8 @@
 
 namespace signorini::newmark {
 
-/// Step lengths that differ by less than this fraction count as equal, so that the last step of a segment may be slightly
-/// longer than dt. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
+/// Step lengths that differ by less than this fraction are regarded as equal, so that the last step of a segment may be
+/// slightly longer than dt. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
 inline constexpr double length_tolerance = 1e-9;
 
 class NewmarkStep {

@@ -20,8 +20,8 @@ struct SupportColumns {
 
 struct Assembly {
   SparseMatrix mass, dampers, stiffness;
-  Vector weight;  ///< P_g: force, moments on rotations
-  /// M r for each motion of the base, r: its unit motion, fixed degrees of freedom included.
+  Vector weight;  ///< P_g: forces, and moments on rotations
+  /// M r for each base motion; r: unit translation of all nodes along it, fixed degrees of freedom included.
   std::vector<Vector> base = {};
   std::vector<SupportColumns> moving = {};  ///< one for each of DofMap::supports
 };

@@ -19,7 +19,7 @@ struct GeometricStiffness {
   std::vector<Vector> moving;  ///< columns for unit motions of supports, one for each of DofMap::supports
 };
 
-/// K_g of the forces in the map; zero without forces.
+/// K_g of the prestress stored in the map; zero without prestress.
 [[nodiscard]] GeometricStiffness assemble_geometric_stiffness(const Scene& scene, const DofMap& map);
 
 /// Static state: displacements, contact forces, and for each of Model::loads whether it acts.
@@ -29,8 +29,8 @@ struct StaticForces {
   std::vector<bool> acts;
 };
 
-/// Axial forces of elements and geometric stiffnesses of rigid bodies in a static state. Errors: SceneError
-/// for a rigid body whose supports share a force on which its stiffness depends.
+/// Axial forces of elements and geometric stiffnesses of rigid bodies in a static state. Errors: SceneError if several
+/// supports of a rigid body share a force, so that the geometric stiffness of the body is undetermined.
 [[nodiscard]] Prestress prestress(const Scene& scene, const DofMap& map, const Model& model,
                                   const StaticForces& standing);
 

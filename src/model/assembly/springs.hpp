@@ -21,7 +21,7 @@ struct LineSpring {
 /// K plus the stiffness of the springs.
 [[nodiscard]] SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs);
 
-/// Springs of all contacts, as if closed and sticking.
+/// Springs of all contacts, as if all of them were closed and sticking.
 [[nodiscard]] std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts);
 
 /// The form as a full vector of length n.
@@ -74,9 +74,9 @@ class CholeskyFactor {
 //   k_max / k_min <= sqrt(greatest double) = 1.34e154,   k: EA/L, EI/L^3, springs, contacts [force/length]
 //
 // Energies and Rayleigh quotients contain ratios k^2 / k'^2; beyond this limit they overflow or underflow in
-// any units. Such a stiffness is a typing error, or stands for a rigid body or for no member at all.
+// any units. Such a stiffness is a typing error, or is meant as a rigid body or as a missing member.
 
-/// Errors: SceneError at the member, spring or contact whose stiffness has the larger exponent in magnitude.
+/// Errors: SceneError at the softest or the stiffest part, whichever has the exponent of larger magnitude.
 void check_stiffness_range(const Scene& scene, const DofMap& map);
 
 }  // namespace signorini::assembly

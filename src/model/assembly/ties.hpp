@@ -10,8 +10,8 @@
 //   ux_P = -rz (y_P - y_A),   uy_P = rz (x_P - x_B),
 //
 // Two nodes supported in x at different heights, or in y at different x, also fix rz. A moving support
-// contributes its motion, s - rz (y_P - y_A). All motions of a body that are no degrees of freedom are tied,
-// also those of the centre.
+// contributes its motion, s - rz (y_P - y_A). All motions of a body that are not degrees of freedom are tied,
+// including those of the centre.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@
 
 namespace signorini::assembly {
 
-/// A component of a body's motion that a support fixes, with the coordinate across it.
+/// A component of a body's motion that a support fixes, with the coordinate perpendicular to the component.
 struct BodyConstraint {
   double coordinate = 0.0;            ///< coordinate of the supported node: y for ux, x for uy
   int moving = DofMap::absent;        ///< index into DofMap::supports
@@ -32,7 +32,7 @@ struct BodyConstraint {
 struct BodyMotion {
   int centre = 0;                                            ///< mesh node
   std::vector<int> nodes;                                    ///< all nodes, the centre first
-  std::array<std::optional<BodyConstraint>, 3> constraints;  ///< ux, uy, rz
+  std::array<std::optional<BodyConstraint>, 3> constraints;  ///< ux, uy, rz; nullopt: free
 };
 
 /// Sets DofMap::body, and marks the free components of the centres as needed, all other components of bodies as absent.

@@ -6,8 +6,8 @@
 // sigma = (sigma_x, sigma_y, tau_xy), tension positive, force/length^2. x_j: the points of the elements around node k
 // at which their stresses are most accurate (plane_element.hpp). If they do not determine the polynomial, or if it
 // would be extrapolated, as at a boundary, the elements around a neighbouring node are used: the neighbour with the
-// smallest sum |c_j|, the growth of errors at the points. If there is no suitable one (a strip of one element across),
-// the stress is the area-weighted mean over the elements at the node of the (bi)linear function in each.
+// smallest sum |c_j|, which measures how errors at the points grow. If no neighbour is suitable (a strip of one element
+// across), the stress is the area-weighted mean of the (bi)linear functions in the elements at the node.
 // Stresses at boundaries thus have the same order as those inside. Jumps between elements, a measure of the mesh error,
 // are smoothed.
 // Source: Zienkiewicz, Zhu, Int. J. Num. Meth. Eng. 33 (1992), 1331, with one patch per node.
@@ -21,13 +21,13 @@
 
 namespace signorini::element {
 
-/// Factors of ux, uy of a node in the stresses.
+/// Factors of ux and uy of one node in the stresses.
 struct StressTerm {
   int node = 0;  ///< node of the mesh
   Eigen::Matrix<double, 3, 2> rows;
 };
 
-/// Stresses at a node of a body, an index into Scene::bodies, without thermal stresses.
+/// Stresses at mesh node `node` of body `body` of Scene::bodies, without thermal stresses.
 [[nodiscard]] std::vector<StressTerm> stress_at_node(const Mesh& mesh, const Scene& scene, std::size_t body,
                                                      int node);
 

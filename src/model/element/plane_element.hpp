@@ -10,8 +10,8 @@
 // are exact. They have no mass and are eliminated in the element.
 // A lumped mass: row sums for t3 and q4; for t6 and q8 the diagonal, scaled to the total mass, so that no entry is
 // negative.
-// Stresses are evaluated at Barlow's points and extrapolated to the nodes; their error there has nearly the order of
-// the displacements, one better than that of direct strains.
+// Stresses are evaluated at Barlow's points and extrapolated to the nodes. Their error there has nearly the order of
+// the displacement error, one order better than that of strains evaluated at the nodes.
 // Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth.
 // Eng. 10 (1976) 1211; Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4 (1976) 245.
 #pragma once

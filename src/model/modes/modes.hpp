@@ -15,8 +15,8 @@
 
 namespace signorini::modes {
 
-/// Number of degrees of freedom up to which the dense solver is used, because it is faster there. Chosen value; results
-/// agree either way.
+/// Number of degrees of freedom up to which the dense solver is used, because it is faster than the sparse one there.
+/// Chosen value; both give the same results.
 inline constexpr int dense_up_to = 200;
 
 /// Constraints by contacts, for frequencies: springs, and forms that are fixed to zero.
@@ -39,8 +39,8 @@ struct ContactConstraints {
 [[nodiscard]] double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
                                       const ContactConstraints& holding);
 
-/// Highest circular frequency, rad per time, with all contact springs; an estimate for large structures. 0:
-/// no stiffness.
+/// Highest circular frequency, rad per time, with all contact springs; an estimate for large structures. 0
+/// without stiffness.
 [[nodiscard]] double highest_frequency(const Model& model);
 
 // Accuracy limit of the lowest frequency due to the rounding of the matrices.
@@ -52,7 +52,7 @@ struct ContactConstraints {
 // the loss is of order n^3 or more. Neither a smaller tolerance nor another engine removes it; times of events have the
 // same error.
 
-/// delta omega / omega of the mode with the frequency closest to model.omega1, with contact springs; 0: there
+/// delta omega / omega of the mode with the frequency closest to model.omega1, with contact springs; 0 if there
 /// is no mode.
 [[nodiscard]] double rounding_floor(const Model& model);
 

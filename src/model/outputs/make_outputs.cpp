@@ -66,7 +66,7 @@ class Maker {
     return output;
   }
 
-  /// Sum of reactions minus loads and inertia, zero up to the residual: along x (0) or y (1).
+  /// Sum of all reactions along x (0) or y (1), minus loads and inertia; zero up to the residual.
   Output reaction_sum(std::size_t c) {
     PhysicalRow row(map_.size());
     std::vector<bool> held(map_.mesh.nodes.size(), false);
@@ -132,8 +132,8 @@ class Maker {
     output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
-  /// Adds N u / R minus the term of the scene's spring N_0 / R, which is in the row. The model's N_K u / R is
-  /// damped by beta.
+  /// Adds N u / R minus N_0 u / R, where N_0 / R is the scene's spring, whose force is already in the row. The stiffness
+  /// N_K / R in the model's K is damped by beta.
   void restore(const PhysicalRow::CurvedContact& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
     const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].pendulum_surface;
@@ -222,7 +222,7 @@ class Maker {
     cut(spec, "at", along, MemberForces::place_of(along, spec.station), wanted, row);
   }
 
-  /// Axes rotated by the angle of `direction`, (c, s): xx = d . sigma d, yy across, xy = d . sigma (-s, c).
+  /// Stress in axes along d = `direction` = (c, s) and across: xx = d . sigma d, yy across, xy = d . sigma (-s, c).
   void body_stress(const OutputSpec& spec, PhysicalRow& row) {
     const int node = map_.mesh.by_name.at(spec.at[0]);
     const auto [c, s] = spec.direction.vector;

@@ -13,12 +13,12 @@ namespace signorini::reduce {
 namespace {
 
 constexpr int dense_at_most = 5000;    // limit of the dense solver if a third of all modes or more is kept
-constexpr int most_modes = 5000;       // that can be kept
+constexpr int most_modes = 5000;       // largest number of modes that can be kept
 constexpr double roundings = 1e-12;    // relative to the terms of a sum: below it the sum is zero
-constexpr double shift_share = 1e-3;   // of omega^2 of the first truncated mode, or of the highest one
-constexpr double least_shift = 1e-11;  // relative to the largest K_ii/M_ii, with free motions
-constexpr int corrections = 6;         // each reduces the error by shift/omega^2 < shift_share
-constexpr double margin = 1e-6;  // relative, of omega^2, between a mode and where modes below are counted
+constexpr double shift_share = 1e-3;   // shift, relative to omega^2 of the first truncated or highest mode
+constexpr double least_shift = 1e-11;  // smallest shift with free motions, relative to the largest K_ii/M_ii
+constexpr int corrections = 6;         // iterations; each reduces the error by shift/omega^2 < shift_share
+constexpr double margin = 1e-6;  // relative distance in omega^2 from a mode, for a count below it
 
 double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   double greatest = 0.0;
@@ -41,7 +41,7 @@ base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffne
   }
   const base::EigenPairs pairs =
       base::generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
-  if (pairs.vectors.rows() != h.cols()) return {};  // it failed: the caller checks the values
+  if (pairs.vectors.rows() != h.cols()) return {};  // the decomposition failed: the caller checks the values
   Eigen::MatrixXd shapes = h * pairs.vectors;
   if (l.cols() > 0) shapes += l * (follow * pairs.vectors).eval();
   return {pairs.values, shapes};
@@ -68,7 +68,7 @@ ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMa
   // A failed decomposition has no values, or values that are NaN.
   if (all.values.size() != heavies || !all.values.allFinite())
     throw NotReducible("the modes of the structure cannot be computed");
-  const Eigen::Index rest = all.values.size() - free;  // the lowest ones are free, up to rounding
+  const Eigen::Index rest = all.values.size() - free;  // the first `free` modes are the free motions
   ElasticModes found;
   while (found.kept < rest && all.values[free + found.kept] <= cutoff * cutoff) ++found.kept;
   const Eigen::Index taken = std::min(found.kept + 1, rest);
@@ -76,7 +76,7 @@ ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMa
   return found;
 }
 
-/// Same without a decomposition of the whole; `count` modes lie below the cutoff.
+/// Same as all_elastic(), without a decomposition of the whole; `count` modes, free ones included, are below the cutoff.
 ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, const SparseMatrix& stiffness,
                             const Eigen::MatrixXd& rigid) {
   const double limit = cutoff * cutoff;

@@ -1,4 +1,4 @@
-// reduction.hpp: a model with the modes up to a cutoff, and the static compliance of all others.
+// reduction.hpp: a model with the modes up to a cutoff, and the static compliance of all other modes.
 //
 //   u = Phi q + Psi_h h + Psi r
 //   M = diag(1, 1, 0),   K = diag(omega^2, omega_h^2, 1)        up to the scale of each shape
@@ -34,8 +34,8 @@
 
 namespace signorini::reduce {
 
-/// Reduces a model. dampers: C without alpha M + beta K; n x n. dashpots: the same without the correction of
-/// beta K for prestress (run.geometric); used on shapes without beta K. Errors: SceneError if a motion
+/// Reduces a model. dampers: C without alpha M + beta K; n x n. dashpots: dampers without the correction of
+/// beta K for prestress (run.geometric), for shapes without beta K. Errors: SceneError if a motion
 /// without mass has no stiffness, if K has negative energy, and if a direction that needs mass would have
 /// none.
 void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix& dashpots, Model& model);

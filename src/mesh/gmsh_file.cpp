@@ -127,7 +127,7 @@ struct GmshContent {
   std::unordered_map<long, int> by_number;
   std::vector<RawElement> elements;
   std::map<Tag, std::string> names;              // names of physical groups
-  std::map<Tag, std::vector<long>> of_entities;  // physical groups of an entity, 4.1
+  std::map<Tag, std::vector<long>> of_entities;  // groups of each entity (version 4.1)
 
   [[nodiscard]] std::string name(int dimension, long tag) const {
     const auto known = names.find({dimension, tag});
@@ -214,7 +214,8 @@ class GmshReader {
     if (content_.nodes.empty()) z_ = z;
     if (z != z_)
       words_.fail(
-          fmt::format("found z = {:.6g} of node {}, expected {:.6g} of all: a plane mesh", z, number, z_));
+          fmt::format("found z = {:.6g} of node {}, expected {:.6g} for all nodes of a plane mesh", z, number,
+                      z_));
     content_.nodes.push_back({x, y, number, std::move(place)});
   }
 
@@ -427,7 +428,7 @@ class BodyBuilder {
                                  line.number, number(0), number(1)));
   }
 
-  /// A curve inside a body must be a set of nodes: the body is on both of its sides.
+  /// Errors: SceneError for a curve that lies only partly inside the body: inside, a curve is a set of nodes.
   void check_boundaries() const {
     for (const PlaneMesh::Group& g : mesh_.groups)
       if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())

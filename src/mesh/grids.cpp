@@ -42,7 +42,7 @@ struct Lattice {
       }
   }
 
-  /// Coordinates of the lattice points, 0 to 1: middle nodes are half-way.
+  /// Coordinates 0 to 1 of the lattice points along one axis; middle nodes are half-way between ends.
   [[nodiscard]] std::vector<double> parts(std::size_t axis) const {
     const int n = grid.elements[axis];
     const double q = n > 1 ? std::pow(grid.grading[axis], 1.0 / (n - 1)) : 1.0;

@@ -114,7 +114,7 @@ struct NodeSums {
   bool corner = false;
 };
 
-/// A part of a slave edge and the master edge that covers it; null: the ground, or a line.
+/// A part of a slave edge. master: the master edge that covers this part; null for the ground or a line.
 struct Overlap {
   double from, to;
   const EdgeCurve* master;
@@ -122,7 +122,7 @@ struct Overlap {
 
 class MortarSums {
  public:
-  /// reach: size of the coordinates of which gaps are differences.
+  /// reach: largest distance of a node from the origin; rounding errors of gaps are relative to it.
   MortarSums(const Curves& slave, double reach) : slave_(slave), reach_(reach) {}
 
   void add(const EdgeCurve& edge, const std::vector<Overlap>& overlaps) {

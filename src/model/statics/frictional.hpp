@@ -27,11 +27,11 @@
 
 namespace signorini::statics {
 
-/// One stage: its loads grow from their previous values to their values at its end.
+/// Loads of one stage; they grow linearly from zero by the end of the stage, in addition to those of earlier stages.
 struct Stage {
   std::string name;
-  Vector load;  ///< dP; n
-  int steps = 1;
+  Vector load;  ///< dP; one entry per degree of freedom
+  int steps = 1;  ///< equal steps of the load factor; one StageEnd each
 };
 
 struct FrictionalEquilibrium {
@@ -49,7 +49,7 @@ struct FrictionalEquilibrium {
                                                            const assembly::DofMap& map,
                                                            const SourcePlace& place);
 
-/// Applies one more stage with another stiffness.
+/// Applies one more stage, with another stiffness, to the result of earlier stages.
 [[nodiscard]] FrictionalEquilibrium continue_loading(FrictionalEquilibrium from,
                                                      const SparseMatrix& stiffness,
                                                      const std::vector<Contact>& contacts, const Stage& stage,

@@ -445,7 +445,7 @@ class BodyBuilder {
   SharedEdges edges_;
   std::set<std::pair<std::string, const SharedEdge*>> taken_;
   std::set<std::pair<std::string, int>> in_group_;
-  std::map<std::string, const RawElement*> inside_;  ///< a line of a group that lies inside the body
+  std::map<std::string, const RawElement*> inside_;  ///< per group: one of its lines inside the body
 };
 
 /// The smallest and the largest Jacobian determinant at nodes and integration points.

@@ -12,7 +12,7 @@ namespace {
 /// Lattice of nodes over u and v; quadratic elements have half steps.
 struct Lattice {
   const GridSpec& grid;
-  bool closed;  // v = 1 is v = 0
+  bool closed;  // the nodes at v = 1 are those at v = 0
   int step, columns, rows;
   std::vector<int> index;  // node at each lattice point; -1: no node
   PlaneMesh mesh;

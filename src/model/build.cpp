@@ -109,7 +109,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   model.statics = std::move(found.start);
 }
 
-/// Closed contacts: all sliders, and compliant contacts that are compressed at the start.
+/// Contacts closed at the start: all sliders; in a static start contacts with a reaction > 0, else with a gap <= 0.
 std::vector<bool> closed_at_start(const Model& model) {
   std::vector<bool> closed;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -199,8 +199,8 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Comp
 /// Sets velocities of rounding size in a saved state to zero; they would decide the slip direction of a contact at
 /// its friction limit. Their size: the fastest mode converts the rounding errors of displacements to velocities
 ///     |v| <= many_operations omega_max max |u|,   for translations and rotations separately.
-/// If any velocity of the model is larger, only the velocities at contacts are set to zero that did not slip at
-/// the end of the saved run and have only velocities of rounding size.
+/// If any velocity of the model is larger, only tangential velocities of a contact are set to zero, if the contact
+/// stuck at the end of the saved run and all its tangential velocities are of rounding size.
 void remove_rounding(const SavedState& saved, Model& model) {
   double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
   for (int i = 0; i < model.size(); ++i) {

@@ -88,7 +88,7 @@ InitialState saved_state(const Scene& scene, const assembly::DofMap& map) {
     values.erase(tied.dof.displacement);
     values.erase(tied.dof.velocity);
   }
-  // Contacts take the values of sliding points and surfaces.
+  // Saved values of sliding points and surfaces are used by contacts, not by degrees of freedom.
   for (const ContactSpec& contact : scene.contacts)
     for (const char* of : {".slip", ".slip_rate", ".surface"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
@@ -210,8 +210,8 @@ bool is_pressed_pendulum(const ContactSpec& contact) {
   return contact.pendulum_surface && contact.capabilities().normal_spring;
 }
 
-/// Initial guess: the given forces, or the sum of the loads shared evenly. Its values affect only the number of rounds;
-/// they must not be zero, because a structure that stands on pendulums alone would then be a mechanism.
+/// Initial guess: the given forces, or the sum of the loads shared evenly. The values affect only the number of rounds.
+/// They must not be zero, because a structure that stands on pendulums alone would then be a mechanism.
 std::vector<double> first_guess(const Scene& scene, const Model& model) {
   double pushed = 0.0, bearings = 0.0;
   for (const Load& load : model.loads)
@@ -298,7 +298,7 @@ std::vector<double> saved_pendulum_forces(const Scene& scene) {
 
 namespace {
 
-/// Word with which run.stages names all loads of this kind; empty if it names them one by one.
+/// Word with which run.stages names all loads of this kind; empty if stages name such loads one by one.
 std::string word_of(LoadKind kind) {
   switch (kind) {
     case LoadKind::temperature:
@@ -371,7 +371,7 @@ statics::Stage made(const Scene& scene, std::size_t number, const Model& model, 
   return stage;
 }
 
-/// The stages of the scene; without stages, one stage with all static loads. acts: is set to, for each load, whether
+/// The stages of the scene; without stages, one stage with all static loads. acts (result): for each load, true if
 /// some stage applies it.
 std::vector<statics::Stage> stages_of(const Scene& scene, const Model& model, std::vector<bool>& acts) {
   std::vector<statics::Stage> stages;
@@ -438,7 +438,7 @@ void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     Contact& c = model.contacts[k];
     if (!c.tangential_stiffness || !c.has_friction()) continue;
-    // Clamped, because the run recomputes N with rounding errors and its friction limit must not be exceeded.
+    // Clamped: the run recomputes N with rounding errors, and |T| must not exceed the friction limit.
     const double N = c.resting_force(model.u0).value_or(-model.statics.reactions[k]);
     const double limit = contact::sticking_limit(c, N);
     c.initial_shear = std::clamp(found.shears[k], -limit, limit);

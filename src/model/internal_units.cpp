@@ -14,7 +14,7 @@ namespace {
 constexpr int max_exponent = 120;
 
 // Without stiffness: unit of time as a fraction of the run, 2^-2, the likely duration of one motion. Scales of
-// displacement follow from it (acceleration time^2). Chosen value; changing it changes the tests of
+// displacement follow from this unit (acceleration time^2). Chosen value; changing it changes the tests of
 // validation/published.
 constexpr int time_unit_exponent = -2;
 

@@ -41,7 +41,7 @@ std::string names(const Model& model, const std::vector<std::size_t>& contacts) 
 }
 
 /// True if f has values between the starts of pieces `first` and `last` outside the range of the values before and after.
-/// Times are measured from the start of a piece, because the starts may be equal as times of the run.
+/// Times are measured from the start of a piece, because two starts may be rounded to the same time of the run.
 bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
   const std::vector<double>& starts = f.starts();
   struct Known {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double takes_part = 1e-9;       // relative to a unit normal: smaller parts are elimination errors
 constexpr double closes_together = 1e-9;  // relative to the gaps: about the number of digits in a scene
-constexpr double dependent = 1e-12;       // remainder of a unit normal without its parts along others
+constexpr double dependent = 1e-12;       // remainder of a unit normal after removal of other normals
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
   const ContactSpec& spec = scene.contacts[k];

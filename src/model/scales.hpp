@@ -7,9 +7,9 @@
 //   velocity      omega * displacement, at least the initial velocity
 //   rotation = displacement / L,  angular velocity = velocity / L      L: diagonal of the structure
 //
-// omega: lowest frequency with the initially closed contacts fixed; if there is none, with all contacts open. omega *
-// displacement is at most sqrt(F displacement / mass), where F is the larger of the force scale and |K u0|; without an
-// omega, this bound is used instead.
+// omega: lowest frequency with the initially closed contacts fixed; if there is none, with only the normals of closed
+// rigid contacts fixed. omega * displacement is at most sqrt(F displacement / mass), where F is the larger of the force
+// scale and |K u0|; without an omega, this bound is used instead.
 #pragma once
 
 #include <vector>

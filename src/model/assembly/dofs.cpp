@@ -95,7 +95,7 @@ void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool,
   map.supports.push_back(i);
 }
 
-/// Refuses a fixed and a moving support of the same component.
+/// Errors: SceneError if one support fixes a component that another support moves.
 void check_moving(const Scene& scene, const DofMap& map) {
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -162,7 +162,7 @@ DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
   DofMap map;
   map.mesh = std::move(mesh);
   map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
-  map.moving = map.number;  // absent
+  map.moving = map.number;  // all absent
   mark_needed(scene, map.mesh, map.number);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -340,7 +340,7 @@ constexpr double at_rest = 1e-3;  // relative; null motions of fine meshes are a
 struct NodeMotion {
   const element::MeshNode* node;
   double x, y, turn;
-  bool turns;  ///< the node has a rotation
+  bool turns;  ///< true: the node has a rotation
 };
 
 std::vector<NodeMotion> node_motions(const Vector& motion, const DofMap& map) {

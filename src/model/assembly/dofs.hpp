@@ -39,7 +39,7 @@ struct DofMap {
   std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
   /// Numbers of elements' internal unknowns, by element and index into unknowns().
   std::map<std::pair<std::size_t, std::size_t>, int> internal;
-  /// Per mesh node and component: index into `supports` of the support that it follows, or `absent`.
+  /// Per mesh node and component: index into `supports` of the support that moves the component, or `absent`.
   std::vector<std::array<int, 3>> moving;
   std::vector<std::size_t> supports;  ///< moving supports: indices into Scene::supports
   std::vector<Dof> dofs;
@@ -61,9 +61,9 @@ struct DofMap {
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
   /// True if all nodes move with one rigid body and the element has no internal unknowns, so that it has no strain.
   [[nodiscard]] bool within_body(const element::FiniteElement& e) const;
-  /// True if all of these mesh nodes move with one rigid body.
+  /// True if all mesh nodes of the list move with one rigid body.
   [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
-  /// Makes component c of a mesh node a combination of these terms.
+  /// Makes component c of a mesh node the sum of `terms`.
   void tie(int node, std::size_t c, std::vector<TiedTerm> terms);
   /// The motion with this number as a combination of degrees of freedom and moving supports; empty if fixed
   /// or absent.

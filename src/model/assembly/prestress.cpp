@@ -146,8 +146,8 @@ class PrestressAssembly {
             forces[static_cast<Eigen::Index>(j)];
   }
 
-  /// True for a spring between nodes of one body: it rotates with the body, and its two end forces have no
-  /// moment together.
+  /// True for a spring between nodes of one body: it rotates with the body, and its two end forces
+  /// together have no moment.
   [[nodiscard]] bool is_within_body(const Spring& spring) const {
     return !spring.against.empty() &&
            map_.in_one_body({map_.mesh.by_name.at(spring.node), map_.mesh.by_name.at(spring.against)});
@@ -185,7 +185,7 @@ class PrestressAssembly {
     for (const auto& [name, weight] : at->against) add(name, force, -weight);
   }
 
-  /// Position at which supports of a body fix component c: x for ux, y for uy; without such a support, of the centre.
+  /// Coordinate at which supports of a body fix component c: x for ux, y for uy. Without such a support: the centre's.
   [[nodiscard]] double origin(std::size_t number, std::size_t c, const Plane& total,
                               const Plane& size) const {
     const RigidBody& body = scene_.rigid[number];
@@ -206,7 +206,7 @@ class PrestressAssembly {
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));
   }
 
-  /// Geometric stiffness sum F . r of a rigid body. r starts at origin(), where reactions act; they contribute nothing.
+  /// Geometric stiffness sum F . r of a rigid body, with r from origin(); reactions act there and contribute nothing.
   [[nodiscard]] double body(std::size_t number) const {
     const auto owner = static_cast<int>(number);
     const int centre = map_.mesh.by_name.at(scene_.rigid[number].centre);

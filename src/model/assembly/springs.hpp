@@ -41,7 +41,7 @@ class SymmetricSolver {
   /// False if a pivot is exactly zero.
   [[nodiscard]] bool ok() const;
   [[nodiscard]] Vector solve(const Vector& b) const;
-  /// The smallest pivot.
+  /// The smallest pivot; 0 without pivots.
   [[nodiscard]] double smallest_pivot() const;
   /// Smallest ratio of a pivot to its diagonal entry; independent of the units of the rows.
   [[nodiscard]] double smallest_pivot_ratio() const;

@@ -95,7 +95,7 @@ void find_body_constraints(const Scene& scene, const RigidBody& body, int number
   motion.constraints[2] = turn;
 }
 
-/// Motion of a body's node along component c, as terms of the body's motions.
+/// Motion of a body's node along component c, as terms of the free motions of the body and of moving supports.
 std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, const DofMap& map) {
   std::vector<TiedTerm> terms;
   const auto add = [&](std::size_t of, double factor) {

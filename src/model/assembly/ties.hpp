@@ -52,7 +52,7 @@ struct Elongation {
   Vector factors;
 };
 
-/// A form that is the sum of motions with given numbers; coefficients that are zero up to rounding become
+/// A form that is the sum of motions with given numbers. Coefficients that are zero up to rounding are set to
 /// zero.
 class TiedForm {
  public:

@@ -73,7 +73,7 @@ class FiniteElement {
   [[nodiscard]] virtual double extent() const = 0;
   [[nodiscard]] virtual double density() const = 0;
 
-  // Matrices in the scene's axes, symmetric up to rounding. With displacements or accelerations they give forces.
+  // Matrices in the scene's axes, symmetric up to rounding; times displacements or accelerations they give forces.
   [[nodiscard]] virtual ElementMatrix mass() const = 0;
   [[nodiscard]] virtual ElementMatrix stiffness() const = 0;
   /// True if a prestress adds stiffness to this type of element; otherwise run.geometric is an error.

@@ -42,8 +42,8 @@ struct LineData {
 struct LineShapes {
   double a = 0.0, rotation_a = 0.0, b = 0.0, rotation_b = 0.0;
 };
-/// Transverse displacement at a position of a beam of length 1, by its end rotations; hinged ends rotate so that they
-/// carry no moment.
+/// Transverse displacement at the position `part`, 0 to 1, of a beam of length 1, as factors of the displacements and
+/// rotations of its ends. Hinged ends rotate so that they carry no moment.
 [[nodiscard]] LineShapes hermite_shapes(double part, bool hinged_a = false, bool hinged_b = false);
 
 class LineElement : public FiniteElement {

@@ -21,7 +21,7 @@ struct MeshNode {
 /// (body_mesh.hpp).
 struct MovedMass {
   std::vector<int> nodes;   ///< nodes of the mesh, two unknowns each
-  Eigen::MatrixXd weights;  ///< W: unknowns of the element x (2 nodes)
+  Eigen::MatrixXd weights;  ///< W, size: unknowns of the element x 2 nodes.size()
 };
 
 /// A piece of a member of bars or beams between two named nodes. An arc has inner nodes; its elements are chords.

@@ -104,7 +104,7 @@ class BodyStresses {
     return terms;
   }
 
-  /// Fit through the stress points of the elements `ring`; infinite `amplified` if they do not determine it.
+  /// Fit through the stress points of the elements `ring`; infinite `amplified` if there is no such polynomial.
   Fit fitted(int node, const std::vector<std::size_t>& ring) {
     std::vector<const PlaneElement::StressSample*> points;
     std::vector<const PlaneElement*> of;

@@ -128,8 +128,8 @@ SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motion
 }
 
 /// Shifted inverse iteration with a subspace. The lowest frequencies of long structures are so close together
-/// (a chain of n masses on springs: 1/n^2 of their size) that K^-1 hardly separates them. Once rough values
-/// are known, a shift just below the lowest one separates them.
+/// (a chain of n masses on springs: relative distance 1/n^2) that K^-1 hardly separates them. Once rough values
+/// are known, a shift just below the lowest frequency separates them.
 class Subspace {
  public:
   Subspace(const SparseMatrix& k, const SparseMatrix& mass, const std::vector<Combination>& fixed,

@@ -108,7 +108,7 @@ std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model)
   for (const HangerLoad& h : model.hangers) {
     const Spring& spring = scene.springs[h.spring - 1];
     const double along = spring.direction[0] * scene.gravity[0] + spring.direction[1] * scene.gravity[1];
-    // The force on the node is -cold direction.
+    // The force on the node is -cold times the direction.
     if (h.hot && h.cold * along < 0.0)
       doubts.push_back(
           fmt::format("the hanger of spring {} pushes its node along gravity; its direction goes from the "

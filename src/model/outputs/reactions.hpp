@@ -33,7 +33,7 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
 //
 //   cold  F_c = preload        at t = 0  F = preload + k d.u0        variability |F_c - F| / |F|
 
-/// Sets Model::hangers; u0 has the physical degrees of freedom.
+/// Sets Model::hangers. Model::u0 must still be in the physical degrees of freedom.
 void find_hangers(const Scene& scene, const assembly::DofMap& map, Model& model);
 
 /// |F_c - F| / |F|; infinite if F is zero.

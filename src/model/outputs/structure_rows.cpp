@@ -94,7 +94,7 @@ void StructureRows::add_end_forces(PhysicalRow& row, std::size_t i, const elemen
   element::ElementVector ca = cut.acceleration;
   if (moved == map_.mesh.moved.end()) ca += e.mass() * cut.forces;
   element::ElementVector cu = element::ElementVector::Zero(ca.size()),
-                         frozen = cut.deflection;  // frozen forces are not damped
+                         frozen = cut.deflection;  // terms of the prestress, which are not damped
   if (stiff) cu = e.stiffness() * cut.forces;
   const element::AxialForces standing = map_.axial_forces_in(i);
   if (stiff && !standing.is_zero() && !map_.within_body(e))

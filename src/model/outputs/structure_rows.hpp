@@ -56,7 +56,7 @@ class StructureRows {
 
  private:
   [[nodiscard]] const element::FiniteElement& element(std::size_t i) const { return map_.mesh.element(i); }
-  /// stiff: include the stiffness term.
+  /// Adds the end forces of an element times the factors of `cut`. stiff: with stiffness and strain terms.
   void add_end_forces(PhysicalRow& row, std::size_t element, const element::SectionForce& cut,
                       bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
@@ -95,7 +95,7 @@ struct MemberPath {
 struct SectionQuantity {
   OutputQuantity quantity = OutputQuantity::N;  ///< stress, or N, V, M
   Fibre fibre = Fibre::both;                    ///< fibre of a stress: left or right
-  double N_factor = 1.0, M_factor = 1.0;        ///< factors of the two parts of a stress
+  double N_factor = 1.0, M_factor = 1.0;        ///< factors of the parts of a stress from N and from M
   std::optional<double> intensification = {};
 };
 

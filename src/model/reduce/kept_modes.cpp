@@ -14,7 +14,7 @@ namespace {
 
 constexpr int dense_at_most = 5000;    // limit of the dense solver if a third of all modes or more is kept
 constexpr int most_modes = 5000;       // largest number of modes that can be kept
-constexpr double roundings = 1e-12;    // relative to the terms of a sum: below it the sum is zero
+constexpr double roundings = 1e-12;    // sums below this fraction of their terms are zero
 constexpr double shift_share = 1e-3;   // shift, relative to omega^2 of the first truncated or highest mode
 constexpr double least_shift = 1e-11;  // smallest shift with free motions, relative to the largest K_ii/M_ii
 constexpr int corrections = 6;         // iterations; each reduces the error by shift/omega^2 < shift_share
@@ -201,7 +201,7 @@ Vector ResidualFlexibility::response(const Vector& f) const {
 namespace {
 
 constexpr double needless = 1e-12;  // relative to a direction's compliance: a smaller part needs no shape
-constexpr double no_mass = 1e-12;   // 1/omega^2 of a Ritz vector relative to the largest one
+constexpr double no_mass = 1e-12;   // smallest 1/omega^2 of a Ritz vector with mass, relative to the largest
 
 /// sum over the kept modes with stiffness: (phi^T f)^2/omega^2.
 double compliance_of_kept(const KeptModes& modes, const Vector& f) {

@@ -1,4 +1,4 @@
-// reduced_start.hpp: static start of a reduced model, in equilibrium to the rounding of the model's own matrices.
+// reduced_start.hpp: static start of a reduced model, in equilibrium up to the rounding of the reduced matrices.
 //
 //   r = P - K q - sum ( n N + t T ): imbalance,   N = kn g, at rigid contacts N of the start,   T: initial_shear
 //   (K + sum kn n n^T + sum_stuck kt t t^T) d = r,   n . d = 0 at rigid contacts

@@ -19,7 +19,7 @@ namespace signorini::reduce {
 namespace {
 
 constexpr double nothing = 1e-14;      // smaller parts of a form on a shape of size 1 are rounding
-constexpr double quick_damper = 1e-6;  // time constant of a static shape times the first truncated frequency
+constexpr double quick_damper = 1e-6;  // smallest time constant of a static shape, times first_truncated
 constexpr double over_damped = 2.0;    // beta times a frequency: above this value a mode is overdamped
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {

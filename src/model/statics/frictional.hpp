@@ -27,7 +27,7 @@
 
 namespace signorini::statics {
 
-/// Loads of one stage; they grow linearly from zero by the end of the stage, in addition to those of earlier stages.
+/// Loads of one stage; they grow linearly during the stage, in addition to the loads of earlier stages.
 struct Stage {
   std::string name;
   Vector load;  ///< dP; one entry per degree of freedom

@@ -18,7 +18,7 @@
 namespace signorini::statics {
 namespace {
 
-/// Smaller pivot ratios may be null motions, which are then searched for; rounding leaves pivots of some eps.
+/// Pivot ratios below this value may belong to null motions, which are then searched for; rounding leaves some eps.
 constexpr double regular_share = 1e-9;
 // Remainder of a row after the parts along other rows are removed, relative to the row; rounding is below. Chosen value.
 constexpr double spanned = 1e-9;
@@ -96,7 +96,7 @@ constexpr double firmly = 4.0;
 constexpr double weak_share = 1e-10;  // weak support, relative to the diagonal: leaves six digits
 // Work relative to the largest load times motion: less does not drive a free motion.
 constexpr double undriven = 1e-9;
-// Degrees of freedom up to which a structure is solved as a whole; larger ones part by unconnected part.
+// Degrees of freedom up to which a structure is solved as a whole; larger structures are solved part by part.
 constexpr int together_up_to = 300;
 
 /// Unit rows that complete the independent rows (p x m). Each row takes the first column with a sufficient pivot, so

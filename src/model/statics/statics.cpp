@@ -68,7 +68,7 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
                                problem.size()));
 }
 
-/// Errors: SceneError for a motion that no contact could restrain, even if all contacts were glued.
+/// Errors: SceneError for a motion that no contact could restrain, even if all contacts were closed and stuck.
 void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place,
                        const char* key) {
   std::vector<assembly::LineSpring> grips;

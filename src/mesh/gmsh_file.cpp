@@ -186,7 +186,7 @@ class GmshReader {
       if (dimension < 2 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
         words_.fail(
             fmt::format("found a physical group named \"{}\", expected a name with other characters than "
-                        "digits: numbers stand for nodes",
+                        "digits, because numbers name nodes",
                         name));
       content_.names[{dimension, tag}] = std::move(name);
     }
@@ -433,8 +433,8 @@ class BodyBuilder {
     for (const PlaneMesh::Group& g : mesh_.groups)
       if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())
         throw SceneError(inside->second->place, key_,
-                         fmt::format("line {} of the physical curve \"{}\" has elements on both sides, other "
-                                     "lines of it bound the body: give each part its own group",
+                         fmt::format("line {} of the physical curve \"{}\" has elements on both sides, but "
+                                     "other lines of this curve bound the body: give each part its own group",
                                      inside->second->number, g.name));
   }
 

@@ -281,8 +281,8 @@ void solve_pendulum_start(const Scene& scene, Model& model, const std::function<
     return;
   }
   throw SceneError(scene.initial.place, "run.initial",
-                   "the static loads of the pendulums do not converge: each set of loads gives another "
-                   "equilibrium, which gives other loads");
+                   "the static forces on the pendulums do not converge: each equilibrium gives other forces "
+                   "than those with which it was computed");
 }
 
 std::vector<double> saved_pendulum_forces(const Scene& scene) {

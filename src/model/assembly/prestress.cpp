@@ -198,8 +198,8 @@ class PrestressAssembly {
       if (component != c) continue;
       if (held && *held != at(node) && std::abs(total[c]) > no_force * size[c])
         throw SceneError(scene_.run.geometric_place, "run.geometric",
-                         fmt::format("several supports of rigid body '{}' fix its {}, so their reactions, on "
-                                     "which its stiffness depends, are undetermined: expected one of them",
+                         fmt::format("several supports of rigid body '{}' fix its {}, so their reactions are "
+                                     "undetermined, and with them its geometric stiffness; keep only one",
                                      body.name, scene::plane_components[c].displacement));
       if (!held) held = at(node);
     }

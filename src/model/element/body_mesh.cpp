@@ -46,8 +46,8 @@ class MassMover {
     }
     throw SceneError(
         body_.place, fmt::format("bodies.{}", body_.name),
-        fmt::format("the mass of node '{}' cannot be moved: near it there are no nodes with mass that do not "
-                    "lie on one line; contact_mass = \"none\" needs a finer mesh",
+        fmt::format("the mass of node '{}' cannot be moved: it needs three nearby nodes with mass that are "
+                    "not on one line; use a finer mesh, or leave contact_mass = \"none\" out",
                     mesh_.node(node).name));
   }
 

@@ -40,8 +40,8 @@ void check_reducible(const Scene& scene, const Model& model) {
       null.col(0).cwiseAbs().maxCoeff(&greatest);
       const int dof = light[static_cast<std::size_t>(greatest)];
       refuse(scene,
-             fmt::format("{} has no mass, and no stiffness of the structure holds it, so it has neither a "
-                         "mode nor a static response; give it a mass, or leave [reduction] out",
+             fmt::format("{} has no mass, and no stiffness of the structure resists it, so it has neither "
+                         "a mode nor a static response; give it a mass, or leave [reduction] out",
                          model.dofs[static_cast<std::size_t>(dof)].displacement));
     }
   }
@@ -61,8 +61,8 @@ void check_frozen(const Scene& scene, const Model& model) {
                                    [](const Load& load) { return load.kind == LoadKind::support_rate; });
   if (model.geometric && model.beta != 0.0 && follows)
     refuse(scene,
-           "a support moves, and the shapes that follow it immediately do not admit run.geometric together "
-           "with damping.beta; leave [reduction] or beta out");
+           "a support moves, and the static shapes that follow the support cannot be computed for "
+           "run.geometric together with damping.beta; leave [reduction] or beta out");
 }
 
 bool normal_needs_mass(const Contact& c) {

@@ -134,7 +134,7 @@ struct GmshContent {
     if (known != names.end()) return known->second;
     constexpr std::array kinds = {"point", "curve", "surface", "volume"};
     return kinds[static_cast<std::size_t>(dimension)] +
-           std::to_string(tag);  // a number alone would name a node
+           std::to_string(tag);  // a name of digits alone would name a node
   }
 };
 

@@ -5,8 +5,8 @@
 //
 // A body consists of the elements of some physical surfaces, or of all. Its groups are the physical curves
 // and points with nodes of these elements. Nodes that the body does not use are omitted; a node that no
-// element of the file uses is refused. If all elements run clockwise, they are reversed. If only some do, or
-// a Jacobian is not positive at a node, the mesh folds and is refused.
+// element of the file uses is refused. If all elements run clockwise, they are reversed. If only some of them run
+// clockwise, or a Jacobian is not positive at a node, the mesh folds and is refused.
 // Source: Gmsh reference manual, sections "MSH file format version 4.1" and "version 2 (Legacy)".
 #pragma once
 

@@ -35,7 +35,7 @@ struct MeshQuality {
 //   1: on the boundary,   2: inside
 
 struct SharedEdge {
-  /// Two ends, then the middle node if there is one; the first of the adjacent elements is on the left.
+  /// Two ends, then the middle node if there is one. The element from which the edge was added first is on its left.
   std::vector<int> nodes;
   int elements = 0;
 };

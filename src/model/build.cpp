@@ -168,7 +168,7 @@ void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& mode
   if (scene.run.geometric && scene.initial.is_frictional) check_massless(scene, model, map);
 }
 
-/// Finds the initial state together with the forces on pendulums, because each depends on the other.
+/// Finds the initial state and the forces on pendulums together, because they depend on each other.
 void start(const Scene& scene, DofMap& map, Model& model) {
   const bool stands = scene.initial.is_static || scene.initial.is_frictional;
   if (!stands || !has_pressed_pendulums(scene)) {
@@ -196,8 +196,8 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Comp
   outputs::make_outputs(scene, map, model);
 }
 
-/// Sets velocities of rounding size in a saved state to zero; they would decide the slip direction of a contact at
-/// its friction limit. Their size: the fastest mode converts the rounding errors of displacements to velocities
+/// Sets velocities of rounding size in a saved state to zero; otherwise these velocities would decide the slip
+/// direction of a contact at its friction limit. The fastest mode converts rounding errors of displacements to velocities
 ///     |v| <= many_operations omega_max max |u|,   for translations and rotations separately.
 /// If any velocity of the model is larger, only tangential velocities of a contact are set to zero, if the contact
 /// stuck at the end of the saved run and all its tangential velocities are of rounding size.
@@ -264,7 +264,7 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
 
 enum class Extent { structure, without_warnings, all };
 
-/// Builds the model in the units of `scene`. unit: the scene's units of force, length and time, in units of messages.
+/// Builds the model in the units of `scene`. unit: these units of force, length and time, in the units of messages.
 Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
   DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
   map.shown_length = unit.length;

@@ -33,7 +33,7 @@ Vector given_vector(const std::vector<double>& values, int n, const InitialSpec&
   throw SceneError(spec.place, "run.initial.run", why + ": expected a run of the same structure");
 }
 
-/// Checks that the run and the scene have the same contacts with friction.
+/// Errors: SceneError if the saved run and the scene do not have the same contacts with friction.
 void check_saved_contacts(const Scene& scene) {
   std::unordered_set<std::string> contacts, saved;
   for (const auto& [name, T] : scene.initial.saved->shears) saved.insert(name);
@@ -110,7 +110,7 @@ std::string given_for(const assembly::DofMap& map, int tied) {
   return names.empty() ? std::string("none: supports move it") : base::join_quoted(names, 3);
 }
 
-/// nullopt if the component is fixed, or tied at a seam: its value has no effect.
+/// nullopt if the component is fixed, or tied at a seam: the given value then has no effect.
 std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assembly::DofMap& map) {
   const std::string key = key_of(c);
   const auto named = scene::component_named(c.component);
@@ -211,7 +211,7 @@ bool is_pressed_pendulum(const ContactSpec& contact) {
 }
 
 /// Initial guess: the given forces, or the sum of the loads shared evenly. The values affect only the number of rounds.
-/// They must not be zero, because a structure that stands on pendulums alone would then be a mechanism.
+/// The values must not be zero, because a structure that stands only on pendulums would then be a mechanism.
 std::vector<double> first_guess(const Scene& scene, const Model& model) {
   double pushed = 0.0, bearings = 0.0;
   for (const Load& load : model.loads)
@@ -333,7 +333,8 @@ std::string word_of(LoadKind kind) {
                    fmt::format("no load is called \"{}\"{}", name, base::suggestion(name, names)));
 }
 
-/// True if the name is a kind of load whose values are all zero, as an override may set them: its stage has no effect.
+/// True if the name is a kind of load whose values are all zero, as an override may set them; a stage with this name is
+/// then valid and has no effect.
 bool is_zero_kind(const Scene& scene, const std::string& name) {
   const auto expands = [](const auto& part) { return part.thermal_expansion != 0.0; };
   if (name == word_of(LoadKind::temperature))
@@ -398,7 +399,7 @@ std::vector<statics::Stage> stages_of(const Scene& scene, const Model& model, st
   return stages;
 }
 
-/// True if a load of the stage is not zero; even on fixed degrees of freedom it then compresses members and bodies.
+/// True if a load of the stage is not zero; such a load compresses members and bodies even on fixed degrees of freedom.
 bool presses(const StageSpec& spec, const Model& model) {
   return std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
     return load.history.value(0.0) != 0.0 &&

@@ -47,7 +47,7 @@ void solve_pendulum_start(const Scene& scene, Model& model, const std::function<
 /// contact; 0 for contacts that are not pendulums.
 [[nodiscard]] std::vector<double> saved_pendulum_forces(const Scene& scene);
 
-// Static start with friction, initial = "frictional": defines its stages, and takes the initial state from its result.
+// Static start with friction, initial = "frictional": defines the stages, and takes the initial state from their result.
 //
 //   stage i: dP = sum of direction * f(0) over the loads of the stage;   without stages: all static loads in one stage
 //   u(0) = u, v(0) = 0, anchors such that T(0) is the shear force after the last stage

@@ -25,7 +25,7 @@ namespace signorini::model {
 //
 // With powers of two the conversion is exact, and so is its inverse.
 
-/// Converts a history: its times, and its values, which have the unit `of`.
+/// Converts the times and the values of a history; the values have the unit `of`.
 [[nodiscard]] History rescaled(History history, const Unit& of, const Factors& factors);
 
 /// Multiplies all numbers of the model by the factors of their units, divides Model::unit by the factors, and

@@ -158,8 +158,8 @@ SparseMatrix part_of(const SparseMatrix& c, const std::vector<int>& list) {
   return part;
 }
 
-/// Changes z to another basis of the same space: each column has a row in which it is 1 and all other columns are 0.
-/// Returns these rows, one per column.
+/// Changes z to another basis of the same space: for each column there is a row with 1 in this column and 0 in all other
+/// columns. Returns these rows, one per column.
 std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index j = 0; j < z.cols(); ++j) {
@@ -236,7 +236,7 @@ namespace {
 
 constexpr std::size_t rotation = 2, most_listed = 3;
 
-/// For each node: whether elements end there, whether any of them rotates with the node, and whether any is plane.
+/// For each node: whether elements end there, whether one of them rotates with the node, and whether one is plane.
 class Turning {
  public:
   explicit Turning(const assembly::DofMap& map) : map_(map), nodes_(map.mesh.nodes.size()) {

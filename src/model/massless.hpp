@@ -14,12 +14,12 @@
 namespace signorini::model {
 
 /// Marks massless degrees of freedom (zero rows of M). Errors: SceneError if nothing has mass, if M is not positive
-/// definite on the other degrees of freedom, or if a massless one has neither stiffness nor damping.
+/// definite on the degrees of freedom with mass, or if a massless one has neither stiffness nor damping.
 void mark_massless(const Scene& scene, const assembly::DofMap& map, const assembly::Assembly& assembly,
                    std::vector<Dof>& dofs);
 
-/// Errors: SceneError if a motion without mass has no stiffness, no damping and no contact that resists it, or if a
-/// negative stiffness makes it unstable.
+/// Errors: SceneError if neither stiffness nor damping nor a contact resists a massless motion, or if a negative
+/// stiffness makes such a motion unstable.
 void check_massless(const Scene& scene, const Model& model, const assembly::DofMap& map);
 
 // Separates massless motions without damping from damped massless degrees of freedom.

@@ -106,8 +106,8 @@ class ModelWarnings {
     }
   }
 
-  /// Warns of parts that the static loads move away from all contacts. Parts with sliders are skipped: friction may hold
-  /// them.
+  /// Warns of parts that the static loads move away from all contacts. Parts with sliders are skipped, because friction
+  /// may hold such a part.
   void falls() {
     if (weight_.isZero(0.0)) return;
     const assembly::Parts parts({&model_.mass, &model_.stiffness});
@@ -160,7 +160,7 @@ class ModelWarnings {
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
       if (c.normal_force_given() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
-      // A rigid contact on a rigid body carries its reaction from t = 0 on, without oscillation.
+      // A rigid contact on a rigid body carries the weight from t = 0 on, without oscillation.
       const bool gives = !c.takes_impulses() ||
                          std::any_of(c.normal.terms.begin(), c.normal.terms.end(), [&](const auto& term) {
                            return model_.stiffness.coeff(term.first, term.first) != 0.0;
@@ -344,7 +344,7 @@ double share_at(const History& f, double amplitude, double t_end, double omega) 
   return std::min(1.0, omega * history::max_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
 }
 
-/// Frequencies of the oscillations along the static responses to loads; 0 if there is none.
+/// Frequencies of oscillations along the static responses to loads; 0 if a load has no static response.
 class HalfPeriods {
  public:
   HalfPeriods(const Model& model, const modes::ContactConstraints& holding) : model_(model) {

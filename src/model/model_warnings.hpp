@@ -2,13 +2,13 @@
 //
 //   load without effect                 direction . u = 0 for all u
 //   unconnected rotations               massless.hpp
-//   a part leaves all contacts          n . a >= 0 at all of them; a = Z (Z^T M Z)^-1 Z^T P: acceleration of a part in
+//   a part leaves all contacts          n . a >= 0 at all contacts; a = Z (Z^T M Z)^-1 Z^T P: acceleration of a part in
 //                                       free fall (Z: motions without stiffness) under the static loads
 //   weight applied suddenly at t = 0    contacts with zero gap, without a static start
 //   drag                                alpha M acts on rigid-body motions: v ~ exp(-alpha t)
 //   friction above 2                    probably an angle or a percentage
 //   initial_shear in a static start     a static start has no friction that could carry it
-//   initial values without mass         equilibrium determines them (initial_state.hpp)
+//   initial values without mass         equilibrium determines these values (initial_state.hpp)
 //   different structure                 the continued run had another structure
 //   a pulse too short for doubles       shorter than 100 eps (t + t_end)
 //   a support that jumps at t = 0       or whose velocity jumps: the initial state is the one after the jump
@@ -49,7 +49,7 @@ struct EffectiveLoad {
 
 struct EffectiveAmplitudes {
   std::vector<EffectiveLoad> loads;
-  std::vector<double> compressions;  ///< fraction for each slider's normal_force, with w the lowest frequency
+  std::vector<double> compressions;  ///< effective / full normal_force of each slider; w: lowest frequency
 };
 
 /// omega: lowest frequency of the constrained structure; 0 if there is none.

@@ -26,8 +26,8 @@ struct FirstPass {
 /// First pass of a start without friction. Errors: SceneError if there is no equilibrium.
 [[nodiscard]] FirstPass first_pass(const Scene& scene, const assembly::DofMap& map, const Model& model);
 
-/// Sets Model::geometric, stores the prestress in the map, and adds its stiffness to the model and to the
-/// loads of supports.
+/// Sets Model::geometric, stores the prestress in the map, and adds the stiffness of the prestress to the model and to
+/// the loads of supports.
 void apply_prestress(const Scene& scene, Prestress forces, assembly::DofMap& map, Model& model);
 
 /// Second pass of a start without friction. Errors: SceneError if the structure buckles under its static

@@ -45,8 +45,8 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   }
 }
 
-/// Sum of the magnitudes of the terms of a gap; its rounding error is relative to this sum. In a continued run, errors of
-/// displacements are relative to the largest displacement of the structure, even where a displacement is small.
+/// Sum of the magnitudes of the terms of a gap, to which the gap's rounding error is relative. In a continued run, errors
+/// of displacements are relative to the largest displacement of the structure, even where a displacement is small.
 double terms_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
   if (!scene.initial.saved) return std::abs(contact.gap) + contact.normal.magnitude(model.u0);
   double greatest = model.scales.displacement, sum = 0.0;
@@ -101,7 +101,7 @@ void close_together(Model& model, const std::vector<std::size_t>& contacts) {
 }
 
 /// Errors: SceneError for a redundant contact: its normal is a combination of other normals, and its gap is zero
-/// whenever theirs are. If only the normal is a combination, all these contacts never close together.
+/// whenever the other gaps are. If only the normal is a combination, all these contacts never close together.
 void check_redundance(const Scene& scene, const Model& model, const std::vector<std::size_t>& rigid,
                       std::size_t first) {
   const auto n = static_cast<Eigen::Index>(model.size());

@@ -66,7 +66,7 @@ bool turns_alone(const assembly::DofMap& map, std::size_t node) {
           map.is_tied(n[1]));
 }
 
-/// Force on the degrees of freedom of a node. Forces on tied nodes appear at the nodes that they follow.
+/// Force on the degrees of freedom of a node. Forces on tied nodes appear at the nodes that determine their motion.
 double force_at(const Vector& p, const assembly::DofMap& map, std::size_t node, double arm) {
   const auto part = [&](int n) { return n >= 0 && !map.is_tied(n) ? p[n] : 0.0; };
   const auto& n = map.number[node];
@@ -92,7 +92,7 @@ double greatest_force(const Vector& p, const assembly::DofMap& map) {
   return greatest;
 }
 
-/// Mass of a node along the direction in which it is largest; independent of the scene's orientation.
+/// Largest mass of a node along any direction; independent of the scene's orientation.
 double greatest_mass(const Model& model, const assembly::DofMap& map) {
   double greatest = 0.0;
   if (map.is_matrix_scene()) {
@@ -179,7 +179,7 @@ StaticResponse find_static_response(const std::vector<Vector>& forces, const Mod
   for (const Vector& p : forces) {
     const double answer = assembly::max_translation(structure.solve(p), map);
     const double free = assembly::max_translation(loose.solve(p), map);
-    // If everything movable is fixed, the response is rounding only.
+    // If the constraints fix every motion, the response is only rounding.
     if (answer > only_rounding * free) result.held = std::max(result.held, answer);
     result.gripped = std::max(result.gripped, free);
   }
@@ -280,7 +280,7 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   const double least = min_response(model, map, force);
   const auto answers = [&](double x) { return usable(x) && x > least; };
   if (!answers(displacement)) displacement = 0.0;
-  // A motion with almost no stiffness would have a nearly infinite static response; the run is too short to reach it.
+  // Without stiffness a motion would have an unbounded static response; the run is too short to reach large values.
   if (const double farthest = thrown(model, map, effective, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
   // An initial velocity moves the structure at least as far as the fastest oscillation would.
@@ -298,7 +298,7 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   const double mass = greatest_mass(model, map);
   scales.force = first_usable(force, mass * omega * omega * scales.displacement,
                               mass * scales.displacement / (t_end * t_end));
-  // If contacts open, the structure does not oscillate at omega1; its energy then limits the velocity.
+  // If contacts open, the structure does not oscillate at omega1; the energy then limits the velocity.
   const double driving = std::max(scales.force, greatest_force(model.stiffness * model.u0, map));
   const double bound = std::sqrt(driving * scales.displacement / mass);
   double velocity = omega > 0.0 ? omega * scales.displacement : bound;

@@ -76,8 +76,8 @@ struct Builder {
   std::vector<Vector> base;    // one per base motion
   std::vector<SupportColumns> moving;
 
-  /// Adds an element matrix; numbers: those of its unknowns. Fixed unknowns are omitted; unknowns of moving supports are
-  /// added to the support's column.
+  /// Adds an element matrix. numbers: numbers of the element's unknowns. Fixed unknowns are omitted; unknowns of moving
+  /// supports are added to the support's column.
   template <class Matrix, class Numbers>
   void add(Triplets& target, Column column, const Matrix& a, const Numbers& numbers) {
     if (!any_tied(map, numbers.data(), numbers.size())) return add_own(target, column, a, numbers);

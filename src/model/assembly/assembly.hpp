@@ -12,8 +12,8 @@
 
 namespace signorini::assembly {
 
-/// Forces on the free degrees of freedom by a unit motion of a support: its columns of M_fs, of the dampers,
-/// and of K_fs.
+/// Forces on the free degrees of freedom by a unit motion of one support: the support's columns of M_fs, of the
+/// dampers, and of K_fs.
 struct SupportColumns {
   Vector mass, dampers, stiffness;
 };

@@ -335,7 +335,7 @@ SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof) {
 
 namespace {
 
-constexpr double at_rest = 1e-3;  // relative; null motions of fine meshes are accurate to few digits
+constexpr double at_rest = 1e-3;  // relative to the largest motion: smaller motions are zero
 
 struct NodeMotion {
   const element::MeshNode* node;

@@ -81,13 +81,13 @@ struct DofMap {
   [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
 };
 
-/// Components of v along x and y; those below roundoff of the length of v are zero.
+/// Components of v along x and y; a component below the roundoff of |v| is set to zero.
 [[nodiscard]] std::array<double, 2> clean_direction(const std::array<double, 2>& v);
 
 /// The tangent of a normal: n = (nx, ny) has t = (ny, -nx); both unit vectors.
 [[nodiscard]] std::array<double, 2> tangent_of(const std::array<double, 2>& normal);
 
-/// The direction along which a contact of a scene with nodes slides; zero if it has neither tangent nor
+/// The direction along which a contact of a scene with nodes slides; zero if the contact has neither tangent nor
 /// normal.
 [[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
 

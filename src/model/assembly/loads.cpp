@@ -24,7 +24,7 @@ Combination form_of(const Vector& v, double factor) {
   return form;
 }
 
-/// True for a constant without `start`: it has always acted.
+/// True for a constant history without `start`: such a load has always acted.
 bool holds_since_ever(const HistorySpec& spec, const History& history) {
   return spec.type == HistoryType::constant && history.is_constant();
 }

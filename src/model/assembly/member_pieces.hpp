@@ -9,8 +9,8 @@
 
 namespace signorini::assembly {
 
-/// The piece of a member between nodes a and b; true if the piece runs from b to a. Errors: SceneError if no member, or
-/// more than one, has such a piece.
+/// Returns the piece of a member between nodes a and b, and true if the piece runs from b to a. Errors: SceneError if no
+/// member, or more than one, has such a piece.
 [[nodiscard]] std::pair<const element::MeshPiece*, bool> piece_between(const DofMap& map,
                                                                        const std::string& a,
                                                                        const std::string& b,

@@ -26,7 +26,7 @@ class Part {
   [[nodiscard]] int size() const { return static_cast<int>(dofs().size()); }
   /// The rows and columns of this part, n_i x n_i.
   [[nodiscard]] SparseMatrix matrix(const SparseMatrix& a) const;
-  /// Those of the given forms that act on this part, in the same order, with the part's numbers. A form without terms
+  /// Returns the given forms that act on this part, in the same order, with the part's numbers. A form without terms
   /// acts on no part.
   [[nodiscard]] std::vector<Combination> forms(const std::vector<Combination>& forms) const;
 
@@ -60,7 +60,7 @@ class Parts {
 /// ascend, and groups are in the order of their first forms. A form without terms is a separate group.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_forms(const std::vector<Combination>& forms);
 
-/// Groups of contacts whose forces are coupled through M, C, K and other contacts; order as in
+/// Groups of contacts whose forces are coupled through M, C, K and other contacts; in the order of
 /// coupled_forms().
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model);
 
@@ -82,8 +82,8 @@ class Parts {
 //   M, C, K, n_k, t_k:   block by block (parts.hpp);   P_i: restriction of P(t) to block i
 //
 // The contacts of one part are coupled with each other; the last part contains everything that is not coupled with a
-// contact. A part has the loads that act on it; loads without effect belong to the first part. Scales, frequencies
-// and factors are those of the whole model, so that a run of the part makes the same decisions.
+// contact. A part has the loads that act on it; loads without effect belong to the first part. A part keeps the
+// scales, frequencies and factors of the whole model, so that a run of the part makes the same decisions.
 
 struct PartModel {
   Model model;            ///< data needed by a run: without outputs, names of other parts and drawing

@@ -147,7 +147,7 @@ class PrestressAssembly {
   }
 
   /// True for a spring between nodes of one body: it rotates with the body, and its two end forces
-  /// together have no moment.
+  /// have no resultant moment.
   [[nodiscard]] bool is_within_body(const Spring& spring) const {
     return !spring.against.empty() &&
            map_.in_one_body({map_.mesh.by_name.at(spring.node), map_.mesh.by_name.at(spring.against)});

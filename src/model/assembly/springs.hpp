@@ -27,7 +27,7 @@ struct LineSpring {
 /// The form as a full vector of length n.
 [[nodiscard]] Vector dense_vector(const Combination& form, int n);
 
-/// |x|^T |K| |x|: magnitude of the terms of x^T K x; its rounding error is this times machine epsilon.
+/// |x|^T |K| |x|: magnitude of the terms of x^T K x. The rounding error of x^T K x is this magnitude times eps.
 [[nodiscard]] double term_magnitude(const SparseMatrix& k, const Vector& x);
 
 /// L D L^T of a symmetric sparse matrix, with a fill-reducing order.
@@ -73,7 +73,7 @@ class CholeskyFactor {
 //
 //   k_max / k_min <= sqrt(greatest double) = 1.34e154,   k: EA/L, EI/L^3, springs, contacts [force/length]
 //
-// Energies and Rayleigh quotients contain ratios k^2 / k'^2; beyond this limit they overflow or underflow in
+// Energies and Rayleigh quotients contain ratios k^2 / k'^2, which beyond this limit overflow or underflow in
 // any units. Such a stiffness is a typing error, or is meant as a rigid body or as a missing member.
 
 /// Errors: SceneError at the softest or the stiffest part, whichever has the exponent of larger magnitude.

@@ -3,7 +3,7 @@
 //
 //   ux_P = ux_C - rz (y_P - y_C),   uy_P = uy_C + rz (x_P - x_C),   rz_P = rz_C          u = T q
 //
-// q contains the degrees of freedom of the centre C instead of those of the nodes P: M = T^T M_full T, and
+// q contains the degrees of freedom of the centre C, but none of the nodes P: M = T^T M_full T, and
 // likewise K, C, loads and the forms of contacts. A support at any node of a body removes a degree of freedom
 // from q. With A supported in x and B in y,
 //
@@ -79,7 +79,7 @@ class TiedForm {
 struct TiedElement {
   TiedElement(const DofMap& map, const int* numbers, std::size_t count);
   std::vector<int> numbers;  ///< degrees of freedom, codes of moving supports
-  Eigen::MatrixXd t;         ///< count x numbers
+  Eigen::MatrixXd t;         ///< T, size: number of the element's unknowns x numbers.size()
 
   /// T^T A T for symmetric A, bitwise symmetric; entries that are zero up to rounding become zero.
   [[nodiscard]] Eigen::MatrixXd transform(const Eigen::MatrixXd& a) const;
@@ -88,7 +88,7 @@ struct TiedElement {
 /// True if one of these numbers is tied.
 [[nodiscard]] bool any_tied(const DofMap& map, const int* numbers, std::size_t count);
 
-/// Sets Model::ties. The model's degrees of freedom must be those of the map.
+/// Sets Model::ties. The model must have the degrees of freedom of the map.
 void add_ties(const Scene& scene, const DofMap& map, Model& model);
 /// Recomputes Ties::dofs, after a reduction or after sliding points were added.
 void name_tied_dofs(const DofMap& map, Model& model);

@@ -1,9 +1,9 @@
 // element.hpp: interface of a finite element to the rest of the program.
 //
-//   forces on its unknowns:  k u + k_g u + m (a - r g) - (distributed load) - (forces of a strain of its member)
+//   forces on unknowns:  k u + k_g u + m (a - r g) - (distributed load) - (forces of a strain of the element's member)
 //
-// k, m, k_g: stiffness(), mass(), geometric_stiffness(); r: translation(). Unknowns are ux, uy, rz of its
-// nodes, and internal unknowns. An element lies in the plane and has an extent, its length or its area;
+// k, m, k_g: stiffness(), mass(), geometric_stiffness(); r: translation(). Unknowns are ux, uy, rz of the element's
+// nodes, and internal unknowns. An element lies in the plane and has an extent, which is its length or its area;
 // density() is mass per extent, so density() g is the distributed weight. Bars and beams are lines
 // (line_elements.hpp); element_kinds.cpp converts members to elements.
 #pragma once
@@ -79,8 +79,8 @@ class FiniteElement {
   /// True if a prestress adds stiffness to this type of element; otherwise run.geometric is an error.
   [[nodiscard]] virtual bool has_geometric_stiffness() const { return false; }
   [[nodiscard]] virtual ElementMatrix geometric_stiffness(const AxialForces& forces) const;
-  /// Axial forces under given displacements of the unknowns, a strain of its member, a load per extent, and a body
-  /// acceleration (gravity minus that of the base).
+  /// Axial forces under given displacements of the unknowns, a strain of the element's member, a load per extent, and a
+  /// body acceleration (gravity minus the acceleration of the base).
   [[nodiscard]] virtual AxialForces axial_forces(const ElementVector& u, double strain,
                                                  const PlaneVector& load, const PlaneVector& pull) const;
 

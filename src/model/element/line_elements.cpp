@@ -82,7 +82,7 @@ SectionForce LineElement::section_force(OutputQuantity quantity, const PlaneVect
   PlaneVector load;
   LineShapes shapes;
   double dx = -s, dy = c,
-         sign = -1.0;  // direction of the section force, and the sign of rho times its acceleration
+         sign = -1.0;  // direction of the section force; sign of rho a
   if (quantity == OutputQuantity::N) {
     forces << -c, -s, 0.0, 0.0, 0.0, 0.0;
     load = {-x * c, -x * s};

@@ -67,7 +67,7 @@ class LineElement : public FiniteElement {
  protected:
   using Ends = Eigen::Matrix<double, 6, 1>;  // ux, uy, rz at a and b
 
-  /// Values at the ends without those rotations that are not unknowns of the element.
+  /// Values at the ends, without rotations that are not unknowns of the element.
   [[nodiscard]] ElementVector restrict_to_unknowns(const Ends& ends) const;
   /// Elongation of the line by a motion of the unknowns.
   [[nodiscard]] double elongation(const ElementVector& motion) const;

@@ -102,7 +102,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   if (rest.cols() == 0) return result;
   const base::EigenPairs pairs =
       base::generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
-  // All further modes have no mass; their values are rounding errors.
+  // Modes beyond this number have no mass; their values are rounding errors.
   const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
   count = std::min(count, with_mass);
   for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {

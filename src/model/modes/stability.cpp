@@ -153,7 +153,7 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
 namespace {
 
 constexpr double no_inertia = 1e-14;  // inertia, relative to the terms of x.Mx: rounding
-constexpr double no_faster = 1e-9;    // relative change of a converged rate; its motion has half the digits
+constexpr double no_faster = 1e-9;    // relative change of a converged rate
 
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = statics::null_motions(k);  // includes motions of negative energy

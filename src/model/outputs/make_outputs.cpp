@@ -103,8 +103,8 @@ class Maker {
     for (const PhysicalRow::CurvedContact& bowl : row.curved_contacts) restore(bowl, output);
   }
 
-  /// Internal forces of a reduced structure balance the loads only without the terms that its equation of motion
-  /// neglects: inertia of massless shapes, and their damping where they respond immediately.
+  /// Internal forces of a reduced structure balance the loads only without the terms that the reduced equation of motion
+  /// neglects: inertia of massless shapes, and damping of massless shapes that respond immediately.
   void balance(const PhysicalRow& row, Output& output) const {
     const Reduction& reduction = *model_.reduction;
     Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
@@ -321,7 +321,7 @@ class Maker {
         if (d[c] != 0.0 && is_held(node, c)) rows_->add_reaction(row, node, c, d[c]);
   }
 
-  /// The nodes of the node's rigid body, or the node alone.
+  /// All nodes of the rigid body to which the node belongs; the node alone if it belongs to no body.
   [[nodiscard]] std::vector<int> together_with(int node) const {
     const int body = map_.body[static_cast<std::size_t>(node)];
     if (body < 0) return {node};

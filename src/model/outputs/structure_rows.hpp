@@ -5,7 +5,7 @@
 //   sum over the supports  R = inertia - loads + springs and contacts to the ground
 //
 // a_b: acceleration of the base, g: gravity. For scenes with nodes. Degrees of freedom moved by a support
-// follow its history, fixed ones are zero.
+// follow the support's history, fixed degrees of freedom are zero.
 #pragma once
 
 #include "model/assembly/loads.hpp"
@@ -112,7 +112,7 @@ class MemberForces {
   /// Index of the k-th element on the path.
   [[nodiscard]] static std::size_t element_of(const MemberPath& way, std::size_t k);
   /// The quantity at a position x, 0 to 1, of the k-th element on the path. Errors: SceneError under `key`
-  /// for a section with unknown stress properties.
+  /// for a section without area or modulus.
   [[nodiscard]] element::SectionForce section_force(const MemberPath& way, std::size_t k, double x,
                                                     const SectionQuantity& wanted, const SourcePlace& place,
                                                     const std::string& key) const;

@@ -18,7 +18,7 @@ constexpr double roundings = 1e-12;    // sums below this fraction of their term
 constexpr double shift_share = 1e-3;   // shift, relative to omega^2 of the first truncated or highest mode
 constexpr double least_shift = 1e-11;  // smallest shift with free motions, relative to the largest K_ii/M_ii
 constexpr int corrections = 6;         // iterations; each reduces the error by shift/omega^2 < shift_share
-constexpr double margin = 1e-6;  // relative distance in omega^2 from a mode, for a count below it
+constexpr double margin = 1e-6;  // relative distance in omega^2 below a mode at which modes are counted
 
 double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   double greatest = 0.0;
@@ -56,7 +56,7 @@ void orthonormalise(Eigen::MatrixXd& x, const SparseMatrix& mass) {
     }
 }
 
-/// Modes that are not free, up to the cutoff, and the first one above it if there is one.
+/// Modes that are not free, up to the cutoff, and the first mode above the cutoff if there is one.
 struct ElasticModes {
   base::EigenPairs pairs;
   Eigen::Index kept = 0;
@@ -254,7 +254,7 @@ StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffne
     result.massive.resize(n, 0);
     return result;
   }
-  // K = 1 in the basis: 1/omega^2 are the eigenvalues of its mass; the largest belongs to the lowest frequency.
+  // K is the identity in this basis, so the eigenvalues of the mass matrix are 1/omega^2, the lowest frequency last.
   const Eigen::MatrixXd h = basis.leftCols(massive);
   const base::EigenPairs ritz = base::symmetric_eigen(h.transpose() * (mass * h));
   result.massive.resize(n, massive);

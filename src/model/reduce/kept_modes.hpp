@@ -1,7 +1,7 @@
 // kept_modes.hpp: the modes of a structure up to a cutoff, and the static response of all other modes.
 //
 //   K phi = omega^2 M phi,   phi_i^T M phi_j = delta_ij,   omega <= cutoff
-//   G_res f = sum over the other modes phi (phi^T f)/omega^2,   those without mass included
+//   G_res f = sum over the other modes phi (phi^T f)/omega^2,   massless modes included
 //
 // K and M symmetric, positive semidefinite; without contact constraints. With f_el = f - M Phi Phi^T f, which does no
 // work on the kept modes (inertia relief if these include free motions), G_res f solves K u = f_el with Phi^T M u = 0.
@@ -96,7 +96,7 @@ struct StaticShapes {
 //   | C - alpha M - beta K |_ij <= 1e-9 ( |C| + |alpha M| + |beta K| )_ij   for all ij,   alpha, beta >= 0
 //
 // 1e-9: programs write matrices with at least ten digits. If the test succeeds, a reduced model damps its modes by
-// alpha and beta. With C itself, its static shapes would have dampers with time constants far below those of the
+// alpha and beta. Dampers from C itself would give the static shapes time constants far below those of the
 // modes.
 
 struct RayleighFactors {

@@ -84,7 +84,7 @@ class ReducedStart {
     return true;
   }
 
-  /// Limits shears to the friction limit, and keeps contacts at the limit there.
+  /// Limits shears to the friction limit; a contact that started at its limit stays at the limit.
   void clamp() {
     for (std::size_t k = 0; k < shares_.size(); ++k) {
       if (!rubs(k)) continue;
@@ -118,7 +118,7 @@ class ReducedStart {
                                    c.normal_force_given() ? -model_.statics.reactions[k] : normal_force(k));
   }
   Model& model_;
-  std::vector<double> shares_;  // |T| over its limit at the original start
+  std::vector<double> shares_;  // |T| / limit at the original start
 };
 
 bool is_known(const Model& model) {

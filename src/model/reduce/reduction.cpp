@@ -55,7 +55,7 @@ void check_reducible(const Scene& scene, const Model& model) {
 }
 
 /// Errors: SceneError for moving supports with beta K and prestress. Shapes that follow a support immediately are
-/// computed without their damping, which must then be that of the elastic stiffness alone.
+/// computed without damping; the omitted damping would have to be that of the elastic stiffness alone.
 void check_frozen(const Scene& scene, const Model& model) {
   const bool follows = std::any_of(model.loads.begin(), model.loads.end(),
                                    [](const Load& load) { return load.kind == LoadKind::support_rate; });
@@ -122,7 +122,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   b.stiffness.resize(m + h + r);
   b.stiffness << modes.squares, shapes.massive_squares, Eigen::VectorXd::Ones(r);
   if (light.nonZeros() > 0 && r > 0) {
-    // Rotated so that each shape has its own time constant, or none.
+    // Rotated so that each shape has a separate time constant, or none.
     const Eigen::MatrixXd c = shapes.massless.transpose() * (light * shapes.massless);
     b.shapes.rightCols(r) = shapes.massless * base::symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
@@ -186,8 +186,8 @@ const Load* driving(const std::vector<Load>& loads, const Load& rate) {
   return nullptr;
 }
 
-/// A shape without the damping beta K follows its support immediately, q = s x. The term of beta K for the support's
-/// velocity, beta s x', balances the shape's own beta q', so both are omitted.
+/// A shape without the damping beta K follows its support immediately, q = s x. The term beta s x' of beta K for the
+/// support's velocity balances the shape's own term beta q', so both terms are omitted.
 void reduce_loads(const Basis& b, double beta, std::vector<Load>& loads) {
   std::vector<Combination> forms;
   for (const Load& load : loads) {
@@ -289,7 +289,7 @@ void close_saved(const Model& model, const Basis& b, const std::vector<Contact>&
   }
 }
 
-/// Sets the amplitudes of the initial state: those of modes by products with M, those of static shapes by
+/// Sets the amplitudes of the initial state: amplitudes of modes by products with M, amplitudes of static shapes by
 /// products with K, so that a static state is reproduced. The remainder is reported.
 void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model& model,
                   const std::vector<Contact>& contacts, Reduction& facts) {
@@ -325,7 +325,7 @@ void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model&
   model.v0 = w;
 }
 
-/// The largest jump of a load in the run. At t = 0 its value is a jump, unless the static start includes the load.
+/// The largest jump of a load in the run. The value at t = 0 is a jump, unless the static start includes the load.
 double greatest_jump(const Load& load, const Model& model, double t_end) {
   double jump = load.is_static && model.static_start ? 0.0 : std::abs(load.history.value(0.0));
   for (const Breakpoint& at : load.history.breakpoints())

@@ -118,7 +118,7 @@ class LoadingPath {
     refuse_stage(fmt::format("nothing restrains the {}: no equilibrium follows", name));
   }
 
-  /// Errors: SceneError if other contacts prevent the slip of a contact at its limit: its further force is undetermined.
+  /// Errors: SceneError if other contacts prevent the slip of a contact at its limit: its force would be undetermined.
   void refuse_shares(const std::vector<ConstraintRow>& rows, const std::vector<Unknown>& unknowns,
                      const std::vector<bool>& moves) const {
     std::vector<bool> slips(rows.size(), false);
@@ -136,8 +136,8 @@ class LoadingPath {
     }
   }
 
-  /// Errors: SceneError for loads without equilibrium even with infinite friction. With z = 0 for all slips, the openings
-  /// are a convex problem, for which Lemke's method ends in a ray only if there is no solution.
+  /// Errors: SceneError for loads without equilibrium even with infinite friction. With z = 0 for all slips, the
+  /// conditions of openings form a convex problem, for which Lemke's method fails only if there is no solution.
   void refuse_pulls(const std::vector<Unknown>& unknowns, const Eigen::MatrixXd& m,
                     const Eigen::VectorXd& q) const {
     std::vector<Eigen::Index> openings;

@@ -13,10 +13,10 @@
 //
 // This is one linear complementarity problem of all contacts that touch or are at their limit
 // (quasi_static_rates.hpp). If there is no solution, or a motion without stiffness, the continuation would be
-// dynamic, and the start is refused. If there are several solutions, one is taken and reported.
+// dynamic, and the start is refused. If there are several solutions, one of them is taken and reported.
 //
 // If closed contacts at their limits do not resist some motion, many slips are possible with the same forces.
-// The smallest one is taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
+// The smallest slips are taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
 #pragma once
 
 #include <vector>

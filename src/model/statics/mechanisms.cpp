@@ -115,7 +115,7 @@ Eigen::MatrixXd null_motions(const SparseMatrix& k) {
 
 namespace {
 
-constexpr double belongs = 1e-3;  // relative; null motions of fine meshes are accurate to few digits
+constexpr double belongs = 1e-3;  // relative to a motion: smaller remainders are errors of null motions
 
 /// Translations along x and y, and the rotation about the centre, on the given degrees of freedom.
 std::array<Vector, 3> rigid_motions(const assembly::DofMap& map, const std::vector<int>& dofs) {

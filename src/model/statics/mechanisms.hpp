@@ -39,11 +39,11 @@ namespace signorini::statics {
 //   those of  e_x, e_y, theta x (r - centre)  that are in the null space first, then a complement
 //
 // A null space has no preferred basis: a free body has infinitely many rotations about points. With this
-// basis messages name "vertical motion" if it is one of the motions.
+// basis messages name "vertical motion" if the vertical motion belongs to the null space.
 
 /// Another basis of the columns of `motions` (n x m, full rank): horizontal and vertical motion and the rotation about
-/// the centre of the nodes, if they belong to the space, then a complement. Unchanged if the space contains none of
-/// them, and in matrix scenes.
+/// the centre of the nodes, if they belong to the space, then a complement. Unchanged if the space contains no such
+/// motion, and in matrix scenes.
 [[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map);
 
 /// Same for motions that only involve the degrees of freedom `dofs`.

@@ -10,8 +10,8 @@
 //   slip +, -     that slip          slip           that slip
 //   open          opening and slip, whose sign is free: N' = 0, T' = 0
 //
-// If several combinations satisfy the conditions, the one with the smallest |z| is taken: it is independent of the
-// scene's orientation, reflection and numbering.
+// If several combinations satisfy the conditions, the one with the smallest |z| is taken: this choice is independent of
+// the scene's orientation, reflection and numbering.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ namespace signorini::statics {
 
 struct QuasiStaticRates {
   Eigen::VectorXd z;       ///< one per unknown
-  bool ambiguous = false;  ///< other rates satisfy the conditions, too
+  bool ambiguous = false;  ///< true: other rates also satisfy the conditions
 };
 
 /// Returns the rates z; nullopt if no combination satisfies the conditions, or if there are more than max_combinations.
@@ -39,7 +39,7 @@ inline constexpr std::size_t max_combinations = 20'000;
 
 // State of a contact during quasi-static loading, and its distance from the limits.
 //
-//   f |N| - s T >= 0, s = +-1       while it sticks
+//   f |N| - s T >= 0, s = +-1       while the contact sticks
 //   touching: g = 0 and N = 0       neither compressed nor separated
 
 /// State of one contact; rates are derivatives by the load factor of the stage, 0 to 1.

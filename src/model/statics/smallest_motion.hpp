@@ -56,7 +56,7 @@ struct SlipDistribution {
 
 struct SmallestSlips {
   std::vector<bool> moves;  ///< one per unknown: true if its rate is not zero
-  /// Contacts at their limits whose slips the data do not determine, in the order of their rows; empty: none.
+  /// Contacts at their limits whose slips the data do not determine, in the order of their rows.
   std::vector<std::size_t> undetermined;
   Vector motion;  ///< a motion without resistance; n
 };

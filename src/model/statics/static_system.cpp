@@ -20,7 +20,7 @@ namespace {
 
 /// Pivot ratios below this value may belong to null motions, which are then searched for; rounding leaves some eps.
 constexpr double regular_share = 1e-9;
-// Remainder of a row after the parts along other rows are removed, relative to the row; rounding is below. Chosen value.
+// Largest part of a row that other rows do not span, relative to the row, if it is rounding. Chosen value.
 constexpr double spanned = 1e-9;
 
 }  // namespace
@@ -91,7 +91,7 @@ namespace {
 constexpr double min_norm_friction = 1e-3;  // smallest pivot, relative to a row's largest entry
 // Smallest slip by a motion of size 1 with which a contact can fix the motion.
 constexpr double holds = 1e-6;
-// Stiffness of a row, relative to a negative stiffness of K that it balances, even if two of them share the row.
+// Multiple of a negative stiffness of K that a row balances; enough even if two negative stiffnesses share the row.
 constexpr double firmly = 4.0;
 constexpr double weak_share = 1e-10;  // weak support, relative to the diagonal: leaves six digits
 // Work relative to the largest load times motion: less does not drive a free motion.
@@ -146,12 +146,12 @@ double structural_stiffness(const SparseMatrix& k, const Combination& form) {
   for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
   double length = 0.0;
   for (const auto& [i, a] : form.terms) length += a * a;
-  // The row alone must balance a negative stiffness of K, for example of a block on feet that its weight would topple.
+  // The row must balance a negative stiffness of K by itself, for example of a block whose weight would topple it.
   double against = 0.0;
   for (const auto& [i, a] : form.terms)
     if (a != 0.0) against = std::max(against, -firmly * k.coeff(i, i) / (a * a));
   if (sum > 0.0) return std::max(sum / (length * length), against);
-  // If there is no stiffness along the form, the largest one of the structure is used.
+  // If there is no stiffness along the form, the largest stiffness of the structure is used.
   const double largest = k.diagonal().cwiseAbs().maxCoeff();
   return largest > 0.0 ? largest / length : 1.0 / length;
 }

@@ -30,7 +30,7 @@ struct ConstraintRow {
   bool rigid = false;
 };
 
-/// True if other rigid rows that are not loose also prevent the motion along this row. The force of this row is then
+/// True if other rigid rows that are not loose also prevent the motion along `row`; the force of `row` is then
 /// not unique.
 [[nodiscard]] bool is_also_constrained(const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose,
                                        std::size_t row);

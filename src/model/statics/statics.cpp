@@ -52,7 +52,7 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
 }
 
 /// On extremely fine meshes K itself loses its digits: EI / h^3 over EI / L^3 exceeds 16 digits. A seemingly free
-/// motion then is a slow bending, and naming it would mislead.
+/// motion is then a slow bending motion, and the name of a free motion in the message would mislead.
 void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place,
                      const char* key) {
   if (problem.size() <= 10000) return;
@@ -121,7 +121,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                                assembly::describe_motion(found.driven_motion().motion, problem.map)));
 }
 
-/// True if the reaction is zero up to rounding: its work along the normal is below no_reaction.
+/// True if the reaction is zero up to rounding: its work along the normal is below no_reaction times the largest work.
 bool carries_nothing(const StaticProblem& problem, std::size_t k, double reaction) {
   const double greatest = problem.size() == 0 ? 0.0 : problem.load.cwiseAbs().maxCoeff();
   double squares = 0.0, sum = 0.0;
@@ -166,8 +166,8 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
 
   std::vector<bool> closed = search.closed ? *search.closed : closed_supports(problem);
   if (search.closed) problem.rigid_stiffness_factor = find_rigid_stiffness_factor(problem, closed);
-  // A closed contact without force could displace a free motion, so it opens, once. If its gap is then negative, it
-  // closes again and stays closed.
+  // A closed contact without force could displace a free motion, so the contact opens, once. If its gap is then
+  // negative, it closes again and stays closed.
   std::vector<bool> opened(contacts.size(), false);
   // closed_supports() adds a weak support. Without this support, a contact that barely touches may change its state in
   // every round: after 20 rounds either state is acceptable.
@@ -247,7 +247,7 @@ double best_step(const StaticProblem& problem, const SparseMatrix& k0, const Vec
   return 1.0;
 }
 
-/// A zero row belongs to no contact, whose spring would be in the row: any stiffness is suitable there.
+/// A zero row belongs to no contact, because the contact's spring would be in the row: any stiffness is suitable there.
 SparseMatrix weak_support(const SparseMatrix& k) {
   const Vector d = k.diagonal().cwiseAbs();
   SparseMatrix weak(k.rows(), k.cols());

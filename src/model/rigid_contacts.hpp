@@ -2,8 +2,8 @@
 //
 //   mass at the contact; a contact without mass has springs (compliance_split.hpp) and is not checked here
 //   g(u0) >= 0: no initial penetration
-//   sum_i c_i n_i = 0 and sum_i c_i g0_i = 0, over contacts that may close together, only if all c_i = 0: otherwise
-//   these contacts share one motion, and their individual forces are undetermined
+//   contacts that may close together are independent: sum_i c_i n_i = 0 with sum_i c_i g0_i = 0 only if all c_i = 0;
+//   otherwise they share one motion, and their individual forces are undetermined
 #pragma once
 
 #include "signorini/model.hpp"

@@ -64,7 +64,7 @@ struct Drive {
 };
 
 struct Slipping {
-  SparseMatrix stiffness;  ///< symmetric part: the structure and contacts that do not slip
+  SparseMatrix stiffness;  ///< symmetric part: of the structure and of contacts that do not slip
   std::vector<Drive> drives;
   std::vector<std::size_t> contacts;
 };

@@ -46,7 +46,7 @@ struct NodeForce {
 /// Same for a moving support of Scene::supports.
 [[nodiscard]] History motion_of_support(const Scene& scene, const Support& support);
 
-/// Appends the loads by velocities and accelerations of supports; called after the damping (alpha, beta) is known.
+/// Appends the loads that velocities and accelerations of supports cause; to be called when the damping is known.
 /// Errors: SceneError for a motion with a jump or a kink if dampers or masses would respond with an impulse.
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
                        double beta, std::vector<Load>& loads);

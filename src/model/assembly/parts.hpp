@@ -87,8 +87,8 @@ class Parts {
 
 struct PartModel {
   Model model;            ///< data needed by a run: without outputs, names of other parts and drawing
-  std::vector<int> dofs;  ///< numbers in the whole model of the part's degrees of freedom, ascending
-  std::vector<std::size_t> contacts;  ///< indices in the whole model of the part's contacts, ascending
+  std::vector<int> dofs;  ///< the part's degrees of freedom, by number in the whole model, ascending
+  std::vector<std::size_t> contacts;  ///< the part's contacts, by index in the whole model, ascending
 };
 
 /// Parts in the order of their first contacts. Empty if all contacts are coupled; if the model is reduced, has rigid

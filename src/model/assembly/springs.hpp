@@ -76,7 +76,7 @@ class CholeskyFactor {
 // Energies and Rayleigh quotients contain ratios k^2 / k'^2, which beyond this limit overflow or underflow in
 // any units. Such a stiffness is a typing error, or is meant as a rigid body or as a missing member.
 
-/// Errors: SceneError at the softest or the stiffest part, whichever has the exponent of larger magnitude.
+/// Errors: SceneError at the stiffest or the softest part, whichever stiffness is farther from 1 on a logarithmic scale.
 void check_stiffness_range(const Scene& scene, const DofMap& map);
 
 }  // namespace signorini::assembly

@@ -69,7 +69,7 @@ class FiniteElement {
   /// True if an unknown is internal.
   [[nodiscard]] virtual bool has_internal_unknowns() const { return false; }
 
-  /// Length or area. density(): mass per extent.
+  /// Length of a line, or area. density() is the mass per extent.
   [[nodiscard]] virtual double extent() const = 0;
   [[nodiscard]] virtual double density() const = 0;
 

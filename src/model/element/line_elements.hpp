@@ -72,7 +72,7 @@ class LineElement : public FiniteElement {
   /// Elongation of the line by a motion of the unknowns.
   [[nodiscard]] double elongation(const ElementVector& motion) const;
 
-  /// Factors in the transverse displacement, integrated once and twice from a to a position.
+  /// Factors of the end motions in the transverse displacement, integrated once and twice from a to a position.
   [[nodiscard]] virtual LineShapes deflection_integral(double part) const = 0;
   [[nodiscard]] virtual LineShapes deflection_double_integral(double part) const = 0;
   /// Factors of the unknowns in the slope v' at a position along the length.

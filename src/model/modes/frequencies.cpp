@@ -174,7 +174,7 @@ class Subspace {
     double gap = std::max(found[0] - lowest, 1e4 * noise());
     for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
       ConstrainedStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
-      if (!closer.definite()) continue;  // the error of the Ritz values exceeds the distance of the shift
+      if (!closer.definite()) continue;  // the shift is closer than the error of the Ritz values
       shift_ = gap - lowest;
       solver_ = std::move(closer);
       return;

@@ -127,14 +127,14 @@ struct GmshContent {
   std::unordered_map<long, int> by_number;
   std::vector<RawElement> elements;
   std::map<Tag, std::string> names;              // names of physical groups
-  std::map<Tag, std::vector<long>> of_entities;  // physical groups of an entity, 4.1
+  std::map<Tag, std::vector<long>> of_entities;  // groups of each entity (version 4.1)
 
   [[nodiscard]] std::string name(int dimension, long tag) const {
     const auto known = names.find({dimension, tag});
     if (known != names.end()) return known->second;
     constexpr std::array kinds = {"point", "curve", "surface", "volume"};
     return kinds[static_cast<std::size_t>(dimension)] +
-           std::to_string(tag);  // a number alone would name a node
+           std::to_string(tag);  // a name of digits alone would name a node
   }
 };
 
@@ -186,7 +186,7 @@ class GmshReader {
       if (dimension < 2 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
         words_.fail(
             fmt::format("found a physical group named \"{}\", expected a name with other characters than "
-                        "digits: numbers stand for nodes",
+                        "digits, because numbers name nodes",
                         name));
       content_.names[{dimension, tag}] = std::move(name);
     }
@@ -214,7 +214,8 @@ class GmshReader {
     if (content_.nodes.empty()) z_ = z;
     if (z != z_)
       words_.fail(
-          fmt::format("found z = {:.6g} of node {}, expected {:.6g} of all: a plane mesh", z, number, z_));
+          fmt::format("found z = {:.6g} of node {}, expected {:.6g} for all nodes of a plane mesh", z, number,
+                      z_));
     content_.nodes.push_back({x, y, number, std::move(place)});
   }
 
@@ -427,13 +428,13 @@ class BodyBuilder {
                                  line.number, number(0), number(1)));
   }
 
-  /// A curve inside a body must be a set of nodes: the body is on both of its sides.
+  /// Errors: SceneError for a curve that lies only partly inside the body: inside, a curve is a set of nodes.
   void check_boundaries() const {
     for (const PlaneMesh::Group& g : mesh_.groups)
       if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())
         throw SceneError(inside->second->place, key_,
-                         fmt::format("line {} of the physical curve \"{}\" has elements on both sides, other "
-                                     "lines of it bound the body: give each part its own group",
+                         fmt::format("line {} of the physical curve \"{}\" has elements on both sides, but "
+                                     "other lines of this curve bound the body: give each part its own group",
                                      inside->second->number, g.name));
   }
 
@@ -444,7 +445,7 @@ class BodyBuilder {
   SharedEdges edges_;
   std::set<std::pair<std::string, const SharedEdge*>> taken_;
   std::set<std::pair<std::string, int>> in_group_;
-  std::map<std::string, const RawElement*> inside_;  ///< a line of a group that lies inside the body
+  std::map<std::string, const RawElement*> inside_;  ///< per group: one of its lines inside the body
 };
 
 /// The smallest and the largest Jacobian determinant at nodes and integration points.

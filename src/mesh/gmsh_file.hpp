@@ -5,8 +5,8 @@
 //
 // A body consists of the elements of some physical surfaces, or of all. Its groups are the physical curves
 // and points with nodes of these elements. Nodes that the body does not use are omitted; a node that no
-// element of the file uses is refused. If all elements run clockwise, they are reversed. If only some do, or
-// a Jacobian is not positive at a node, the mesh folds and is refused.
+// element of the file uses is refused. If all elements run clockwise, they are reversed. If only some of them run
+// clockwise, or a Jacobian is not positive at a node, the mesh folds and is refused.
 // Source: Gmsh reference manual, sections "MSH file format version 4.1" and "version 2 (Legacy)".
 #pragma once
 
@@ -30,19 +30,19 @@ class GmshTokenizer {
   GmshTokenizer(std::istream& in, std::string file, std::string key)
       : in_(in), file_(std::move(file)), key_(std::move(key)) {}
 
-  /// The next "$Name"; false at the end of the file.
+  /// Reads the next "$Name"; returns false at the end of the file.
   bool next_section(std::string& name);
   /// Skips to "$EndName".
   void skip_section(const std::string& name);
-  /// Expects "$EndName".
+  /// Reads "$EndName"; any other word is an error.
   void end_section(const std::string& name);
 
   /// The next word as an integer. Errors of all reads: SceneError at the line of the file.
   [[nodiscard]] long integer(const char* what);
-  /// An integer >= 0, at most `most_entries`.
+  /// The next word as an integer >= 0, at most `most_entries`.
   [[nodiscard]] long count(const char* what);
   [[nodiscard]] double number(const char* what);
-  /// A text in quotes.
+  /// The next text in quotes, without the quotes.
   [[nodiscard]] std::string quoted(const char* what);
 
   [[nodiscard]] SourcePlace place() const { return {file_, line_, 0}; }
@@ -57,8 +57,8 @@ class GmshTokenizer {
   int line_ = 1;
 };
 
-/// surfaces: names of physical surfaces; empty: all. Errors: SceneError at the line of the file; `key` begins the
-/// message.
+/// Reads a mesh. surfaces: names of physical surfaces that form the body; empty: all surfaces. Errors: SceneError at the
+/// line of the file; `key` begins the message.
 [[nodiscard]] PlaneMesh read_gmsh(std::istream& in, const std::string& file, const std::string& key,
                                   const std::vector<std::string>& surfaces);
 

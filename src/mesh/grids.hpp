@@ -4,8 +4,8 @@
 //   ring       r = inner + u (outer - inner), angle = start + v (end - start)   groups: inner, end, outer, start
 //
 // u and v run from 0 to 1 in elements[0] and elements[1] steps; grading: ratio of the last step to the first
-// (geometric). Nodes of quadratic elements lie on the arcs. Nodes are numbered from 1, u first. A full ring (2 pi) is
-// closed: it has neither start nor end.
+// (geometric). Nodes of quadratic elements lie on the arcs. Nodes are numbered from 1, first along u. A full ring (2 pi)
+// is closed: it has neither start nor end.
 #pragma once
 
 #include <array>

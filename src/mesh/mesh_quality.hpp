@@ -23,10 +23,10 @@ struct MeshQuality {
     double value = 0.0;
     long element = 0;  ///< PlaneMesh::Element::number
   };
-  Worst min_angle{180.0}, max_angle, aspect;  ///< degrees, degrees, 1
+  Worst min_angle{180.0}, max_angle, aspect;  ///< angles in degrees; aspect without unit
 };
 
-/// place: position of each index in `elements`.
+/// place: returns the position of a node of `elements`.
 [[nodiscard]] MeshQuality measure_quality(const std::vector<PlaneMesh::Element>& elements,
                                           const NodePosition& place);
 
@@ -35,7 +35,7 @@ struct MeshQuality {
 //   1: on the boundary,   2: inside
 
 struct SharedEdge {
-  /// Two ends, then the middle node if there is one; the first of the adjacent elements is on the left.
+  /// Two ends, then the middle node if there is one. The element from which the edge was added first is on its left.
   std::vector<int> nodes;
   int elements = 0;
 };

@@ -47,7 +47,7 @@ struct EdgeCurve {
     return x;
   }
   [[nodiscard]] Point2 x(double s) const { return sum(edge_shape_functions(at.size(), s).values); }
-  /// The s at which x(s) . along has this value, by Newton's method; one step for edges of two nodes.
+  /// The s at which x(s) . along equals `value`; by Newton's method, exact without iteration for edges of two nodes.
   [[nodiscard]] double s_at(const Point2& along, double value) const {
     const double from = at[0].dot(along), to = at[1].dot(along);
     double s = -1.0 + 2.0 * (value - from) / (to - from);
@@ -70,8 +70,8 @@ Curves curves_of(const std::vector<PlaneMesh::Edge>& edges, const NodePosition& 
   return curves;
 }
 
-/// The largest distance of a node from the origin. Each coordinate has an error of eps times this distance,
-/// even if it is zero: meshes are rotated and moved as a whole, and cos 90 degrees is 6e-17.
+/// The largest distance of a node from the origin. Each coordinate has an error of eps times this distance, even
+/// a zero coordinate: meshes are rotated and moved as a whole, and cos 90 degrees is 6e-17.
 double reach_of(std::initializer_list<const Curves*> all) {
   double reach = 0.0;
   for (const Curves* curves : all)
@@ -80,7 +80,7 @@ double reach_of(std::initializer_list<const Curves*> all) {
   return reach;
 }
 
-/// Sorts edges into chains as far as they are connected.
+/// Sorts edges into chains of connected edges.
 Curves in_order(Curves curves) {
   std::map<int, std::size_t> by_start;
   std::map<int, int> ends;
@@ -114,7 +114,7 @@ struct NodeSums {
   bool corner = false;
 };
 
-/// A part of a slave edge and the master edge that covers it; null: the ground, or a line.
+/// A part of a slave edge. master: the master edge that covers this part; null for the ground or a line.
 struct Overlap {
   double from, to;
   const EdgeCurve* master;
@@ -122,7 +122,7 @@ struct Overlap {
 
 class MortarSums {
  public:
-  /// reach: size of the coordinates of which gaps are differences.
+  /// reach: largest distance of a node from the origin; rounding errors of gaps are relative to it.
   MortarSums(const Curves& slave, double reach) : slave_(slave), reach_(reach) {}
 
   void add(const EdgeCurve& edge, const std::vector<Overlap>& overlaps) {
@@ -214,7 +214,7 @@ class MortarSums {
 };
 
 /// Depth of the slave's body behind a point of its edge: distance to the nearest edge that faces the opposite way.
-/// Infinite if unknown.
+/// Infinite if the outline has no such edge.
 double depth_of(const Point2& point, const EdgeCurve& slave, const Curves& outline) {
   const double along = point.dot(slave.chord);
   double depth = std::numeric_limits<double>::infinity();

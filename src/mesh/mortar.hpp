@@ -2,7 +2,7 @@
 //
 //   psi_k:  int psi_k N_j ds = delta_kj D_k,   D_k = int N_k ds         over the covered part of the slave edge
 //   M_kl  = int psi_k N_l^m ds                                          over the overlaps, exact on straight edges
-//   g_k   = n_k . (u_k - sum_l w_kl u_l) + g0_k,   w_kl = M_kl / D_k,   g0_k: the same with the positions
+//   g_k   = n_k . (u_k - sum_l w_kl u_l) + g0_k,   w_kl = M_kl / D_k,   g0_k = n_k . (x_k - sum_l w_kl x_l)
 //   n_k   = - int N_k nu ds / |...|                                     nu: outward normal of the slave
 //
 // Points of the slave are projected to the master along the normal of the slave edge's chord; the nearest of
@@ -30,7 +30,7 @@ struct MortarNode {
   double length = 0.0;                              ///< D_k
   PlanePoint normal{0.0, 0.0};                      ///< n_k
   std::vector<std::pair<int, double>> master = {};  ///< w_kl
-  double gap = 0.0;  ///< g0_k; exactly zero if it is no more than rounding of coordinates
+  double gap = 0.0;  ///< g0_k; exactly zero if only rounding of coordinates
 };
 
 /// Nodes of the slave that the master covers, in order along the slave.

@@ -1,10 +1,10 @@
-// build_model: assembles the scene's matrices, in the order of dependence:
+// build_model: assembles the scene's matrices. Each step needs the results of the steps before:
 //
 //   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
 //   -> warnings -> reduction, or separation of undamped massless motions -> shear elements -> outputs
 //
-// The assembly uses internal units (internal_units.hpp). The model is then converted to the scene's units, so
-// that a change of units changes no bit.
+// The assembly uses internal units (internal_units.hpp). The model is then converted to the scene's units. Results
+// are therefore bitwise the same if the scene's units change by powers of two.
 
 #include "model/build.hpp"
 
@@ -52,8 +52,8 @@ using modes::lowest_frequency;
 
 namespace {
 
-/// Takes the shear forces of contacts, from which the anchors follow, their slip directions, and the states
-/// of user laws from a saved run.
+/// Takes from a saved run: the shear forces of contacts (they define the anchors), the slip directions, and the
+/// states of user laws.
 void take_contacts(const SavedState& saved, Model& model) {
   for (Contact& c : model.contacts) {
     for (const SavedState::UserLawMemory& own : saved.user_law_states)
@@ -67,7 +67,7 @@ void take_contacts(const SavedState& saved, Model& model) {
   }
 }
 
-/// Rows of all contacts of the model, in order; empty unless every contact has exactly one.
+/// Final contact states of the saved run, in the model's order; empty if the structure or the contacts differ.
 std::vector<SavedState::FinalContact> final_contacts(const SavedState& saved, const Model& model) {
   if (!saved.structure_differences.empty() || saved.final_contacts.size() != model.contacts.size()) return {};
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
@@ -75,8 +75,8 @@ std::vector<SavedState::FinalContact> final_contacts(const SavedState& saved, co
   return saved.final_contacts;
 }
 
-/// Sets u0, v0 and, for a static start, the statics. pressed: contacts that are closed in the first pass of
-/// run.geometric.
+/// Sets u0, v0 and, for a static start, Model::statics. pressed: contacts that the first pass of run.geometric
+/// found closed.
 void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, DofMap& map, Model& model) {
   if (scene.initial.is_frictional) {
     start_with_friction(scene, map, model);
@@ -96,7 +96,8 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   if (scene.matrices && !loaded)
     throw SceneError(
         scene.initial.place, "run.initial",
-        "with [matrices] a static start needs loads with a constant history, which define the weight");
+          "initial = \"static\" finds no load: with [matrices], the weight must be given by loads with a "
+          "constant history; add one");
   statics::Equilibrium found =
       scene.run.geometric
           ? second_pass(scene, map, model, pressed)
@@ -108,7 +109,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   model.statics = std::move(found.start);
 }
 
-/// Closed contacts: all sliders, and compliant contacts that are compressed at the start.
+/// Contacts closed at the start: all sliders; in a static start contacts with a reaction > 0, else with a gap <= 0.
 std::vector<bool> closed_at_start(const Model& model) {
   std::vector<bool> closed;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -123,7 +124,7 @@ std::vector<bool> closed_at_start(const Model& model) {
   return closed;
 }
 
-/// The run that this one continues, if it has the same structure.
+/// The saved run that the scene continues; null if there is none, or if its structure differs.
 const SavedState* same_run(const Scene& scene) {
   const auto& saved = scene.initial.saved;
   return saved && saved->structure_differences.empty() ? &*saved : nullptr;
@@ -142,8 +143,8 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
     if (!(model.omega1 > 0.0))
       throw SceneError(
           spec.place, "damping.alpha_over_omega1",
-          "there is no lowest frequency omega1: with the initially closed contacts held, some motion "
-          "has no stiffness, or nothing can move; give alpha");
+          "omega1 does not exist: with the initially closed contacts fixed, some motion has no stiffness, "
+          "or nothing can move; give alpha instead");
     model.alpha = *spec.alpha_over_omega1 * model.omega1;
   }
   model.damping = dampers;
@@ -151,7 +152,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
 }
 
-/// Finds the initial state and the prestress, with its geometric stiffness.
+/// Finds the initial state; for run.geometric also the prestress, whose geometric stiffness is added to K.
 void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.matrices)
     throw SceneError(scene.run.geometric_place, "run.geometric",
@@ -167,7 +168,7 @@ void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& mode
   if (scene.run.geometric && scene.initial.is_frictional) check_massless(scene, model, map);
 }
 
-/// Finds the initial state, with the forces carried by pendulums.
+/// Finds the initial state and the forces on pendulums together, because they depend on each other.
 void start(const Scene& scene, DofMap& map, Model& model) {
   const bool stands = scene.initial.is_static || scene.initial.is_frictional;
   if (!stands || !has_pressed_pendulums(scene)) {
@@ -183,7 +184,7 @@ void start(const Scene& scene, DofMap& map, Model& model) {
   });
 }
 
-/// Adds the mapping from computed to displayed degrees of freedom.
+/// Completes the model: mapping from computed to displayed degrees of freedom, shear elements, outputs.
 void add_results(const Scene& scene, const DofMap& map, const std::optional<ComplianceSplit>& borrowed,
                  Model& model) {
   if (borrowed) {
@@ -195,12 +196,11 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Comp
   outputs::make_outputs(scene, map, model);
 }
 
-/// Sets velocities of rounding size in a saved state to zero. Displacements have rounding errors, which the
-/// fastest mode converts to velocities
-///     |v| <= many_operations omega_max max |u|,   translations and rotations separately.
-/// Such velocities would decide the slip direction of a contact at its friction limit. If other bodies move,
-/// the same applies to a contact that did not slip at the end of the run, if all its tangential velocities
-/// are that small.
+/// Sets velocities of rounding size in a saved state to zero; otherwise these velocities would decide the slip
+/// direction of a contact at its friction limit. The fastest mode converts rounding errors of displacements to velocities
+///     |v| <= many_operations omega_max max |u|,   for translations and rotations separately.
+/// If any velocity of the model is larger, only tangential velocities of a contact are set to zero, if the contact
+/// stuck at the end of the saved run and all its tangential velocities are of rounding size.
 void remove_rounding(const SavedState& saved, Model& model) {
   double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
   for (int i = 0; i < model.size(); ++i) {
@@ -228,8 +228,8 @@ void remove_rounding(const SavedState& saved, Model& model) {
         for (const auto& term : c.tangent.terms) model.v0[term.first] = 0.0;
 }
 
-/// Sets u0 to zero if all displacements are of rounding size, as in a static start without deformation: they
-/// would decide when a contact that just touches closes.
+/// Sets u0 to zero if all displacements are of rounding size (a static start without deformation); rounding errors
+/// would otherwise decide when a contact with zero gap closes.
 void remove_rounding_of_statics(Model& model) {
   for (Eigen::Index i = 0; i < model.u0.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
@@ -239,7 +239,7 @@ void remove_rounding_of_statics(Model& model) {
   model.u0.setZero();
 }
 
-/// Merges times that double precision cannot separate.
+/// Merges times of load histories and contact histories that double precision cannot separate.
 void resolve_times(double t_end, Model& model) {
   for (Load& load : model.loads) load.history = history::resolved(load.history, t_end);
   for (Contact& c : model.contacts) {
@@ -248,12 +248,12 @@ void resolve_times(double t_end, Model& model) {
   }
 }
 
-/// Corrects the dampers: beta K must not include the stiffness of the prestress, which is not damped.
+/// Subtracts beta K_g from the dampers, so that beta K does not damp the geometric stiffness K_g of the prestress.
 void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly) {
   assembly.dampers -= scene.damping.beta * assembly::assemble_geometric_stiffness(scene, map).matrix;
 }
 
-/// Scales of the run that this one continues, if there is one; otherwise those of the model.
+/// Scales of the saved run that the scene continues; if there is none, scales computed from the model.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
   const SavedState* before = same_run(scene);
@@ -264,7 +264,7 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
 
 enum class Extent { structure, without_warnings, all };
 
-/// Builds the model in the units of the given scene. unit: each of these units, in units of messages.
+/// Builds the model in the units of `scene`. unit: these units of force, length and time, in the units of messages.
 Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
   DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
   map.shown_length = unit.length;
@@ -313,14 +313,14 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   }
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
     reduce::reduce(scene, assembly.dampers, dashpots, model);
-    check_rigid_contacts(scene, model);  // contact gaps that are zero at the start become exactly zero
+    check_rigid_contacts(scene, model);  // zero gaps have rounding errors after the reduction
     model.omega_max = modes::highest_frequency(model);
   } else {
     separate_undamped(model);
     if (scene.reduction)
       model.warnings.emplace_back(
-          "reduction.tolerance: this command uses the full model; run, compare, study, sweep and verify find "
-          "the cutoff by trial runs first");
+          "reduction.tolerance: this command uses the full model; only run, compare, study, sweep and verify "
+          "search for the cutoff");
   }
   add_results(scene, map, borrowed, model);
   return model;
@@ -332,12 +332,12 @@ Model built(const Scene& scene, Extent extent) {
     Model model =
         rescaled(assembled(scene::rescaled(scene, scene::inverse(machine)), machine, extent), machine);
     model.internal_units = machine;
-    // The same to the last bit; one object for all models of a scene.
+    // All models of a scene share the scene's law object; its numbers are bitwise those of the converted copy.
     for (std::size_t k = 0; k < scene.contacts.size(); ++k)
       if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
     return model;
   } catch (const SceneError&) {
-    static_cast<void>(assembled(scene, {}));  // throws with numbers in the scene's units
+    static_cast<void>(assembled(scene, {}));  // throws the same error, with numbers in the scene's units
     throw;
   }
 }

@@ -12,7 +12,8 @@
 namespace signorini::model {
 namespace {
 
-constexpr double independent = 1e-9;  // relative to 1: remainder of a direction after the others are removed
+// Smallest eigenvalue of B^T B (columns scaled to length 1) at which the columns are linearly independent.
+constexpr double independent = 1e-9;
 
 [[noreturn]] void refuse_borrowing(const Scene& scene, std::size_t k, const char* key,
                                    const std::string& why) {
@@ -25,14 +26,15 @@ const Dof* first_massless(const Model& model, const Combination& form) {
   return nullptr;
 }
 
-/// A column of B.
+/// One column of B: the direction n or t of a contact on parts without mass.
 struct Row {
   std::size_t contact;
   bool normal;
-  const Dof* dof;  ///< one of the degrees of freedom that it moves
+  const Dof* dof;  ///< one of the massless degrees of freedom in this direction, for messages
 };
 
-/// Rows of contacts that act on parts without mass.
+/// One row for each direction of a rigid contact on parts without mass. Errors: SceneError if a contact moves parts
+/// without mass along only one of n and t, or has a restitution.
 std::vector<Row> rows_of(const Scene& scene, const Model& model) {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -62,7 +64,7 @@ const Combination& form_of_row(const Model& model, const Row& row) {
   return row.normal ? c.normal : c.tangent;
 }
 
-/// S; n x rows.
+/// S = B (B^T B)^-1, size n x rows. Errors: SceneError if the columns of B are linearly dependent.
 SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Row>& rows) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t j = 0; j < rows.size(); ++j)
@@ -92,7 +94,7 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
   return s;
 }
 
-/// Refuses beta K and dampers on motions along S.
+/// Errors: SceneError if beta K or a damper acts on motions along S.
 void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vector<Row>& rows,
                  const SparseMatrix& s) {
   const bool beta = scene.damping.beta > 0.0;
@@ -137,7 +139,7 @@ void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::Mat
   }
 }
 
-/// K + A X A^T; A: n x m, sparse, X: m x m, full.
+/// K + A X A^T, for a sparse A of size n x m and a dense X of size m x m.
 SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eigen::MatrixXd& x) {
   std::vector<int> touched;
   Vector any = Vector::Zero(a.rows());
@@ -158,11 +160,12 @@ SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eige
   return k + added;
 }
 
-/// Compliance F of parts without mass: displacements along the normals of these contacts, by forces along n and t.
+/// Compliance F of parts without mass: displacement along the normal of contact i by a unit force at contact j,
+/// along n (nn) or along t (nt).
 struct Compliance {
   std::vector<std::size_t> contacts;
   Eigen::MatrixXd nn, nt;
-  Eigen::VectorXd friction;  ///< larger friction coefficient
+  Eigen::VectorXd friction;  ///< the larger of the static and the kinetic coefficient
 };
 
 Compliance compliance_of(const Model& model) {
@@ -242,8 +245,8 @@ void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& m
   if (!scene.initial.saved) return;
   if (model.saved_contacts.empty())
     throw SceneError(scene.initial.place, "run.initial",
-                     "contacts.csv of that run has no rows of the same contacts at this time, which rigid "
-                     "contacts on parts without mass need: expected one of its output times");
+                     "contacts.csv of the saved run has no rows of these contacts at this time; rigid "
+                     "contacts on parts without mass need them: choose one of the output times of that run");
   Vector given(springs.shifts.cols());
   for (std::size_t j = 0; j < springs.rows.size(); ++j) {
     const auto [k, normal] = springs.rows[j];

@@ -33,7 +33,7 @@ Vector given_vector(const std::vector<double>& values, int n, const InitialSpec&
   throw SceneError(spec.place, "run.initial.run", why + ": expected a run of the same structure");
 }
 
-/// Checks that the run and the scene have the same contacts with friction.
+/// Errors: SceneError if the saved run and the scene do not have the same contacts with friction.
 void check_saved_contacts(const Scene& scene) {
   std::unordered_set<std::string> contacts, saved;
   for (const auto& [name, T] : scene.initial.saved->shears) saved.insert(name);
@@ -88,7 +88,7 @@ InitialState saved_state(const Scene& scene, const assembly::DofMap& map) {
     values.erase(tied.dof.displacement);
     values.erase(tied.dof.velocity);
   }
-  // Contacts take the values of sliding points and surfaces.
+  // Saved values of sliding points and surfaces are used by contacts, not by degrees of freedom.
   for (const ContactSpec& contact : scene.contacts)
     for (const char* of : {".slip", ".slip_rate", ".surface"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
@@ -97,12 +97,12 @@ InitialState saved_state(const Scene& scene, const assembly::DofMap& map) {
   return state;
 }
 
-/// Index of a given component; nullopt: the degree of freedom is fixed.
+/// Place of a given initial value in u or v.
 struct GivenPlace {
   bool velocity = false;
   int dof = 0;
 };
-/// The degrees of freedom that a tied motion follows.
+/// Names, for messages, of the degrees of freedom that determine the tied motion `tied`.
 std::string given_for(const assembly::DofMap& map, int tied) {
   std::vector<std::string> names;
   for (const assembly::TiedTerm& term : map.terms(tied))
@@ -110,6 +110,7 @@ std::string given_for(const assembly::DofMap& map, int tied) {
   return names.empty() ? std::string("none: supports move it") : base::join_quoted(names, 3);
 }
 
+/// nullopt if the component is fixed, or tied at a seam: the given value then has no effect.
 std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assembly::DofMap& map) {
   const std::string key = key_of(c);
   const auto named = scene::component_named(c.component);
@@ -122,7 +123,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
   if (number == assembly::DofMap::fixed && c.value != 0.0)
     throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
   if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
-    return std::nullopt;  // a node of a seam
+    return std::nullopt;  // a node of a seam: other nodes determine its motion
   if (map.is_tied(number))
     throw SceneError(c.place, key,
                      fmt::format("found a motion of node '{}', which follows from other motions because it "
@@ -200,17 +201,17 @@ InitialState given_state(const Scene& scene, const assembly::DofMap& map) {
 
 namespace {
 
-// Forces have converged if an equilibrium reproduces them within this multiple of the rounding of their
-// inputs. Chosen value; each round is one solve with K.
+// Pendulum forces have converged if the equilibrium computed with them returns the same forces, within this
+// multiple of the magnitudes of summed(). Chosen value.
 constexpr double settled = rounding::many_operations;
-constexpr int rounds = 50;
+constexpr int rounds = 50;  // each takes one solve with K
 
 bool is_pressed_pendulum(const ContactSpec& contact) {
   return contact.pendulum_surface && contact.capabilities().normal_spring;
 }
 
-/// Initial guess: the given forces, or the sum of the loads shared evenly. Its size affects only the number of rounds;
-/// it is not zero, because a structure that stands on pendulums alone would then be a mechanism.
+/// Initial guess: the given forces, or the sum of the loads shared evenly. The values affect only the number of rounds.
+/// The values must not be zero, because a structure that stands only on pendulums would then be a mechanism.
 std::vector<double> first_guess(const Scene& scene, const Model& model) {
   double pushed = 0.0, bearings = 0.0;
   for (const Load& load : model.loads)
@@ -227,8 +228,8 @@ std::vector<double> first_guess(const Scene& scene, const Model& model) {
   return forces;
 }
 
-/// Magnitude to which the rounding of N = kn (g0 + n . u) is relative: N itself; its terms, which are much larger if
-/// the structure lies far along an inclined surface; and the forces K u that balance it. Unit: force.
+/// Magnitude whose rounding is the error of N = kn (g0 + n . u), as a force for each contact: N itself; its two terms,
+/// which are much larger if the structure has moved far along an inclined surface; and the forces K u that balance N.
 std::vector<double> summed(const Scene& scene, const Model& model) {
   const Vector forces = model.stiffness.cwiseAbs() * model.u0.cwiseAbs();
   double greatest = 0.0;
@@ -280,8 +281,8 @@ void solve_pendulum_start(const Scene& scene, Model& model, const std::function<
     return;
   }
   throw SceneError(scene.initial.place, "run.initial",
-                   "the static loads of the pendulums do not converge: each set of loads gives another "
-                   "equilibrium, which gives other loads");
+                   "the static forces on the pendulums do not converge: each equilibrium gives other forces "
+                   "than those with which it was computed");
 }
 
 std::vector<double> saved_pendulum_forces(const Scene& scene) {
@@ -297,7 +298,7 @@ std::vector<double> saved_pendulum_forces(const Scene& scene) {
 
 namespace {
 
-/// Name in stages for all loads of a kind.
+/// Word with which run.stages names all loads of this kind; empty if stages name such loads one by one.
 std::string word_of(LoadKind kind) {
   switch (kind) {
     case LoadKind::temperature:
@@ -332,7 +333,8 @@ std::string word_of(LoadKind kind) {
                    fmt::format("no load is called \"{}\"{}", name, base::suggestion(name, names)));
 }
 
-/// True for a kind of load whose values are all zero, as an override may set them: the stage then changes nothing.
+/// True if the name is a kind of load whose values are all zero, as an override may set them; a stage with this name is
+/// then valid and has no effect.
 bool is_zero_kind(const Scene& scene, const std::string& name) {
   const auto expands = [](const auto& part) { return part.thermal_expansion != 0.0; };
   if (name == word_of(LoadKind::temperature))
@@ -347,7 +349,7 @@ bool is_called(const Load& load, const std::string& name) {
   return name == load.name || name == word_of(load.kind);
 }
 
-/// Adds up the loads of one stage, and counts how often each load was taken.
+/// Sums up the loads of stage `number` (from 1). taken: for each load, the number of stages that applied it so far.
 statics::Stage made(const Scene& scene, std::size_t number, const Model& model, std::vector<int>& taken) {
   const StageSpec& spec = scene.initial.stages[number - 1];
   const std::string key = fmt::format("run.stages.{}.loads", number);
@@ -370,7 +372,8 @@ statics::Stage made(const Scene& scene, std::size_t number, const Model& model, 
   return stage;
 }
 
-/// acts: loads that act in some stage.
+/// The stages of the scene; without stages, one stage with all static loads. acts (result): for each load, true if
+/// some stage applies it.
 std::vector<statics::Stage> stages_of(const Scene& scene, const Model& model, std::vector<bool>& acts) {
   std::vector<statics::Stage> stages;
   if (scene.initial.stages.empty()) {
@@ -396,7 +399,7 @@ std::vector<statics::Stage> stages_of(const Scene& scene, const Model& model, st
   return stages;
 }
 
-/// True if a load of the stage is not zero; even on fixed degrees of freedom it then compresses members and bodies.
+/// True if a load of the stage is not zero; such a load compresses members and bodies even on fixed degrees of freedom.
 bool presses(const StageSpec& spec, const Model& model) {
   return std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
     return load.history.value(0.0) != 0.0 &&
@@ -417,7 +420,7 @@ void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
     if (model.contacts[k].initial_shear != 0.0)
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
-                       "has no meaning beside initial = \"frictional\", which computes it");
+                       "is not allowed with initial = \"frictional\", which computes the shear: remove it");
   std::vector<bool> acts;
   const std::vector<statics::Stage> stages = stages_of(scene, model, acts);
   statics::FrictionalEquilibrium found =
@@ -436,7 +439,7 @@ void start_with_friction(const Scene& scene, assembly::DofMap& map, Model& model
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     Contact& c = model.contacts[k];
     if (!c.tangential_stiffness || !c.has_friction()) continue;
-    // The run computes N anew: the shear stays within its limit to the last digit.
+    // Clamped: the run recomputes N with rounding errors, and |T| must not exceed the friction limit.
     const double N = c.resting_force(model.u0).value_or(-model.statics.reactions[k]);
     const double limit = contact::sticking_limit(c, N);
     c.initial_shear = std::clamp(found.shears[k], -limit, limit);

@@ -10,11 +10,11 @@
 namespace signorini::model {
 namespace {
 
-// Limit of the exponents: products of four units then stay in the range of a double (mass = force time^2 / length).
+// Limit of the exponents: products of four units (mass = force time^2 / length) then stay in the range of a double.
 constexpr int max_exponent = 120;
 
-// For scenes without stiffness: the unit of time is a quarter of the run, 2^-2, the likely duration of one motion.
-// Scales of displacement follow from it (a time^2). Chosen value; changing it changes the tests of
+// Without stiffness: unit of time as a fraction of the run, 2^-2, the likely duration of one motion. Scales of
+// displacement follow from this unit (acceleration time^2). Chosen value; changing it changes the tests of
 // validation/published.
 constexpr int time_unit_exponent = -2;
 
@@ -34,7 +34,7 @@ class Greatest {
   double most_ = 0.0;
 };
 
-/// Larger extent along an axis.
+/// The larger of the extents along x and y.
 Greatest extent_of(const std::vector<Node>& nodes) {
   Greatest extent;
   if (nodes.empty()) return extent;
@@ -64,7 +64,7 @@ void add_initial(const InitialSpec& initial, Sizes& sizes) {
   }
 }
 
-/// `length`: exponent of the extent, if there are members.
+/// Largest magnitude of each quantity in the scene. length: exponent of the extent; 0 without nodes.
 Sizes sizes_of(const Scene& scene, int length) {
   Sizes sizes;
   if (scene.matrices) add_matrices(*scene.matrices, sizes);
@@ -140,7 +140,7 @@ class Rescaling {
     if (x) (*this)(*x, of);
   }
 
-  /// Conversion factor of a displacement.
+  /// Conversion factor of displacement i: that of a length, or 1 for a rotation.
   [[nodiscard]] double of_dof(int i) const {
     return dofs_[static_cast<std::size_t>(i)].rotation ? 1.0 : factors_.length;
   }
@@ -148,14 +148,14 @@ class Rescaling {
     const double factor = scene::factor_of(over_displacement, factors_);
     for (int i = 0; i < x.size(); ++i) x[i] *= of_dof(i) * factor;
   }
-  /// Scales a matrix that gives an energy, times `more`, with two displacements.
+  /// Scales a matrix A whose value u^T A u has the unit energy * `more`.
   void operator()(SparseMatrix& a, const Unit& more) const {
     const double factor = scene::factor_of(unit::energy, factors_) * scene::factor_of(more, factors_);
     for (int j = 0; j < a.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(a, j); it; ++it)
         it.valueRef() *= factor / (of_dof(static_cast<int>(it.row())) * of_dof(j));
   }
-  /// Scales a form that gives a length from displacements or acts as a force along them; times `more`.
+  /// Scales a form n whose value n . u has the unit length * `more`; n is also the direction of a force.
   void operator()(Combination& form, const Unit& more = unit::plain) const {
     const double length = scene::factor_of(more, factors_) * factors_.length;
     for (auto& [i, factor] : form.terms) factor *= length / of_dof(i);
@@ -164,14 +164,14 @@ class Rescaling {
     scene::visit_numbers(history, of, [this](double& x, const Unit& unit) { (*this)(x, unit); });
   }
 
-  /// Scales a matrix that converts displacements to displacements.
+  /// Scales a matrix that maps displacements to displacements.
   void basis(SparseMatrix& b) const {
     for (int j = 0; j < b.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(b, j); it; ++it)
         it.valueRef() *= of_dof(static_cast<int>(it.row())) / of_dof(j);
   }
 
-  /// Scales ties; *this must be for the physical degrees of freedom.
+  /// Scales ties; *this must be made for the physical degrees of freedom.
   void operator()(Ties& ties) const {
     const auto first = static_cast<int>(ties.rows.cols());
     for (int j = 0; j < ties.rows.outerSize(); ++j)
@@ -187,7 +187,7 @@ class Rescaling {
     (*this)(load.history, load.history_unit);
   }
 
-  /// Scales a form on displacements whose value has this unit.
+  /// Scales a form n whose value n . u has the unit `of`.
   void value_of(Combination& form, const Unit& of) const {
     const double value = scene::factor_of(of, factors_);
     for (auto& [i, factor] : form.terms) factor *= value / of_dof(i);
@@ -232,7 +232,7 @@ class Rescaling {
     (*this)(s.force, unit::force);
   }
 
-  /// Scales a reduction; *this must be for the physical degrees of freedom. Amplitudes of shapes are lengths.
+  /// Scales a reduction; *this must be made for the physical degrees of freedom. Amplitudes of shapes are lengths.
   void operator()(Reduction& r) const {
     for (int i = 0; i < r.shapes.rows(); ++i) r.shapes.row(i) *= of_dof(i) / factors_.length;
     for (double* omega : {&r.cutoff, &r.highest_kept, &r.first_truncated, &r.highest_massive})

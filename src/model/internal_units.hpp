@@ -1,7 +1,7 @@
 // internal_units.hpp: units of force, length and time for internal computation.
 //
-//   length = 2^i ~ extent of the structure       (otherwise a gap, an initial displacement, a static response)
-//   time   = 2^j ~ sqrt(mass / stiffness)        largest of each (no stiffness: a quarter of the run)
+//   length = 2^i ~ extent of the structure       (without extent: a gap, an initial displacement, a static response)
+//   time   = 2^j ~ sqrt(mass / stiffness)        largest mass and stiffness (no stiffness: a quarter of the run)
 //   force  = 2^k ~ mass length / time^2
 //
 // Units are powers of two times the scene's units, determined by exponents alone. If the scene's units change
@@ -25,16 +25,16 @@ namespace signorini::model {
 //
 // With powers of two the conversion is exact, and so is its inverse.
 
-/// A history whose values have the unit `of`.
+/// Converts the times and the values of a history; the values have the unit `of`.
 [[nodiscard]] History rescaled(History history, const Unit& of, const Factors& factors);
 
-/// Multiplies all numbers by the factors of their units; Model::unit is divided by them, internal_units is
-/// unchanged.
+/// Multiplies all numbers of the model by the factors of their units, divides Model::unit by the factors, and
+/// leaves Model::internal_units unchanged.
 [[nodiscard]] Model rescaled(Model model, const Factors& factors);
 
 // Computed values in the scene's units, for messages.
 //
-//   value in scene units = value * factor of its unit          Model::unit; for whole results: run/scene_units.hpp
+//   value in scene units = value * factor of its unit          Model::unit; for complete results: run/scene_units.hpp
 
 [[nodiscard]] inline double in_scene_units(const Model& model, double value, const Unit& of) {
   return value * scene::factor_of(of, model.unit);

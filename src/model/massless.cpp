@@ -14,10 +14,10 @@
 namespace signorini::model {
 namespace {
 
-/// Weight of C relative to K if K does not resist all motions: half of the digits of a double.
+/// Weight of C relative to K if K alone leaves motions free: half of the digits of a double.
 constexpr double by_far = 1e8;
 
-/// The rows and columns with a position, scaled to s_i A_ij s_j.
+/// Restricts A to the rows and columns i with position[i] >= 0, which become row position[i]; scaled: s_i A_ij s_j.
 SparseMatrix block(const SparseMatrix& a, const std::vector<int>& position, int size, const Vector& s) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < a.outerSize(); ++k)
@@ -55,7 +55,8 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
     if (dof.massless && held[i] == 0.0)
       throw SceneError(
           assembly::place_of_dof(scene, map, i), "",
-          fmt::format("{} has neither mass nor stiffness nor damping, so its motion is undetermined",
+          fmt::format("{} has neither mass nor stiffness nor damping, so its motion is undetermined; give it "
+                      "one of these",
                       dof.displacement));
     if (dof.massless) continue;
     const double diagonal = assembly.mass.coeff(i, i);
@@ -74,8 +75,8 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
   if (!solver.ok() || solver.smallest_pivot() <= rounding::many_operations * heavy)
     throw SceneError(
         assembly::place_of_structure(scene), "matrices.mass",
-        "the mass matrix must be positive definite on the degrees of freedom whose rows are not zero; "
-        "a massless degree of freedom must have a row of zeros only");
+        "the mass matrix is not positive definite on the degrees of freedom whose rows are not zero; correct "
+        "it, or give massless degrees of freedom rows and columns of zeros");
 }
 
 void check_massless(const Scene& scene, const Model& model, const assembly::DofMap& map) {
@@ -99,8 +100,8 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
             count, ones);
   const SparseMatrix c = block(model.damping, position, count, ones);
   const SparseMatrix symmetric = 0.5 * (c + SparseMatrix(c.transpose()));
-  // If K resists all motions, any positive weight is suitable; this one makes C and K equal in size. If it
-  // does not, C needs a larger weight, because null_motions() also returns motions of negative energy.
+  // If K resists all motions, any positive weight of C is suitable; this value makes C and K equal in size. If K does
+  // not, C needs a larger weight, because null_motions() also returns motions of negative energy.
   const double weight = largest_diagonal(c) > 0.0 && largest_diagonal(k) > 0.0
                             ? largest_diagonal(k) / largest_diagonal(c)
                             : 1.0;
@@ -139,7 +140,7 @@ std::vector<int> damped_without_mass(const Model& model) {
   return list;
 }
 
-/// C restricted to these degrees of freedom.
+/// C restricted to the degrees of freedom in `list`.
 SparseMatrix part_of(const SparseMatrix& c, const std::vector<int>& list) {
   std::vector<int> position(static_cast<std::size_t>(c.rows()), -1);
   for (std::size_t j = 0; j < list.size(); ++j)
@@ -157,8 +158,8 @@ SparseMatrix part_of(const SparseMatrix& c, const std::vector<int>& list) {
   return part;
 }
 
-/// Changes z to a basis of the same span in which each column has a row where it is 1 and all others are 0.
-/// Returns these rows.
+/// Changes z to another basis of the same space: for each column there is a row with 1 in this column and 0 in all other
+/// columns. Returns these rows, one per column.
 std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index j = 0; j < z.cols(); ++j) {
@@ -202,7 +203,7 @@ void change_basis(Model& model, const SparseMatrix& basis, const std::vector<boo
     contact.normal = in_basis(contact.normal, basis);
     contact.tangent = in_basis(contact.tangent, basis);
   }
-  // B^-1 = 2 - B: B adds to some degrees of freedom only multiples of those that it leaves unchanged.
+  // B^-1 = 2 I - B, because (B - I)^2 = 0: B adds multiples of unchanged degrees of freedom to other ones.
   for (Vector* x : {&model.u0, &model.v0}) *x = 2.0 * *x - basis * *x;
   model.basis = basis;
 }
@@ -235,7 +236,7 @@ namespace {
 
 constexpr std::size_t rotation = 2, most_listed = 3;
 
-/// Nodes of elements, and whether an element or a rigid body rotates with them.
+/// For each node: whether elements end there, whether one of them rotates with the node, and whether one is plane.
 class Turning {
  public:
   explicit Turning(const assembly::DofMap& map) : map_(map), nodes_(map.mesh.nodes.size()) {
@@ -249,7 +250,7 @@ class Turning {
           at(e->nodes()[unknown.local_node]).turns = true;
     }
   }
-  /// True if elements end at the node but none of them, and no rigid body, rotates with it.
+  /// True if elements end at the node, but neither an element nor a rigid body rotates with the node.
   [[nodiscard]] bool idle(const std::string& node) const {
     const int n = map_.mesh.by_name.at(node);
     const Node& here = nodes_[static_cast<std::size_t>(n)];

@@ -29,8 +29,8 @@ namespace signorini::model {
 namespace {
 
 constexpr double greatest_friction = 2.0;
-constexpr double least_drag = 0.01;  // relative, of a velocity, during the run
-constexpr double along = 1e-9;       // relative; least part of a motion along a contact's normal
+constexpr double least_drag = 0.01;  // smallest relative change of a velocity in the run that is reported
+constexpr double along = 1e-9;       // smallest component of a motion along a normal, relative to the motion
 constexpr std::size_t most_named = 3;
 
 /// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
@@ -40,8 +40,8 @@ std::string names(const Model& model, const std::vector<std::size_t>& contacts) 
   return (list.size() == 1 ? "contact " : "contacts ") + base::join_quoted(list, most_named);
 }
 
-/// True if f has values between the starts of pieces `first` and `last` that exceed those before and after.
-/// Times are measured from the start of a piece, because the starts may be equal as times of the run.
+/// True if f has values between the starts of pieces `first` and `last` outside the range of the values before and after.
+/// Times are measured from the start of a piece, because two starts may be rounded to the same time of the run.
 bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
   const std::vector<double>& starts = f.starts();
   struct Known {
@@ -106,7 +106,8 @@ class ModelWarnings {
     }
   }
 
-  /// Checks the contacts of each part separately; sliders have no normal and may hold a part by friction.
+  /// Warns of parts that the static loads move away from all contacts. Parts with sliders are skipped, because friction
+  /// may hold such a part.
   void falls() {
     if (weight_.isZero(0.0)) return;
     const assembly::Parts parts({&model_.mass, &model_.stiffness});
@@ -130,8 +131,8 @@ class ModelWarnings {
     }
     if (falling_.empty()) return;
     found_.push_back(
-        fmt::format("no contact stops the structure from leaving {}: the static loads push it there along "
-                    "the normal, away from the ground; is the normal reversed?",
+        fmt::format("no contact stops the structure from leaving {}: the static loads accelerate it along "
+                    "the normal, away from the ground; check whether the normal is reversed",
                     names(model_, falling_)));
   }
 
@@ -159,7 +160,7 @@ class ModelWarnings {
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
       if (c.normal_force_given() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
-      // A rigid contact of a rigid body has its reaction immediately.
+      // A rigid contact on a rigid body carries the weight from t = 0 on, without oscillation.
       const bool gives = !c.takes_impulses() ||
                          std::any_of(c.normal.terms.begin(), c.normal.terms.end(), [&](const auto& term) {
                            return model_.stiffness.coeff(term.first, term.first) != 0.0;
@@ -168,8 +169,9 @@ class ModelWarnings {
     }
     if (touching.empty()) return;
     found_.push_back(
-        fmt::format("the weight acts suddenly at t = 0 on {}, closed there with zero force: the structure "
-                    "will oscillate, with up to twice the static force; initial = \"static\" starts at rest",
+        fmt::format("the weight acts suddenly at t = 0 on {} with zero gap and zero force: the structure "
+                    "will oscillate, with up to twice the static force; initial = \"static\" starts in "
+                    "equilibrium",
                     names(model_, touching)));
   }
 
@@ -212,14 +214,14 @@ class ModelWarnings {
                      least = motion::resolution_at(a, scene_.run.t_end);
         if (!(a >= 0.0 && b < scene_.run.t_end && leaves_a_peak(load.history, first, next - 1))) continue;
         found_.push_back(fmt::format(
-            "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} that times of sixteen "
-            "digits can resolve: its impulse is lost; make the pulse longer",
+            "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} that double precision "
+            "resolves at this time: its impulse is lost; make the pulse longer",
             load.name, a * model_.unit.time, (b - a) * model_.unit.time, least * model_.unit.time));
       }
     }
   }
 
-  /// The initial state is just after t = 0: a sudden motion of a support gives no impulse.
+  /// Warns of supports that jump at t = 0: the initial state is the one after the jump, and no impulse acts.
   void sudden_supports() {
     for (const Load& load : model_.loads) {
       if (load.kind != LoadKind::support || scene_.initial.saved) continue;
@@ -232,16 +234,16 @@ class ModelWarnings {
                        : history::roundoff_of_rate(before, 0.0) + history::roundoff_of_rate(after, 0.0);
         if (std::abs(b - a) <= rounded) continue;
         found_.push_back(
-            fmt::format("the {} of '{}' jumps at t = 0: the initial state is taken as the one just after, "
-                        "without an impulse; at a later time it would be refused",
+            fmt::format("the {} of '{}' jumps at t = 0: the run starts just after the jump, without an "
+                        "impulse; a jump at a later time is an error",
                         order == 0 ? "motion" : "velocity", load.name));
         break;
       }
     }
   }
 
-  /// Static and frictional starts ignore histories that are not constant; a temperature present from the start is
-  /// intended.
+  /// Warns of temperatures that act suddenly at t = 0: a static start omits loads whose history is not constant, but a
+  /// temperature that is nonzero at t = 0 was probably meant to be part of the start.
   void sudden_heat() {
     if (scene_.initial.saved || !scene_.initial.stages.empty()) return;
     if (!scene_.initial.is_static && !scene_.initial.is_frictional) return;
@@ -275,9 +277,9 @@ class ModelWarnings {
       if (model_.contacts[k].initial_shear != 0.0) loose.push_back(k);
     if (loose.empty()) return;
     found_.push_back(
-        fmt::format("initial_shear at {} does not fit the displacements: a static start has no "
-                    "friction, so nothing balances it and it vanishes with the first "
-                    "oscillation; give displacements that balance it",
+        fmt::format("initial_shear at {} is not in equilibrium with the displacements: a static start has no "
+                    "friction, so the shear vanishes with the first oscillation; give displacements that "
+                    "balance it",
                     names(model_, loose)));
   }
 
@@ -297,7 +299,7 @@ class ModelWarnings {
         names(model_, found->contacts), found->omega / model_.unit.time, model_.units.time, rate));
   }
 
-  /// run.geometric: some motion has negative energy while contacts are open.
+  /// Warns if run.geometric gives a motion negative energy while all contacts are open.
   void runs_away() {
     if (!model_.geometric) return;
     const auto fastest = modes::fastest_growth(model_.stiffness, model_.mass);
@@ -329,20 +331,20 @@ std::vector<std::string> model_warnings(const Scene& scene, const assembly::DofM
 
 namespace {
 
-/// Loads that last longer than this fraction of 1/w count with their amplitude: scales are orders of
-/// magnitude, and need not be more accurate than this.
+/// Loads that last longer than this fraction of 1/w have their full amplitude. Chosen value: scales are only orders of
+/// magnitude.
 constexpr double full_above = 1.0 / 16.0;
 
-/// w t_end for a free motion, whose phase angle in the run is below 1 rad: with it, a load that acts for a
-/// thousandth of the run counts with its amplitude.
+/// w t_end of a free motion, whose phase angle in the run is below 1 rad. Chosen value: a load that acts for a
+/// thousandth of the run then has its full amplitude.
 constexpr double of_free = 64.0;
 
-/// Effective over full amplitude at this frequency.
+/// Effective amplitude divided by the full amplitude, for an oscillator of frequency omega.
 double share_at(const History& f, double amplitude, double t_end, double omega) {
   return std::min(1.0, omega * history::max_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
 }
 
-/// Frequencies of the oscillations along the static responses to loads; 0 if there is none.
+/// Frequencies of oscillations along the static responses to loads; 0 if a load has no static response.
 class HalfPeriods {
  public:
   HalfPeriods(const Model& model, const modes::ContactConstraints& holding) : model_(model) {
@@ -368,7 +370,7 @@ EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::Contac
                                          double omega, double t_end) {
   std::optional<HalfPeriods> swings;
   const auto own = [&](double along) { return along * t_end > 1.0 ? along : of_free / t_end; };
-  // The share increases with the frequency, and the lowest frequency is known.
+  // The share increases with the frequency: if it is 1 at the lowest frequency, it is 1 at all frequencies.
   const double lowest = std::max(omega, 1.0 / t_end);
   const auto lasts = [&](const History& f, double amplitude) {
     return f.is_constant() || !(amplitude > 0.0) || share_at(f, amplitude, t_end, lowest) == 1.0;

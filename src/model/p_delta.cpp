@@ -14,7 +14,7 @@ namespace {
 constexpr int shown_factors = 5;
 constexpr const char* asked_by = "run.geometric";
 
-/// Normals of closed contacts, and tangents of sticking ones.
+/// Constraints by the normals of closed contacts and the tangents of sticking contacts.
 modes::ContactConstraints held_at(const std::vector<Contact>& contacts, const std::vector<State>& states) {
   modes::ContactConstraints holding;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -30,7 +30,7 @@ modes::ContactConstraints held_at(const std::vector<Contact>& contacts, const st
   return holding;
 }
 
-/// Contact states: stick for closed contacts with friction, closed for those without, open for all others.
+/// Contact states: stick for closed contacts with friction, closed for closed contacts without friction, else open.
 std::vector<State> sticking(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
   std::vector<State> states;
   for (std::size_t k = 0; k < contacts.size(); ++k)
@@ -47,7 +47,7 @@ std::vector<double> factors_at(const Scene& scene, const assembly::DofMap& map, 
   return modes::load_factors(elastic, geometric, held_at(model.contacts, states), count);
 }
 
-/// Refuses a start beyond the buckling load, which is no stable equilibrium.
+/// Errors: SceneError if the lowest load factor is at most 1, so that the start is not a stable equilibrium.
 void refuse_buckled(const Scene& scene, const assembly::DofMap& map, const Model& model,
                     const std::vector<State>& states) {
   const std::vector<double> factors = factors_at(scene, map, model, states, 1);
@@ -55,10 +55,10 @@ void refuse_buckled(const Scene& scene, const assembly::DofMap& map, const Model
   const std::string what =
       factors.front() > 0.0
           ? fmt::format("the lowest load factor is {:.9g}", factors.front())
-          : std::string("it buckles under any fraction of them, however small (load factor 0)");
+          : std::string("any fraction of the loads makes it buckle (load factor 0)");
   throw SceneError(scene.run.geometric_place, asked_by,
                    fmt::format("the structure buckles under its static loads: with the contacts that are "
-                               "closed at the start {}, expected a load factor above 1",
+                               "closed at the start, {}; expected a load factor above 1",
                                what));
 }
 

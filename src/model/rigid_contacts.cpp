@@ -17,17 +17,17 @@
 namespace signorini::model {
 namespace {
 
-constexpr double takes_part = 1e-9;       // relative to a unit normal: less is the error of an elimination
-constexpr double closes_together = 1e-9;  // relative to the gaps: scenes have about this number of digits
-constexpr double dependent = 1e-12;       // remainder of a unit normal after all others are removed
+constexpr double takes_part = 1e-9;       // relative to a unit normal: smaller parts are elimination errors
+constexpr double closes_together = 1e-9;  // relative to the gaps: about the number of digits in a scene
+constexpr double dependent = 1e-12;       // remainder of a unit normal after removal of other normals
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
   const ContactSpec& spec = scene.contacts[k];
   throw SceneError(spec.place, spec.key(key), why);
 }
 
-/// Refuses friction that depends on the slip rate or on N, and curved surfaces, on degrees of freedom without
-/// mass.
+/// Errors: SceneError if friction that depends on the slip rate or on N, or a curved surface, acts on degrees of freedom
+/// without mass.
 void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
   const bool varies = contact::friction_varies(contact), curved = contact.curved_surface() != nullptr;
@@ -39,14 +39,14 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
         refuse(scene, k, varies ? "friction" : "radius",
                fmt::format(
-                   "{} needs mass where it acts, and {} has none",
+                   "{} needs mass where it acts, but {} has none",
                    varies ? contact::friction_description(contact) : "a curved surface under a varying force",
                    d.displacement));
   }
 }
 
-/// Sum of the magnitudes of the terms of a gap. Displacements of a continued run are known relative to its largest one,
-/// even if those at the contact are small: solver errors do not distinguish them.
+/// Sum of the magnitudes of the terms of a gap, to which the gap's rounding error is relative. In a continued run, errors
+/// of displacements are relative to the largest displacement of the structure, even where a displacement is small.
 double terms_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
   if (!scene.initial.saved) return std::abs(contact.gap) + contact.normal.magnitude(model.u0);
   double greatest = model.scales.displacement, sum = 0.0;
@@ -57,13 +57,13 @@ double terms_of_gap(const Scene& scene, const Model& model, const Contact& conta
   return std::abs(contact.gap) + sum * greatest;
 }
 
-/// Sets the gap at u0 to zero if it is zero up to rounding. True: the contact touches.
+/// Sets the gap at u0 to zero if it is zero up to rounding. Returns true if the contact touches.
 bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
   const double terms = terms_of_gap(scene, model, contact);
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
-  // A gap from displacements of rounding size is as uncertain as one from displacements of the scene's size.
+  // A penetration far below the scene's typical displacement may be a rounding error of the displacements.
   const bool rounded = gap < 0.0 && -gap <= rounding::few_operations * model.scales.displacement;
   if (carries || rounded || std::abs(gap) <= rounding::many_operations * terms) {
     double square = 0.0;
@@ -74,7 +74,7 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
     return true;
   }
   const bool judged_later = scene.initial.saved && scene.reduction && scene.reduction->cutoff_omega > 0.0 &&
-                            !model.reduction;  // reduce() knows the rounding of its shapes
+                            !model.reduction;  // checked again after the reduction
   if (gap < 0.0 && !judged_later) {
     refuse(scene, k, "gap",
            fmt::format("found a gap of {:.6g} {} at the start, expected a gap >= 0: a rigid contact cannot "
@@ -84,8 +84,8 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   return false;
 }
 
-/// Closes several gaps together, because closing one foot of a body moves the others: u -= H (H^T H)^-1 g,
-/// twice, so that only a rounding of u remains.
+/// Closes several gaps together, because closing the gap at one foot of a body moves its other feet:
+/// u -= H (H^T H)^-1 g. A second round leaves only the rounding error of u.
 void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   Eigen::MatrixXd normals(model.size(), static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -100,8 +100,8 @@ void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   }
 }
 
-/// Refuses redundant contacts. A contact whose normal depends on those of other contacts is redundant if its
-/// gap closes together with theirs; otherwise it never closes together with them.
+/// Errors: SceneError for a redundant contact: its normal is a combination of other normals, and its gap is zero
+/// whenever the other gaps are. If only the normal is a combination, all these contacts never close together.
 void check_redundance(const Scene& scene, const Model& model, const std::vector<std::size_t>& rigid,
                       std::size_t first) {
   const auto n = static_cast<Eigen::Index>(model.size());
@@ -154,7 +154,7 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
     rigid.push_back(k);
     normals.push_back(contact.normal);
   }
-  // Normals without a common degree of freedom are independent.
+  // Normals without a common degree of freedom are independent, so groups are checked one by one.
   for (const std::vector<std::size_t>& group : assembly::coupled_forms(normals)) {
     std::vector<std::size_t> members;
     for (const std::size_t i : group) members.push_back(rigid[i]);
@@ -168,7 +168,7 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
 
 namespace {
 
-constexpr double fastest = 1e-6;  // time constant of a dashpot times the highest frequency
+constexpr double fastest = 1e-6;  // smallest time constant ct/kt times the highest frequency
 
 SparseMatrix enlarged(const SparseMatrix& matrix, int size) {
   SparseMatrix result = matrix;
@@ -188,15 +188,15 @@ void add_shear_elements(const Scene& scene, Model& model) {
     const bool by_rate = contact.friction.is_rate_strengthening() && contact.tangential_stiffness;
     if ((ct == 0.0 && !by_rate) || !contact.has_friction()) continue;
     const double kt = *contact.tangential_stiffness;
-    // Below this the element would respond immediately, within rounding.
+    // With a smaller time constant the element would respond immediately, up to rounding.
     if (ct > 0.0 && ct / kt * model.omega_max < fastest)
       throw SceneError(
           scene.contacts[k].place, scene.contacts[k].key("tangential_damping"),
           fmt::format("tangential_damping / tangential_stiffness = {:.3g} is a time constant far "
                       "below the shortest period of the structure, {:.3g}; give 0.0 or a greater value",
                       ct / kt, 2.0 * std::numbers::pi / model.omega_max));
-    // On a body without mass the dashpot alone cannot determine the body's motion, only the rate of p relative to it.
-    // Then p - ut is the degree of freedom.
+    // On a body without mass the dashpot alone cannot determine the body's motion, only the rate of p relative to the
+    // body. Then p - ut is the degree of freedom.
     const bool relative = std::any_of(
         contact.tangent.terms.begin(), contact.tangent.terms.end(),
         [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });

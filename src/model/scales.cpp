@@ -16,7 +16,7 @@
 namespace signorini::model {
 namespace {
 
-// Relative to the response of the free structure: a smaller response of the constrained structure is
+// Fraction of the free structure's response: below this fraction, the response of the constrained structure is only
 // rounding.
 constexpr double only_rounding = 1e-10;
 
@@ -35,7 +35,7 @@ double first_usable(const Candidate&... candidates) {
 double force_factor(const Combination& direction, const assembly::DofMap& map) {
   double greatest = 0.0, square = 0.0;
   for (const auto& [i, a] : direction.terms) {
-    // A force on a rigid body includes its arm; its direction is a unit vector.
+    // The direction of a force on a rigid body has a moment term (the arm), but the force is a unit vector.
     if (map.dofs[static_cast<std::size_t>(i)].rotation) return 1.0;
     greatest = std::max(greatest, std::abs(a));
     square += a * a;
@@ -43,7 +43,8 @@ double force_factor(const Combination& direction, const assembly::DofMap& map) {
   return map.is_matrix_scene() ? greatest : std::sqrt(square);
 }
 
-/// Largest distance of two nodes; independent of the scene's orientation. Inner nodes lie between named ones.
+/// Largest distance between two nodes; independent of the scene's orientation. Inner nodes are skipped, because they lie
+/// between named nodes.
 double length_of(const assembly::DofMap& map) {
   const auto named = static_cast<std::size_t>(map.mesh.named);
   double squared = 0.0;
@@ -65,7 +66,7 @@ bool turns_alone(const assembly::DofMap& map, std::size_t node) {
           map.is_tied(n[1]));
 }
 
-/// Force on the degrees of freedom of a node. Tied nodes have their forces at the nodes that they follow.
+/// Force on the degrees of freedom of a node. Forces on tied nodes appear at the nodes that determine their motion.
 double force_at(const Vector& p, const assembly::DofMap& map, std::size_t node, double arm) {
   const auto part = [&](int n) { return n >= 0 && !map.is_tied(n) ? p[n] : 0.0; };
   const auto& n = map.number[node];
@@ -73,7 +74,7 @@ double force_at(const Vector& p, const assembly::DofMap& map, std::size_t node, 
   return turns_alone(map, node) && arm > 0.0 ? std::max(force, std::abs(part(n[2])) / arm) : force;
 }
 
-/// Sum over all nodes; independent of the scene's orientation.
+/// Sum of the forces on all nodes; independent of the scene's orientation.
 double weight_of(const Vector& p, const assembly::DofMap& map) {
   if (map.is_matrix_scene()) return p.cwiseAbs().sum();
   const double arm = length_of(map);
@@ -91,7 +92,7 @@ double greatest_force(const Vector& p, const assembly::DofMap& map) {
   return greatest;
 }
 
-/// Mass of a node along the direction in which it is largest; independent of the scene's orientation.
+/// Largest mass of a node along any direction; independent of the scene's orientation.
 double greatest_mass(const Model& model, const assembly::DofMap& map) {
   double greatest = 0.0;
   if (map.is_matrix_scene()) {
@@ -122,7 +123,7 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
       force = std::max(force, effective.compressions[k] * history::magnitude(c.normal_force, t_end));
     if (const auto N = c.resting_force(model.u0)) force = std::max(force, -*N);
   }
-  double held = 0.0;  // forces of constrained deformation (heat, supports), used if there are no others
+  double held = 0.0;  // forces of constrained deformation (heat, supports), used without other forces
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     const double most = effective.loads[i].share * history::magnitude(load.history, t_end);
@@ -137,7 +138,7 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
       case LoadKind::force:
         force = std::max(force, force_factor(load.direction, map) * most);
         break;
-      case LoadKind::moment:  // a couple over the whole structure
+      case LoadKind::moment:  // as a couple whose arm is the structure's length
         if (const double arm = length_of(map); arm > 0.0)
           force = std::max(force, direction.cwiseAbs().maxCoeff() * most / arm);
         break;
@@ -152,17 +153,17 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
   }
   if (usable(force)) return force;
   if (usable(held)) return held;
-  // Free vibration: the forces of the initial state, or those needed to stop it.
+  // Free vibration: elastic and damping forces of the initial state, or the inertia forces that would stop it.
   force = std::max(greatest_force(model.stiffness * model.u0, map),
                    greatest_force(model.damping * model.v0, map));
   return std::max(force, model.omega_max * greatest_force(model.mass * model.v0, map));
 }
 
-/// Largest static displacements under any single one of some forces; 0 if the matrix is singular.
+/// Largest static displacement under any one of the given forces; 0 if the stiffness matrix is singular.
 struct StaticResponse {
   double held = 0.0;
-  /// With springs of the structure's own stiffness in place of constraints: the scale of displacements if the
-  /// constrained parts cannot move.
+  /// With springs of the structure's own stiffness in place of constraints: the scale of displacements if constraints
+  /// let nothing move.
   double gripped = 0.0;
 };
 
@@ -178,7 +179,7 @@ StaticResponse find_static_response(const std::vector<Vector>& forces, const Mod
   for (const Vector& p : forces) {
     const double answer = assembly::max_translation(structure.solve(p), map);
     const double free = assembly::max_translation(loose.solve(p), map);
-    // If everything movable is fixed, the response is rounding only.
+    // If the constraints fix every motion, the response is only rounding.
     if (answer > only_rounding * free) result.held = std::max(result.held, answer);
     result.gripped = std::max(result.gripped, free);
   }
@@ -194,7 +195,7 @@ std::vector<Vector> amplitudes_of_loads(const Model& model, const EffectiveAmpli
   return forces;
 }
 
-/// f N along the tangents of sliders, whose normal forces are given.
+/// Friction limits f N of sliders, as forces along their tangents.
 std::vector<Vector> limits_of_friction(const Model& model, const EffectiveAmplitudes& effective,
                                        double t_end) {
   std::vector<Vector> forces;
@@ -208,7 +209,7 @@ std::vector<Vector> limits_of_friction(const Model& model, const EffectiveAmplit
   return forces;
 }
 
-/// Distance that the loads could throw the unsupported structure during the run.
+/// Distance that loads and initial velocity could move the structure without supports during the run.
 double thrown(const Model& model, const assembly::DofMap& map, const EffectiveAmplitudes& effective,
               double t_end) {
   SparseMatrix mass = model.mass;
@@ -228,8 +229,8 @@ double thrown(const Model& model, const assembly::DofMap& map, const EffectiveAm
          0.5 * acceleration * t_end * t_end;
 }
 
-/// Solver error of a response that contacts prevent completely: rounding of the effect of the force on the
-/// stiffest degree of freedom. Rotational stiffnesses are divided by the square of the structure's length.
+/// Solver error of a displacement that contacts prevent completely: rounding of force / stiffness at the stiffest
+/// degree of freedom. Rotational stiffnesses are divided by the square of the structure's length.
 double min_response(const Model& model, const assembly::DofMap& map, double force) {
   const double arm = length_of(map);
   double stiffest = 0.0;
@@ -241,7 +242,7 @@ double min_response(const Model& model, const assembly::DofMap& map, double forc
   return stiffest > 0.0 ? rounding::elimination * force / stiffest : 0.0;
 }
 
-/// Displacement of the softest spring by the force.
+/// Deflection of the softest contact spring under the force; 0 if no contact has a spring.
 double spring_response(const Model& model, double force) {
   double softest = 0.0;
   auto consider = [&](double k) {
@@ -279,12 +280,12 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   const double least = min_response(model, map, force);
   const auto answers = [&](double x) { return usable(x) && x > least; };
   if (!answers(displacement)) displacement = 0.0;
-  // A free motion that is constrained by rounding alone, or hardly, has an unbounded response.
+  // Without stiffness a motion would have an unbounded static response; the run is too short to reach large values.
   if (const double farthest = thrown(model, map, effective, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
   // An initial velocity moves the structure at least as far as the fastest oscillation would.
   if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
-  // A motion driven by friction alone goes as far as the friction limit deforms the structure.
+  // A motion driven by friction alone is as large as the deformation by the friction limit.
   if (!usable(displacement))
     displacement = find_static_response(limits_of_friction(model, effective, t_end), model, map, rested).held;
   if (!answers(displacement)) displacement = spring_response(model, force);
@@ -297,7 +298,7 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   const double mass = greatest_mass(model, map);
   scales.force = first_usable(force, mass * omega * omega * scales.displacement,
                               mass * scales.displacement / (t_end * t_end));
-  // A state that the contacts cannot hold does not oscillate at omega1: energy bounds its velocity.
+  // If contacts open, the structure does not oscillate at omega1; the energy then limits the velocity.
   const double driving = std::max(scales.force, greatest_force(model.stiffness * model.u0, map));
   const double bound = std::sqrt(driving * scales.displacement / mass);
   double velocity = omega > 0.0 ? omega * scales.displacement : bound;

@@ -3,13 +3,13 @@
 //   force         largest static reaction, compression, load amplitude
 //   displacement  largest static deflection, initial displacement, static response to a load amplitude; if there
 //                 is none, static response to a slider's friction limit
-//   (a pulse that is too short for the structure counts with its effective amplitude: model_warnings.hpp)
+//   (a pulse that is too short for the structure enters with its effective amplitude: model_warnings.hpp)
 //   velocity      omega * displacement, at least the initial velocity
 //   rotation = displacement / L,  angular velocity = velocity / L      L: diagonal of the structure
 //
-// omega: lowest frequency with the initially closed contacts held; if there is none, with all contacts free. omega *
-// displacement is at most sqrt(F displacement / mass), F being the larger of the force scale and |K u0|; it equals this
-// bound if there is no omega.
+// omega: lowest frequency with the initially closed contacts fixed; if there is none, with only the normals of closed
+// rigid contacts fixed. omega * displacement is at most sqrt(F displacement / mass), where F is the larger of the force
+// scale and |K u0|; without an omega, this bound is used instead.
 #pragma once
 
 #include <vector>

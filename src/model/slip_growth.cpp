@@ -50,21 +50,21 @@ double min_damping_ratio(const Model& model) {
 
 namespace {
 
-constexpr int all_up_to = 100, most = 400;  // degrees of freedom; chosen: a few tenths of a second
-// Relative to the highest frequency: above, truncated modes would contribute.
+constexpr int all_up_to = 100, most = 400;  // numbers of degrees of freedom; chosen for a few 0.1 s
+// Results are valid up to this fraction of the highest frequency; above, truncated modes would contribute.
 constexpr double of_window = 0.5;
 constexpr double rigid = 1e4;  // relative to the structure's own stiffness along a normal
-// Relative to |lambda| or sigma: at a double eigenvalue rounding leaves the root of eps of both, 1.5e-8.
+// Smallest growth, relative to |lambda| or sigma: rounding splits a double eigenvalue by sqrt(eps) = 1.5e-8.
 constexpr double no_growth = 1e-6;
 
-/// A slipping contact: its normal force also acts along `push`.
+/// A slipping contact: its normal force acts along `push` = n - s f t.
 struct Drive {
   Vector normal, push;
   double stiffness, damping;
 };
 
 struct Slipping {
-  SparseMatrix stiffness;  ///< symmetric part: the structure and contacts that do not slip
+  SparseMatrix stiffness;  ///< symmetric part: of the structure and of contacts that do not slip
   std::vector<Drive> drives;
   std::vector<std::size_t> contacts;
 };
@@ -98,7 +98,7 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
   return result;
 }
 
-/// Shapes, n x m, for the search, and the |lambda| up to which their results are valid.
+/// Shapes (n x m) on which the equations are projected, and the |lambda| up to which the results are valid.
 struct Window {
   Eigen::MatrixXd shapes;
   double end = std::numeric_limits<double>::infinity();
@@ -109,7 +109,7 @@ Window window(const Model& model, const Slipping& slip, double sigma) {
   if (n <= all_up_to) return {Eigen::MatrixXd::Identity(n, n)};
   Eigen::MatrixXd k = slip.stiffness;
   for (const Drive& drive : slip.drives) k += drive.stiffness * drive.normal * drive.normal.transpose();
-  // Relative to the largest 1 / (omega^2 + sigma^2).
+  // Eigenvalues 1 / (omega^2 + sigma^2), ascending: the last ones belong to the lowest frequencies.
   const base::EigenPairs pairs =
       base::generalized_eigen(model.mass, k + sigma * sigma * Eigen::MatrixXd(model.mass));
   if (pairs.values.size() < n) return {Eigen::MatrixXd(n, 0)};
@@ -127,7 +127,7 @@ std::vector<std::complex<double>> exponents(const Eigen::MatrixXd& m, const Eige
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   a.topRows(n) = -base::solve_dense(k + sigma * c + sigma * sigma * m, right);
   a.bottomLeftCorner(n, n).setIdentity();
-  // In units of 1/sigma, so that the halves of z have equal size.
+  // Scaled by sigma, so that the two halves of z have equal size.
   a.topRightCorner(n, n) *= sigma;
   a.bottomLeftCorner(n, n) /= sigma;
   std::vector<std::complex<double>> found;

@@ -9,8 +9,8 @@
 //   nu z = A z,   A = [ -K~^-1 (C + 2 sigma M)   -K~^-1 M ],   K~ = K + sigma C + sigma^2 M
 //                     [  I                        0       ]
 //
-// Models with up to 100 degrees of freedom are examined as they are. With up to 400, the 100 lowest modes of
-// the symmetric part are used, and results up to half of their highest frequency are reported. Larger models
+// Models with up to 100 degrees of freedom are examined without reduction. With up to 400, the 100 lowest modes of
+// the symmetric part are used, and results up to half of the highest of these frequencies are reported. Larger models
 // are not examined. Rigid contacts are represented by springs of 10^4 times the structure's own stiffness.
 #pragma once
 
@@ -43,8 +43,8 @@ struct SlipGrowth {
   std::vector<std::size_t> contacts;  ///< slipping contacts with friction proportional to the normal force
 };
 
-/// The fastest growth; nullopt: none. states: one entry per contact. The model must have its damping, but not
-/// be reduced, and not have shear elements.
+/// The fastest growth; nullopt if no motion grows. states: one entry per contact. The model must have its damping, but
+/// must not be reduced and not have shear elements.
 [[nodiscard]] std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<State>& states);
 
 }  // namespace signorini::model

@@ -407,7 +407,7 @@ TEST_CASE("a block that rocks in two halves: the forces of the first are those o
     std::ofstream(folder / "geometric.csv") << "what,from,to,N_from,N_to,stiffness\n" << rows;
     CAPTURE(rows);
     CHECK_THROWS_WITH_AS(static_cast<void>(built(later)),
-                         doctest::Contains("belong to other members or rigid bodies"), SceneError);
+                         doctest::Contains("belongs to other members or rigid bodies"), SceneError);
   };
   with_rows("");
   with_rows("rigid,another,,,,-98.1\n");

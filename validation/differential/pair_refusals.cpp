@@ -110,7 +110,7 @@ const std::vector<PairRefusal>& all_refusals() {
        "Plane bodies have none: with `[[bodies]]` `run.geometric` is refused"},
       {"geometric", "matrices", "has no effect with [matrices]", "docs/theory-structures.md",
        "and with `[matrices]`, whose K can have it already."},
-      {"initial_shear", "start, frictional", "has no meaning beside initial", "docs/theory-structures.md",
+      {"initial_shear", "start, frictional", "is not allowed with initial", "docs/theory-structures.md",
        "an `initial_shear` beside it is refused"},
       {"tangential_damping", "reduction, tolerance", "have no modes that could be counted",
        "docs/theory-structures.md", "a tolerance is refused there"},

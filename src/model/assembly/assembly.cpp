@@ -11,7 +11,7 @@
 namespace signorini::assembly {
 namespace {
 
-// Relative to the largest entry: smaller differences count as symmetric.
+// Entries a_ij, a_ji may differ by this fraction of the largest entry: other programs print few digits.
 constexpr double printed_digits = 1e-9;
 
 double largest(const SparseMatrix& a) {
@@ -72,12 +72,12 @@ struct Builder {
   const Scene& scene;
   const DofMap& map;
   Triplets mass, dampers, stiffness;
-  Vector weight, weight_size;  // size: sum of the magnitudes of the terms
+  Vector weight, weight_size;  // weight_size: sum of the magnitudes of terms
   std::vector<Vector> base;    // one per base motion
   std::vector<SupportColumns> moving;
 
-  /// Adds an element matrix by the numbers of its unknowns. Fixed unknowns are left out; those of moving supports are
-  /// added to the support's column.
+  /// Adds an element matrix. numbers: numbers of the element's unknowns. Fixed unknowns are omitted; unknowns of moving
+  /// supports are added to the support's column.
   template <class Matrix, class Numbers>
   void add(Triplets& target, Column column, const Matrix& a, const Numbers& numbers) {
     if (!any_tied(map, numbers.data(), numbers.size())) return add_own(target, column, a, numbers);
@@ -112,7 +112,7 @@ struct Builder {
                   [&](int n, double force) { map.add(base[i], n, force); });
   }
 
-  /// W^T m W; W maps rigid translations to themselves, so weight and base motion act on the whole mass.
+  /// Adds W^T m W. W maps rigid translations to themselves, so weight and base motion act on the whole mass.
   void add_moved_mass(const element::ElementMatrix& m, const element::MovedMass& moved) {
     std::vector<int> numbers;
     element::ElementVector gravity(static_cast<Eigen::Index>(2 * moved.nodes.size()));
@@ -131,7 +131,7 @@ struct Builder {
       add_inertia(own * along[k], numbers, [&](int n, double force) { map.add(base[k], n, force); });
   }
 
-  /// Adds the geometric stiffness to every structure that holds stiffnesses.
+  /// Adds the geometric stiffness of an element to the stiffness matrix and to the columns of moving supports.
   void add_geometric(std::size_t number) {
     const element::FiniteElement& e = map.mesh.element(number);
     const element::AxialForces forces = map.axial_forces_in(number);
@@ -146,13 +146,13 @@ struct Builder {
       weight_size[term.number] += std::abs(force * term.factor);
     }
   }
-  /// The weight of a body directly above its support has no moment; this removes the rounding of its arm.
+  /// Sets rounding errors of the weight to zero, such as the moment of a body directly above its support.
   void drop_rounding() {
     for (Eigen::Index i = 0; i < weight.size(); ++i)
       if (std::abs(weight[i]) <= rounding::few_operations * weight_size[i]) weight[i] = 0.0;
   }
 
-  /// M r a, with r a the acceleration of all translations, number by number.
+  /// Calls add_to(number, force) for each entry of forces = M r a, where r a is the acceleration of all translations.
   template <class Add>
   void add_inertia(const element::ElementVector& forces, const std::vector<int>& numbers, const Add& add_to) {
     for (std::size_t i = 0; i < numbers.size(); ++i) add_to(numbers[i], forces[static_cast<Eigen::Index>(i)]);
@@ -192,7 +192,7 @@ struct Builder {
     add(dampers, &SupportColumns::dampers, Eigen::Matrix2d(s.rotation_damping * turning), turns);
   }
 
-  /// k a a^T, a being the form of the elongation; terms of a that cancel add no stiffness.
+  /// Adds k a a^T, where a is the form of the elongation; terms of a that cancel add no stiffness.
   void add_tied_spring(const Spring& s, const std::array<double, 2>& d, const std::array<int, 3>& na,
                        const std::array<int, 3>& nb) {
     const double length = std::hypot(d[0], d[1]);

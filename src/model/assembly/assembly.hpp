@@ -12,16 +12,16 @@
 
 namespace signorini::assembly {
 
-/// Forces on the free degrees of freedom by a unit motion of a support: its columns of M_fs, of the dampers,
-/// and of K_fs.
+/// Forces on the free degrees of freedom by a unit motion of one support: the support's columns of M_fs, of the
+/// dampers, and of K_fs.
 struct SupportColumns {
   Vector mass, dampers, stiffness;
 };
 
 struct Assembly {
   SparseMatrix mass, dampers, stiffness;
-  Vector weight;  ///< P_g: force, moments on rotations
-  /// M r for each motion of the base, r: its unit motion, fixed degrees of freedom included.
+  Vector weight;  ///< P_g: forces, and moments on rotations
+  /// M r for each base motion; r: unit translation of all nodes along it, fixed degrees of freedom included.
   std::vector<Vector> base = {};
   std::vector<SupportColumns> moving = {};  ///< one for each of DofMap::supports
 };

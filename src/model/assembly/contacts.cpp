@@ -48,8 +48,8 @@ void check_compliant(const ContactSpec& spec, const Contact& contact) {
                      "a compliant contact with friction needs a tangential stiffness > 0");
 }
 
-/// With friction that depends on N, p' follows from the rate of N; a normal dashpot would make it depend on
-/// accelerations.
+/// If friction depends on N, the rate p' of the sliding point follows from the rate of N. With a normal dashpot, p'
+/// would depend on accelerations; this is refused.
 void check_friction_by_force(const ContactSpec& spec) {
   if (!spec.friction.is_load_dependent()) return;
   const auto refuse = [&](const std::string& what) {

@@ -95,7 +95,7 @@ void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool,
   map.supports.push_back(i);
 }
 
-/// Refuses a fixed and a moving support of the same component.
+/// Errors: SceneError if one support fixes a component that another support moves.
 void check_moving(const Scene& scene, const DofMap& map) {
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -109,7 +109,7 @@ void check_moving(const Scene& scene, const DofMap& map) {
   }
 }
 
-/// Numbers the elements' internal unknowns: "A-B.A.rz", a hinged end.
+/// Numbers the elements' internal unknowns, for example "A-B.A.rz", the rotation of a hinged end.
 void add_own(DofMap& map) {
   for (const element::MeshPiece& piece : map.mesh.pieces) {
     const std::string& from = map.mesh.node(piece.from).name;
@@ -162,7 +162,7 @@ DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
   DofMap map;
   map.mesh = std::move(mesh);
   map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
-  map.moving = map.number;  // absent
+  map.moving = map.number;  // all absent
   mark_needed(scene, map.mesh, map.number);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -335,12 +335,12 @@ SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof) {
 
 namespace {
 
-constexpr double at_rest = 1e-3;  // relative; a null motion of a fine mesh has few digits
+constexpr double at_rest = 1e-3;  // relative to the largest motion: smaller motions are zero
 
 struct NodeMotion {
   const element::MeshNode* node;
   double x, y, turn;
-  bool turns;  ///< the node has a rotation
+  bool turns;  ///< true: the node has a rotation
 };
 
 std::vector<NodeMotion> node_motions(const Vector& motion, const DofMap& map) {
@@ -380,7 +380,7 @@ std::string largest_name(const Vector& motion, const DofMap& map, double size, b
                     : fmt::format("motion of {}", name);
 }
 
-/// Angle and centre of a rigid rotation of all nodes, if the motion is one.
+/// True if all nodes rotate rigidly about one centre; `name` is then set to "rotation about (x, y)".
 bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double shown, std::string& name) {
   double theta = 0.0;
   for (const NodeMotion& m : nodes)
@@ -405,7 +405,7 @@ bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double sh
 /// True if all nodes translate by the same vector without rotating.
 bool translates(const std::vector<NodeMotion>& nodes, double size) {
   const NodeMotion& first = nodes.front();
-  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest counts as none
+  double turning = 0.0, extent = 0.0;  // a rotation that moves every node by less than at_rest is ignored
   for (const NodeMotion& m : nodes) {
     if (std::hypot(m.x - first.x, m.y - first.y) > at_rest * size) return false;
     turning = std::max(turning, std::abs(m.turn));

@@ -1,4 +1,4 @@
-// dofs.hpp: degrees of freedom that exist, those that are fixed, and their numbers.
+// dofs.hpp: numbers of the degrees of freedom, and which of them exist or are fixed.
 //
 //   node i, component c (0 ux, 1 uy, 2 rz)  ->  number, or `absent`, or `fixed`
 //
@@ -26,32 +26,32 @@ struct TiedTerm {
   double factor = 1.0;
 };
 
-/// A motion that is a combination of others.
+/// A motion that is a combination of degrees of freedom and support motions: the sum of its terms.
 struct TiedDof {
   Dof dof;
   std::vector<TiedTerm> terms;
 };
 
 struct DofMap {
-  static constexpr int absent = -1, fixed = -2, needed = 0;  // needed: while numbers are assigned
+  static constexpr int absent = -1, fixed = -2, needed = 0;  // needed: exists, but has no number yet
 
   element::Mesh mesh;                      ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
   /// Numbers of elements' internal unknowns, by element and index into unknowns().
   std::map<std::pair<std::size_t, std::size_t>, int> internal;
-  /// Per mesh node and component: index into `supports` of the support that it follows, or `absent`.
+  /// Per mesh node and component: index into `supports` of the support that moves the component, or `absent`.
   std::vector<std::array<int, 3>> moving;
   std::vector<std::size_t> supports;  ///< moving supports: indices into Scene::supports
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> locations;  ///< per degree of freedom: mesh node, component
   std::vector<int> body;                       ///< per mesh node: index into Scene::rigid, or `absent`
-  /// Per element: its axial prestress (prestress.hpp); empty: none.
+  /// Per element: its axial prestress (prestress.hpp); empty without prestress.
   std::vector<element::AxialForces> axial_forces;
-  /// Per rigid body: geometric stiffness of its prestress (prestress.hpp); empty: none.
+  /// Per rigid body: geometric stiffness of its prestress (prestress.hpp); empty without prestress.
   std::vector<double> body_stiffness;
   std::vector<TiedDof> tied;  ///< for the numbers size(), size() + 1, ...
   std::vector<signorini::Column> columns;
-  double shown_length = 1.0;  ///< factor from lengths here to those in names of motions
+  double shown_length = 1.0;  ///< factor from internal lengths to lengths in names of motions
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool is_matrix_scene() const { return number.empty(); }
@@ -59,41 +59,41 @@ struct DofMap {
   [[nodiscard]] static int support_code(int i) { return -3 - i; }
   [[nodiscard]] static int support_of_code(int code) { return -3 - code; }
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
-  /// True if all nodes move with one rigid body and the element has no internal unknowns: it is not strained.
+  /// True if all nodes move with one rigid body and the element has no internal unknowns, so that it has no strain.
   [[nodiscard]] bool within_body(const element::FiniteElement& e) const;
-  /// True if all of these mesh nodes move with one rigid body.
+  /// True if all mesh nodes of the list move with one rigid body.
   [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
-  /// Makes component c of a mesh node a combination of these terms.
+  /// Makes component c of a mesh node the sum of `terms`.
   void tie(int node, std::size_t c, std::vector<TiedTerm> terms);
   /// The motion with this number as a combination of degrees of freedom and moving supports; empty if fixed
   /// or absent.
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
   /// form += factor times the motion with this number; terms of moving supports are dropped.
   void add(Vector& form, int n, double factor) const;
-  /// Value of a numbered motion for the degrees of freedom x, of length size().
+  /// Value of motion n if the degrees of freedom have the values x, of length size(), and moving supports are at zero.
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// For each component of a node: its number, `fixed`, `absent`, or the code of a moving support.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
   [[nodiscard]] element::AxialForces axial_forces_in(std::size_t element) const {
     return axial_forces.empty() ? element::AxialForces{} : axial_forces[element];
   }
-  /// Numbers of the element's unknowns, coded in the same way.
+  /// Numbers of the element's unknowns, coded as in numbers_at().
   [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
 };
 
-/// Components of v along x and y; those below roundoff of the length of v are zero.
+/// Components of v along x and y; a component below the roundoff of |v| is set to zero.
 [[nodiscard]] std::array<double, 2> clean_direction(const std::array<double, 2>& v);
 
 /// The tangent of a normal: n = (nx, ny) has t = (ny, -nx); both unit vectors.
 [[nodiscard]] std::array<double, 2> tangent_of(const std::array<double, 2>& normal);
 
-/// The direction along which a contact of a scene with nodes slides; zero if it has neither tangent nor
+/// The direction along which a contact of a scene with nodes slides; zero if the contact has neither tangent nor
 /// normal.
 [[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
 
 /// Numbers the degrees of freedom of a scene with nodes.
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
-/// Same with a given mesh: that of the scene, or one with additional element types.
+/// Same, with a given mesh: that of the scene, or one with additional element types.
 [[nodiscard]] DofMap number_nodes(const Scene& scene, element::Mesh mesh);
 /// Throws the error for a moment or a rotation at a node without rotation.
 [[noreturn]] void refuse_missing_rotation(const SourcePlace& place, const std::string& key,
@@ -101,7 +101,7 @@ struct DofMap {
 /// Numbers the degrees of freedom of matrices from files.
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
 
-/// A direction as a form on the degrees of freedom, minus that of its counterpart. Fixed components are
+/// A direction as a form on the degrees of freedom, minus the form of its counterpart (`against`). Fixed components are
 /// dropped. An absent component is an error at `key`, unless `skip_absent`. unit: the plane vector is
 /// normalised.
 [[nodiscard]] Combination combination(const DofMap& map, const Direction& direction, const std::string& key,
@@ -124,7 +124,7 @@ struct DofMap {
 //
 // The text adds "of node 'A'" if only one node moves; other motions are named by their largest degree of freedom.
 
-/// motion: length n. Entries below 1e-3 of the largest count as at rest.
+/// motion: length n. Entries below 1e-3 of the largest are treated as zero.
 [[nodiscard]] std::string describe_motion(const Vector& motion, const DofMap& map);
 
 /// True if all nodes move as one rigid body.

@@ -24,7 +24,7 @@ Combination form_of(const Vector& v, double factor) {
   return form;
 }
 
-/// True for a constant without `start`: it has always acted.
+/// True for a constant history without `start`: such a load has always acted.
 bool holds_since_ever(const HistorySpec& spec, const History& history) {
   return spec.type == HistoryType::constant && history.is_constant();
 }
@@ -39,7 +39,7 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
   return form;
 }
 
-/// Forces on the unknowns of an element.
+/// Adds forces on the unknowns of an element to the form.
 void add_to(Vector& form, const element::ElementVector& forces, const DofMap& map, std::size_t element) {
   const std::vector<int> numbers = map.element_numbers(element);
   for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -70,7 +70,7 @@ Vector traction_form(const Scene& scene, const LoadSpec& spec, const DofMap& map
   return form;
 }
 
-/// The history; throws if the product of finite factors has overflowed.
+/// Returns the history. Errors: SceneError if the product of its finite factors has overflowed.
 History finite(History history, const SourcePlace& place, const std::string& key) {
   for (const Piece& p : history.pieces()) {
     bool all = std::isfinite(p.amplitude);
@@ -112,7 +112,7 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
   return load;
 }
 
-/// Relative rounding of an element's direction, in multiples of eps: it is a difference of coordinates.
+/// Relative rounding error of an element's direction (a difference of coordinates), in multiples of eps.
 double rounded_by_places(const DofMap& map, const element::FiniteElement& e) {
   double reach = 0.0, least = std::numeric_limits<double>::infinity();
   for (const int i : e.nodes()) {
@@ -127,7 +127,7 @@ double rounded_by_places(const DofMap& map, const element::FiniteElement& e) {
 }
 
 /// Forces at the ends of the elements that balance a unit strain of a member. At inner nodes of a straight line these
-/// forces cancel; their rounding must not drive a string that has no transverse stiffness.
+/// forces cancel up to rounding; the remainder is set to zero, since it would move a string across its axis.
 Combination strain_form(const DofMap& map, int member) {
   Vector form = Vector::Zero(map.size()), size = form;
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
@@ -181,7 +181,7 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
   }
 }
 
-/// Adds the loads by preloads: a spring in tension pulls its node back, against its direction.
+/// Adds the loads of preloads: a spring in tension pulls its node against the spring's direction.
 void add_preloads(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& spring = scene.springs[i];
@@ -212,19 +212,19 @@ void add_base(const Scene& scene, const Assembly& assembly, std::vector<Load>& l
   }
 }
 
-/// Time of a jump of f between 0 and t_end, or -1.
+/// Time of the first jump of f between 0 and t_end; -1 if f has none.
 double jump_of(const History& f, double t_end) {
   for (const Breakpoint& b : f.breakpoints())
     if (b.jump && b.time > 0.0 && b.time < t_end) return b.time;
   return -1.0;
 }
 
-/// Position of the support at the end of the run that this one continues; 0 if there is none.
+/// Position of the support at the end of the saved run that the scene continues; 0 if there is none.
 double last_motion(const Scene& scene, const std::string& name) {
   return scene.initial.saved ? scene::saved_motion(*scene.initial.saved, name).value_or(0.0) : 0.0;
 }
 
-/// Motion of a moving support, and its name.
+/// Motion s(t) of a moving support, with its name.
 struct SupportMotion {
   std::string name, key;
   SourcePlace place;
@@ -248,7 +248,7 @@ SupportMotion support_motion(const Scene& scene, const Support& support) {
   return moving;
 }
 
-/// -column f; f: the derivative of `order` of the motion.
+/// Adds the load -column f, where f is the derivative of `order` of the support's motion.
 void add_support_load(const SupportMotion& moving, const char* what, const Vector& column, History f,
                       int order, std::vector<Load>& loads) {
   const int length = moving.turns ? 0 : 1;

@@ -19,7 +19,7 @@
 
 namespace signorini::assembly {
 
-/// "support A.ux" -> "support A.vx"
+/// Name of the velocity of a support's motion: "support A.ux" -> "support A.vx".
 [[nodiscard]] std::string rate_of(const std::string& support_motion);
 /// Name of one of [[loads]], counted from 1: its given name, or "load 1".
 [[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
@@ -35,7 +35,7 @@ struct NodeForce {
                                                      const LoadSpec& spec);
 /// Name of a spring's preload, springs counted from 0.
 [[nodiscard]] std::string name_of_preload(std::size_t spring);
-/// Load::history_unit of this type.
+/// Load::history_unit of loads of this type.
 [[nodiscard]] Unit unit_of_history(LoadType type);
 /// All loads of the scene: gravity first (if it acts), then the loads in the order of the file, strains of
 /// members, base motion, and displacements of moving supports. Errors: SceneError.
@@ -46,8 +46,8 @@ struct NodeForce {
 /// Same for a moving support of Scene::supports.
 [[nodiscard]] History motion_of_support(const Scene& scene, const Support& support);
 
-/// Appends loads from velocities and accelerations of supports, once the damping is known. Errors: SceneError for a
-/// motion with a jump or a kink if dampers or masses would respond with an impulse.
+/// Appends the loads that velocities and accelerations of supports cause; to be called when the damping is known.
+/// Errors: SceneError for a motion with a jump or a kink if dampers or masses would respond with an impulse.
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
                        double beta, std::vector<Load>& loads);
 

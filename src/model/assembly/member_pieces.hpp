@@ -9,15 +9,16 @@
 
 namespace signorini::assembly {
 
-/// The piece of a member between two nodes, and whether it runs in the opposite direction. Errors: SceneError.
+/// Returns the piece of a member between nodes a and b, and true if the piece runs from b to a. Errors: SceneError if no
+/// member, or more than one, has such a piece.
 [[nodiscard]] std::pair<const element::MeshPiece*, bool> piece_between(const DofMap& map,
                                                                        const std::string& a,
                                                                        const std::string& b,
                                                                        const SourcePlace& place,
                                                                        const std::string& key);
 
-/// Components along x and y of a distributed load of unit amplitude on an element. backwards: the piece is
-/// given against the element's direction.
+/// Components along x and y of a distributed load of unit amplitude on an element. backwards: the load names the ends
+/// of the piece in the order opposite to the element's direction.
 [[nodiscard]] std::array<double, 2> along_line(const LoadSpec& spec, const element::Axis& axis,
                                                bool backwards);
 

@@ -106,7 +106,7 @@ namespace {
 
 constexpr std::size_t most_pieces = 2000000;  // pieces of histories in all copies together: about 300 MB
 
-/// All motions that each contact acts on, one form per contact.
+/// One form per contact, with all degrees of freedom on which the contact acts.
 std::vector<Combination> reaches(const Model& model) {
   std::vector<Combination> forms;
   for (const Contact& contact : model.contacts) {
@@ -123,7 +123,7 @@ std::size_t pieces_of(const Model& model) {
   return count;
 }
 
-/// Assigns degrees of freedom, contacts and loads to parts, with their numbers there.
+/// Assigns degrees of freedom, contacts and loads to parts, and numbers them within each part.
 class Split {
  public:
   explicit Split(const Model& model) : model_(model), part_of_(model.dofs.size()), place_(model.dofs.size()) {
@@ -196,7 +196,7 @@ class Split {
   const Model& model_;
   std::vector<PartModel> parts_;
   std::vector<std::size_t> part_of_;  // one per degree of freedom
-  std::vector<int> place_;            // its number in its part
+  std::vector<int> place_;            // per degree of freedom: its number in its part
   std::size_t with_contacts_ = 0;
 };
 

@@ -2,8 +2,8 @@
 //
 //   P^T A P = diag(A_1, A_2, ...)   for all given matrices at once; every form acts on one part only
 //
-// A hundred blocks on a floor are a hundred structures: a cost O(n^3) becomes the sum of n_i^3, and a
-// frequency that all parts have in common is found once in each.
+// A scene may have many uncoupled parts (a hundred blocks on a floor). A cost O(n^3) then becomes the sum of n_i^3, and
+// a frequency that all parts have in common is found once in each part.
 //
 //   const Parts parts({&mass, &k}, fixed);
 //   for (const Part& part : parts) use(part.matrix(mass), part.forms(fixed));
@@ -26,8 +26,8 @@ class Part {
   [[nodiscard]] int size() const { return static_cast<int>(dofs().size()); }
   /// The rows and columns of this part, n_i x n_i.
   [[nodiscard]] SparseMatrix matrix(const SparseMatrix& a) const;
-  /// Forms that act on this part, in terms of its own numbers, in their order. A form without terms acts on
-  /// no part.
+  /// Returns the given forms that act on this part, in the same order, with the part's numbers. A form without terms
+  /// acts on no part.
   [[nodiscard]] std::vector<Combination> forms(const std::vector<Combination>& forms) const;
 
  private:
@@ -51,16 +51,16 @@ class Parts {
  private:
   friend class Part;
   std::vector<std::vector<int>> dofs_;
-  std::vector<std::size_t> part_of_;  // one per degree of freedom
+  std::vector<std::size_t> part_of_;  // for each degree of freedom: its part
   std::vector<int> place_in_;         // per degree of freedom: its number in its part
   std::vector<Part> parts_;
 };
 
 /// Groups of forms that act on common degrees of freedom, directly or through other forms. Indices in a group
-/// ascend, and groups are in the order of their first forms. A form without terms is a group of its own.
+/// ascend, and groups are in the order of their first forms. A form without terms is a separate group.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_forms(const std::vector<Combination>& forms);
 
-/// Groups of contacts whose forces are coupled through M, C, K and other contacts; order as in
+/// Groups of contacts whose forces are coupled through M, C, K and other contacts; in the order of
 /// coupled_forms().
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model);
 
@@ -71,7 +71,7 @@ class Parts {
 /// S, n x m, m being the number of indices.
 [[nodiscard]] SparseMatrix selection(const std::vector<int>& indices, int n);
 
-/// S of the degrees of freedom with mass > 0, or of those without.
+/// Selection S of the degrees of freedom with mass > 0, or of those without mass.
 [[nodiscard]] SparseMatrix select_by_mass(const SparseMatrix& mass, bool with_mass);
 
 /// Number of degrees of freedom with mass.
@@ -81,14 +81,14 @@ class Parts {
 //
 //   M, C, K, n_k, t_k:   block by block (parts.hpp);   P_i: restriction of P(t) to block i
 //
-// The contacts of one part are coupled with each other; the last part is everything without contacts. A part
-// has the loads that act on it; loads without effect belong to the first part. Scales, frequencies and
-// factors are those of the whole model, so that decisions are the same as in the whole model.
+// The contacts of one part are coupled with each other; the last part contains everything that is not coupled with a
+// contact. A part has the loads that act on it; loads without effect belong to the first part. A part keeps the
+// scales, frequencies and factors of the whole model, so that a run of the part makes the same decisions.
 
 struct PartModel {
   Model model;            ///< data needed by a run: without outputs, names of other parts and drawing
-  std::vector<int> dofs;  ///< its degrees of freedom in the whole model, ascending
-  std::vector<std::size_t> contacts;  ///< its contacts in the whole model, ascending
+  std::vector<int> dofs;  ///< the part's degrees of freedom, by number in the whole model, ascending
+  std::vector<std::size_t> contacts;  ///< the part's contacts, by index in the whole model, ascending
 };
 
 /// Parts in the order of their first contacts. Empty if all contacts are coupled; if the model is reduced, has rigid

@@ -25,7 +25,7 @@ std::array<double, 2> unit_of(const Plane& v) {
   return length > 0.0 ? Plane{clean[0] / length, clean[1] / length} : Plane{0.0, 0.0};
 }
 
-/// Computes the prestress from forces on the nodes, without those of supports and without internal forces of
+/// Computes the prestress from the forces on the nodes, except the forces of supports and the internal forces of rigid
 /// bodies.
 class PrestressAssembly {
  public:
@@ -33,7 +33,7 @@ class PrestressAssembly {
       : scene_(scene), map_(map), standing_(standing), on_node_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
     for (std::size_t i = 0; i < map.supports.size(); ++i)
       supports_.push_back(motion_of_support(scene, map, static_cast<int>(i)).value(0.0));
-    double weight = 1.0;  // fraction of the load that acts
+    double weight = 1.0;  // fraction of gravity that acts
     std::vector<double> bases;
     for (std::size_t i = 0; i < model.loads.size(); ++i) {
       const Load& load = model.loads[i];
@@ -146,8 +146,8 @@ class PrestressAssembly {
             forces[static_cast<Eigen::Index>(j)];
   }
 
-  /// True for a spring between nodes of one body: it rotates with the body, and its two forces have no
-  /// moment.
+  /// True for a spring between nodes of one body: it rotates with the body, and its two end forces
+  /// have no resultant moment.
   [[nodiscard]] bool is_within_body(const Spring& spring) const {
     return !spring.against.empty() &&
            map_.in_one_body({map_.mesh.by_name.at(spring.node), map_.mesh.by_name.at(spring.against)});
@@ -185,7 +185,7 @@ class PrestressAssembly {
     for (const auto& [name, weight] : at->against) add(name, force, -weight);
   }
 
-  /// Position at which the supports of a body fix component c: x for ux, y for uy; the centre if none does.
+  /// Coordinate at which supports of a body fix component c: x for ux, y for uy. Without such a support: the centre's.
   [[nodiscard]] double origin(std::size_t number, std::size_t c, const Plane& total,
                               const Plane& size) const {
     const RigidBody& body = scene_.rigid[number];
@@ -198,15 +198,15 @@ class PrestressAssembly {
       if (component != c) continue;
       if (held && *held != at(node) && std::abs(total[c]) > no_force * size[c])
         throw SceneError(scene_.run.geometric_place, "run.geometric",
-                         fmt::format("several supports of rigid body '{}' fix its {}, so their reactions, on "
-                                     "which its stiffness depends, are undetermined: expected one of them",
+                         fmt::format("several supports of rigid body '{}' fix its {}, so their reactions are "
+                                     "undetermined, and with them its geometric stiffness; keep only one",
                                      body.name, scene::plane_components[c].displacement));
       if (!held) held = at(node);
     }
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));
   }
 
-  /// sum F . r; reactions are placed at the origin.
+  /// Geometric stiffness sum F . r of a rigid body, with r from origin(); reactions act there and contribute nothing.
   [[nodiscard]] double body(std::size_t number) const {
     const auto owner = static_cast<int>(number);
     const int centre = map_.mesh.by_name.at(scene_.rigid[number].centre);
@@ -233,7 +233,7 @@ class PrestressAssembly {
   const Scene& scene_;
   const DofMap& map_;
   const StaticForces& standing_;
-  std::vector<Plane> on_node_, uniform_;                   // per node; per element: force per length
+  std::vector<Plane> on_node_, uniform_;                   // forces per node; forces per length, per element
   std::vector<double> supports_;                           // positions of moving supports
   std::vector<double> bowls_;                              // per contact: restoring force of a pendulum
   Plane pull_{0.0, 0.0};                                   // acceleration of gravity minus that of the base
@@ -257,8 +257,8 @@ void set_prestress(const Prestress& forces, const Scene& scene, DofMap& map) {
     same = forces.bodies[i].name == scene.rigid[i].name;
   if (!same)
     throw SceneError(scene.initial.place, "run.initial.run",
-                     "the frozen forces of that run (geometric.csv) belong to other members or rigid bodies: "
-                     "expected a run of the same structure");
+                     "the prestress of the saved run (geometric.csv) belongs to other members or rigid "
+                     "bodies: expected a run of the same structure");
   map.body_stiffness.clear();
   for (const Prestress::Body& body : forces.bodies) map.body_stiffness.push_back(body.stiffness);
   map.axial_forces.clear();

@@ -138,10 +138,10 @@ void check_stiffness_range(const Scene& scene, const DofMap& map) {
   const bool too_stiff = std::abs(std::log(high.value)) > std::abs(std::log(low.value));
   const Stiffness &odd = too_stiff ? high : low, &other = too_stiff ? low : high;
   throw SceneError(odd.place, odd.key,
-                   fmt::format("found {:.4g} as {}, beside {:.4g} as {}: above a ratio of {:.3g} squares of "
+                   fmt::format("found {:.4g} as {}, and {:.4g} as {}: with a ratio above {:.3g}, squares of "
                                "frequencies leave the range of doubles; expected {}",
                                odd.value, odd.what, other.value, other.what, widest,
-                               too_stiff ? "less, or a rigid body" : "more"));
+                               too_stiff ? "a smaller value, or a rigid body" : "a larger value"));
 }
 
 }  // namespace signorini::assembly

@@ -21,13 +21,13 @@ struct LineSpring {
 /// K plus the stiffness of the springs.
 [[nodiscard]] SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs);
 
-/// Springs of all contacts, as if closed and sticking.
+/// Springs of all contacts, as if all of them were closed and sticking.
 [[nodiscard]] std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts);
 
 /// The form as a full vector of length n.
 [[nodiscard]] Vector dense_vector(const Combination& form, int n);
 
-/// |x|^T |K| |x|: magnitude of the terms of x^T K x; its rounding error is this times machine epsilon.
+/// |x|^T |K| |x|: magnitude of the terms of x^T K x. The rounding error of x^T K x is this magnitude times eps.
 [[nodiscard]] double term_magnitude(const SparseMatrix& k, const Vector& x);
 
 /// L D L^T of a symmetric sparse matrix, with a fill-reducing order.
@@ -41,7 +41,7 @@ class SymmetricSolver {
   /// False if a pivot is exactly zero.
   [[nodiscard]] bool ok() const;
   [[nodiscard]] Vector solve(const Vector& b) const;
-  /// The smallest pivot.
+  /// The smallest pivot; 0 without pivots.
   [[nodiscard]] double smallest_pivot() const;
   /// Smallest ratio of a pivot to its diagonal entry; independent of the units of the rows.
   [[nodiscard]] double smallest_pivot_ratio() const;
@@ -73,10 +73,10 @@ class CholeskyFactor {
 //
 //   k_max / k_min <= sqrt(greatest double) = 1.34e154,   k: EA/L, EI/L^3, springs, contacts [force/length]
 //
-// Energies and Rayleigh quotients contain ratios k^2 / k'^2; beyond this limit they overflow or underflow in
-// any units. Such a stiffness is a typing error, or stands for a rigid body or for no member at all.
+// Energies and Rayleigh quotients contain ratios k^2 / k'^2, which beyond this limit overflow or underflow in
+// any units. Such a stiffness is a typing error, or is meant as a rigid body or as a missing member.
 
-/// Errors: SceneError at the member, spring or contact whose stiffness has the larger exponent in magnitude.
+/// Errors: SceneError at the stiffest or the softest part, whichever stiffness is farther from 1 on a logarithmic scale.
 void check_stiffness_range(const Scene& scene, const DofMap& map);
 
 }  // namespace signorini::assembly

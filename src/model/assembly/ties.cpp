@@ -14,13 +14,13 @@ namespace {
 
 std::size_t place_of_node(int i) { return static_cast<std::size_t>(i); }
 
-/// Coordinate across a component: y of the node for ux, x for uy.
+/// Coordinate perpendicular to a component: y of the node for ux, x for uy.
 double across(const DofMap& map, int node, std::size_t c) {
   const element::MeshNode& at = map.mesh.nodes[place_of_node(node)];
   return c == 0 ? at.y : at.x;
 }
 
-/// a - b; zero within the rounding of coordinates that are meant to be equal.
+/// a - b; zero if the difference is within the rounding of coordinates that are meant to be equal.
 double arm_between(double a, double b) {
   const double d = a - b;
   return std::abs(d) <= rounding::few_operations * (std::abs(a) + std::abs(b)) ? 0.0 : d;
@@ -54,8 +54,8 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
                    fmt::format("node '{}' is part of rigid body '{}': {}", s.node, body.name, why));
 }
 
-/// Adds one support to the constraints of the body; `turn` is set if it fixes rz together with another
-/// support.
+/// Adds one support to the constraints of the body; sets `turn` if this support and an earlier one together
+/// fix rz.
 void add_body_constraint(const Scene& scene, const RigidBody& body, const BodyConstraint& hold, std::size_t c,
                          BodyMotion& motion, std::optional<BodyConstraint>& turn) {
   std::optional<BodyConstraint>& before = motion.constraints[c];
@@ -95,7 +95,7 @@ void find_body_constraints(const Scene& scene, const RigidBody& body, int number
   motion.constraints[2] = turn;
 }
 
-/// Terms of component c of a body's node.
+/// Motion of a body's node along component c, as terms of the free motions of the body and of moving supports.
 std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, const DofMap& map) {
   std::vector<TiedTerm> terms;
   const auto add = [&](std::size_t of, double factor) {
@@ -115,7 +115,7 @@ std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, 
 void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map) {
   int& moving = map.moving[place_of_node(node)][c];
   std::vector<TiedTerm> terms = terms_of(body, node, c, map);
-  // A node at the support follows it exactly; with an arm the motion also contains a rotation.
+  // A node without an arm follows the support exactly; with an arm, its motion also contains a rotation.
   const bool follows = body.constraints[c] && body.constraints[c]->moving >= 0 && terms.size() == 1;
   moving = follows ? DofMap::support_of_code(terms[0].number) : DofMap::absent;
   if (terms.empty() || follows) {
@@ -263,7 +263,7 @@ namespace {
                                map.mesh.node(tie.node).name, why));
 }
 
-/// Terms of component c that a tied node follows; terms that cancel to rounding are left out.
+/// Motion of a tied node along component c, as terms of master motions; terms that cancel up to rounding are omitted.
 std::vector<TiedTerm> followed(const TieSpec& tie, std::size_t c, const DofMap& map) {
   struct Sum {
     TiedTerm term;

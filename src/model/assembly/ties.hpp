@@ -3,15 +3,15 @@
 //
 //   ux_P = ux_C - rz (y_P - y_C),   uy_P = uy_C + rz (x_P - x_C),   rz_P = rz_C          u = T q
 //
-// q contains the degrees of freedom of the centre C instead of those of the nodes P: M = T^T M_full T, and
+// q contains the degrees of freedom of the centre C, but none of the nodes P: M = T^T M_full T, and
 // likewise K, C, loads and the forms of contacts. A support at any node of a body removes a degree of freedom
 // from q. With A supported in x and B in y,
 //
 //   ux_P = -rz (y_P - y_A),   uy_P = rz (x_P - x_B),
 //
 // Two nodes supported in x at different heights, or in y at different x, also fix rz. A moving support
-// contributes its motion, s - rz (y_P - y_A). All motions of a body that are no degrees of freedom are tied,
-// also those of the centre.
+// contributes its motion, s - rz (y_P - y_A). All motions of a body that are not degrees of freedom are tied,
+// including those of the centre.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@
 
 namespace signorini::assembly {
 
-/// A component of a body's motion that a support fixes, with the coordinate across it.
+/// A component of a body's motion that a support fixes, with the coordinate perpendicular to the component.
 struct BodyConstraint {
   double coordinate = 0.0;            ///< coordinate of the supported node: y for ux, x for uy
   int moving = DofMap::absent;        ///< index into DofMap::supports
@@ -32,7 +32,7 @@ struct BodyConstraint {
 struct BodyMotion {
   int centre = 0;                                            ///< mesh node
   std::vector<int> nodes;                                    ///< all nodes, the centre first
-  std::array<std::optional<BodyConstraint>, 3> constraints;  ///< ux, uy, rz
+  std::array<std::optional<BodyConstraint>, 3> constraints;  ///< ux, uy, rz; nullopt: free
 };
 
 /// Sets DofMap::body, and marks the free components of the centres as needed, all other components of bodies as absent.
@@ -52,7 +52,7 @@ struct Elongation {
   Vector factors;
 };
 
-/// A form that is the sum of motions with given numbers; coefficients that are zero up to rounding become
+/// A form that is the sum of motions with given numbers. Coefficients that are zero up to rounding are set to
 /// zero.
 class TiedForm {
  public:
@@ -79,7 +79,7 @@ class TiedForm {
 struct TiedElement {
   TiedElement(const DofMap& map, const int* numbers, std::size_t count);
   std::vector<int> numbers;  ///< degrees of freedom, codes of moving supports
-  Eigen::MatrixXd t;         ///< count x numbers
+  Eigen::MatrixXd t;         ///< T, size: number of the element's unknowns x numbers.size()
 
   /// T^T A T for symmetric A, bitwise symmetric; entries that are zero up to rounding become zero.
   [[nodiscard]] Eigen::MatrixXd transform(const Eigen::MatrixXd& a) const;
@@ -88,7 +88,7 @@ struct TiedElement {
 /// True if one of these numbers is tied.
 [[nodiscard]] bool any_tied(const DofMap& map, const int* numbers, std::size_t count);
 
-/// Sets Model::ties. The model's degrees of freedom must be those of the map.
+/// Sets Model::ties. The model must have the degrees of freedom of the map.
 void add_ties(const Scene& scene, const DofMap& map, Model& model);
 /// Recomputes Ties::dofs, after a reduction or after sliding points were added.
 void name_tied_dofs(const DofMap& map, Model& model);

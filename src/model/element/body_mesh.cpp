@@ -46,12 +46,12 @@ class MassMover {
     }
     throw SceneError(
         body_.place, fmt::format("bodies.{}", body_.name),
-        fmt::format("the mass of node '{}' cannot be moved: near it there are no nodes with mass that do not "
-                    "lie on one line; contact_mass = \"none\" needs a finer mesh",
+        fmt::format("the mass of node '{}' cannot be moved: it needs three nearby nodes with mass that are "
+                    "not on one line; use a finer mesh, or leave contact_mass = \"none\" out",
                     mesh_.node(node).name));
   }
 
-  /// Least-norm w with A w = (1, 0, 0), rows of A: 1, x - x_b, y - y_b; empty if A is rank deficient.
+  /// Least-norm w with A w = (1, 0, 0), where A has the rows 1, x - x_b, y - y_b; empty if A is rank deficient.
   [[nodiscard]] Shares weights_of(int node, const std::vector<int>& near) const {
     const MeshNode& at = mesh_.node(node);
     Eigen::MatrixXd a(3, static_cast<Eigen::Index>(near.size()));
@@ -63,7 +63,7 @@ class MassMover {
     }
     a.bottomRows<2>() /= size;
     const Eigen::Matrix3d square = a * a.transpose();
-    // Relative to the largest distance; flatter sets of nodes would have weights of some thousands.
+    // Coordinates are divided by the largest distance. Nodes closer to one line would have weights of some thousands.
     constexpr double flat = 1e-6;
     if (square.determinant() <= flat) return {};
     const Eigen::VectorXd w = a.transpose() * (square.inverse() * Eigen::Vector3d(1.0, 0.0, 0.0));

@@ -4,8 +4,8 @@
 //   M' = W^T M W
 //
 // W reproduces every rigid-body motion, so M' has the total mass, centre and inertia of M, and zero rows at b. The
-// weights have the least sum w^2 over the nodes with mass of the elements at b; if those are collinear, also over their
-// neighbours.
+// weights w_bi minimise sum w^2 over the nodes with mass of the elements at b; if these nodes are collinear, nodes of
+// neighbouring elements are added.
 #pragma once
 
 #include "model/element/mesh.hpp"
@@ -16,7 +16,7 @@ namespace signorini::element {
 /// The material of a body's elements.
 [[nodiscard]] PlaneMaterial material_of(const BodySpec& body);
 
-/// Appends the elements of a body, an index into Scene::bodies. Errors: SceneError.
+/// Appends the elements of body `number` of Scene::bodies. Errors: SceneError if the mass of a node cannot be moved.
 void mesh_body(Mesh& mesh, const Scene& scene, std::size_t number);
 
 }  // namespace signorini::element

@@ -51,12 +51,12 @@ std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const
   const double dx = b.x - a.x, dy = b.y - a.y;
   if (!member.bend) return {a.x + s * dx, a.y + s * dy};
   const double length = std::hypot(dx, dy), radius = std::abs(member.bend->radius);
-  // Near a half circle, asin would amplify rounding of the nodes to its square root.
+  // Near a half circle, asin would amplify a rounding error of the node coordinates to its square root.
   const double sine = 0.5 * length / radius;
   const double half = sine < 1.0 - rounding::many_operations ? std::asin(sine) : 0.5 * std::numbers::pi;
   const double turn = (2.0 * s - 1.0) * half;
   const double along = 0.5 + radius * std::sin(turn) / length;
-  // cos turn - cos half
+  // cos turn - cos half, without cancellation
   const double rise = 2.0 * std::sin(0.5 * (half + turn)) * std::sin(0.5 * (half - turn));
   const double out = (member.bend->radius > 0.0 ? radius : -radius) * rise / length;
   return {a.x + along * dx + out * dy, a.y + along * dy - out * dx};

@@ -9,8 +9,8 @@ struct ElementKind {
   MemberType type;
   /// Appends the nodes and elements of a member, an index into Scene::members. Errors: SceneError.
   void (*generate)(Mesh& mesh, const Scene& scene, std::size_t member);
-  bool bends = false;   ///< its lines are drawn as cubics
-  bool closed = false;  ///< a line joins its last node to its first
+  bool bends = false;   ///< lines of the member are drawn as cubics
+  bool closed = false;  ///< a line joins the member's last node to its first
 };
 
 [[nodiscard]] const ElementKind& kind_of(MemberType type);
@@ -30,7 +30,7 @@ void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number);
 /// True if the member's end at this node, an index into Member::nodes, is hinged; false for inner nodes.
 [[nodiscard]] bool is_hinged(const Member& member, std::size_t node);
 
-/// The section of a member of the mesh.
+/// The section that the member names; it must exist.
 [[nodiscard]] const Section& section_of(const Scene& scene, const Member& member);
 
 }  // namespace signorini::element

@@ -9,9 +9,9 @@
 // With axial prestress (run.geometric) N v' is added to V, which is normal to the deformed axis, so that
 // V = dM/dx.
 //
-// Loads between the ends are the distributed load q and, with a consistent mass, -rho times the acceleration,
-// interpolated like the element's displacements: linear along the line (for a bar also across it), cubic across. A
-// lumped mass is at the ends: N and V jump at the nodes, and there is no inertia between them.
+// Loads between the ends are the distributed load q and, with a consistent mass, -rho times the acceleration. The
+// acceleration is interpolated like displacements: linear along the line (for a bar also across), cubic across. A
+// lumped mass is at the ends: N and V jump at the nodes, and no inertia acts between them.
 //
 //   distributed:  q_x L/2, q_y L/2 at both ends, and for beams +- q_across L^2/12 as moments
 //   strain:  EA strain (-e, e), e along it
@@ -42,8 +42,8 @@ struct LineData {
 struct LineShapes {
   double a = 0.0, rotation_a = 0.0, b = 0.0, rotation_b = 0.0;
 };
-/// Transverse displacement at a position of a beam of length 1, by its end rotations; hinged ends rotate so that they
-/// carry no moment.
+/// Transverse displacement at the position `part`, 0 to 1, of a beam of length 1, as factors of the displacements and
+/// rotations of its ends. Hinged ends rotate so that they carry no moment.
 [[nodiscard]] LineShapes hermite_shapes(double part, bool hinged_a = false, bool hinged_b = false);
 
 class LineElement : public FiniteElement {
@@ -67,15 +67,15 @@ class LineElement : public FiniteElement {
  protected:
   using Ends = Eigen::Matrix<double, 6, 1>;  // ux, uy, rz at a and b
 
-  /// Drops the rotations that the element does not have.
+  /// Values at the ends, without rotations that are not unknowns of the element.
   [[nodiscard]] ElementVector restrict_to_unknowns(const Ends& ends) const;
-  /// Elongation of the line.
+  /// Elongation of the line by a motion of the unknowns.
   [[nodiscard]] double elongation(const ElementVector& motion) const;
 
-  /// Transverse displacement, integrated once and twice up to a position.
+  /// Factors of the end motions in the transverse displacement, integrated once and twice from a to a position.
   [[nodiscard]] virtual LineShapes deflection_integral(double part) const = 0;
   [[nodiscard]] virtual LineShapes deflection_double_integral(double part) const = 0;
-  /// v' at a position along the length.
+  /// Factors of the unknowns in the slope v' at a position along the length.
   [[nodiscard]] virtual Ends slope(double part) const = 0;
 
  private:
@@ -84,7 +84,7 @@ class LineElement : public FiniteElement {
   LineData data_;
 };
 
-/// Linear shape functions, integrated once and twice.
+/// Linear shape functions, integrated once and twice from a to a position (`part` of the length).
 [[nodiscard]] LineShapes linear_integral(double length, double part);
 [[nodiscard]] LineShapes linear_double_integral(double length, double part);
 
@@ -142,8 +142,8 @@ class BeamElement final : public LineElement {
 /// Stiffness of a bar that spans (dx, dy); force per length.
 [[nodiscard]] BeamMatrix bar_stiffness(double dx, double dy, double ea);
 
-/// Geometric stiffness of a bar that spans (dx, dy) under an axial force, tension positive: that of a string, N/L
-/// across it. For a force that varies linearly from a to b the mean is used.
+/// Geometric stiffness of a bar that spans (dx, dy) under an axial force, tension positive: N/L across the bar, as for a
+/// string. If the force varies linearly from a to b, its mean is used.
 [[nodiscard]] BeamMatrix bar_geometric_stiffness(double dx, double dy, double force_a, double force_b);
 
 /// Mass matrix of a bar that spans (dx, dy).

@@ -14,28 +14,28 @@ namespace signorini::element {
 struct MeshNode {
   std::string name;
   double x = 0.0, y = 0.0;  ///< length
-  bool listed = true;       ///< it has columns in history.csv; false inside a body's mesh
+  bool listed = true;       ///< true: the node has columns in history.csv; false inside a body's mesh
 };
 
 /// Mass of an element that is moved to other nodes: its mass matrix becomes weights^T m weights
 /// (body_mesh.hpp).
 struct MovedMass {
   std::vector<int> nodes;   ///< nodes of the mesh, two unknowns each
-  Eigen::MatrixXd weights;  ///< W: unknowns of the element x (2 nodes)
+  Eigen::MatrixXd weights;  ///< W, size: unknowns of the element x 2 nodes.size()
 };
 
-/// A piece of a member of bars or beams between two named nodes; an arc has inner nodes, its elements are chords.
+/// A piece of a member of bars or beams between two named nodes. An arc has inner nodes; its elements are chords.
 struct MeshPiece {
   int from = 0, to = 0;
-  std::size_t first = 0, count = 0;  ///< range of its elements, all of them lines
+  std::size_t first = 0, count = 0;  ///< indices of its elements, which all are LineElement
 };
 
 struct Mesh {
   std::vector<MeshNode> nodes;
   std::vector<std::shared_ptr<const FiniteElement>> elements;
   std::vector<MeshPiece> pieces;
-  std::unordered_map<std::size_t, MovedMass> moved;  ///< by element, with contact_mass = "none"
-  int named = 0;                                     ///< the first `named` nodes are those of the file
+  std::unordered_map<std::size_t, MovedMass> moved;  ///< by element index; only with contact_mass = "none"
+  int named = 0;                                     ///< the first `named` nodes are those of Scene::nodes
   std::unordered_map<std::string, int> by_name;      ///< indices of named nodes
 
   [[nodiscard]] const FiniteElement& element(std::size_t i) const { return *elements[i]; }

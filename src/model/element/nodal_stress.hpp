@@ -3,12 +3,12 @@
 //   sigma(x_k) = sum_j c_j sigma(x_j),   sum_j c_j q(x_j) = q(x_k) for 1, x, y (t3, q4), x^2, x y, y^2 too (t6, q8)
 //   c: least norm; this equals evaluating the least-squares polynomial through the sigma(x_j)
 //
-// sigma = (sigma_x, sigma_y, tau_xy), tension positive, force/length^2. x_j: the points of the elements around node k
-// at which their stresses are most accurate (plane_element.hpp). If they do not determine the polynomial, or if it
+// sigma = (sigma_x, sigma_y, tau_xy), tension positive, force/length^2. x_j: points of the elements around node k at which
+// the stresses are most accurate (plane_element.hpp). If these points do not determine the polynomial, or if the polynomial
 // would be extrapolated, as at a boundary, the elements around a neighbouring node are used: the neighbour with the
-// smallest sum |c_j|, the growth of errors at the points. If there is no suitable one (a strip of one element across),
-// the stress is the area-weighted mean over the elements at the node of the (bi)linear function in each.
-// Stresses at boundaries thus have the same order as those inside. Jumps between elements, a measure of the mesh error,
+// smallest sum |c_j|, which measures how errors at the points grow. If no neighbour is suitable (a strip of one element
+// across), the stress is the area-weighted mean of the (bi)linear functions in the elements at the node.
+// Stresses at boundaries thus have the same order of error as inside. Jumps between elements, a measure of the mesh error,
 // are smoothed.
 // Source: Zienkiewicz, Zhu, Int. J. Num. Meth. Eng. 33 (1992), 1331, with one patch per node.
 #pragma once
@@ -21,18 +21,18 @@
 
 namespace signorini::element {
 
-/// Factors of ux, uy of a node in the stresses.
+/// Factors of ux and uy of one node in the stresses.
 struct StressTerm {
   int node = 0;  ///< node of the mesh
   Eigen::Matrix<double, 3, 2> rows;
 };
 
-/// Stresses at a node of a body, an index into Scene::bodies, without thermal stresses.
+/// Stresses at mesh node `node` of body `body` of Scene::bodies, without thermal stresses.
 [[nodiscard]] std::vector<StressTerm> stress_at_node(const Mesh& mesh, const Scene& scene, std::size_t body,
                                                      int node);
 
-/// Stresses at all nodes of a body: rows 3 k to 3 k + 2 for its node k, columns 2 l and 2 l + 1 for ux and uy of its
-/// node l.
+/// Stresses at all nodes of a body. Rows 3 k to 3 k + 2 belong to the body's node k, columns 2 l and 2 l + 1 to ux and uy
+/// of the body's node l.
 [[nodiscard]] Eigen::SparseMatrix<double, Eigen::RowMajor> nodal_stresses(const Mesh& mesh,
                                                                           const Scene& scene,
                                                                           std::size_t body);

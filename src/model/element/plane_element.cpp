@@ -48,7 +48,7 @@ std::vector<ElementUnknown> PlaneElement::unknowns() const {
 }
 
 Eigen::Matrix2d PlaneElement::jacobian(const Eigen::MatrixX2d& slopes) const {
-  Eigen::Matrix2d j = Eigen::Matrix2d::Zero();  // d(x, y) by (a, b)
+  Eigen::Matrix2d j = Eigen::Matrix2d::Zero();  // d(x, y) / d(a, b)
   for (std::size_t k = 0; k < at_.size(); ++k)
     j += Eigen::Vector2d(at_[k][0], at_[k][1]) * slopes.row(static_cast<Eigen::Index>(k));
   return j;
@@ -76,7 +76,7 @@ Eigen::Matrix<double, 3, 4> PlaneElement::incompatible_rows(double a, double b, 
   return rows;
 }
 
-/// Amplitudes of the incompatible modes by the unknowns: 4 x unknowns; empty except for q4.
+/// Amplitudes of the incompatible modes per unit of each unknown: 4 x unknowns. Only for q4.
 Eigen::MatrixXd PlaneElement::incompatible_motion() const {
   const Eigen::Matrix3d D = material_.elasticity_matrix();
   Eigen::Matrix4d inner = Eigen::Matrix4d::Zero();
@@ -105,7 +105,7 @@ ElementMatrix PlaneElement::stiffness() const {
   return 0.5 * (k + k.transpose());
 }
 
-/// Mass matrix for one direction.
+/// Mass matrix of the motions in one direction, x or y: nodes x nodes.
 Eigen::MatrixXd PlaneElement::mass_of_nodes() const {
   const auto n = static_cast<Eigen::Index>(at_.size());
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
@@ -140,7 +140,7 @@ ElementVector PlaneElement::load_vector(const PlaneVector& load) const {
   return forces;
 }
 
-/// Incompatible modes do no work in a constant stress.
+/// Incompatible modes are omitted, because they do no work in a constant stress.
 double PlaneElement::strain_work(const ElementVector& motion) const {
   const Eigen::Vector3d stress = material_.elasticity_matrix() * material_.thermal_strain();
   double work = 0.0;

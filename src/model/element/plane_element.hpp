@@ -5,13 +5,13 @@
 //   plane stress  D = E/(1 - nu^2) [1 nu 0; nu 1 0; 0 0 (1 - nu)/2],             e = (1, 1, 0)
 //   plane strain  D = E/((1 + nu)(1 - 2 nu)) [1 - nu, nu, 0; nu, 1 - nu, 0; 0 0 (1 - 2 nu)/2],  e = (1 + nu)(1, 1, 0)
 //
-// q4 has two incompatible modes, 1 - a^2 and 1 - b^2, each for ux and uy (QM6). Their derivatives by x, y use the
-// Jacobian at the element's centre and det J_0 / det J, so they do no work in a constant stress, and distorted patches
-// are exact. They have no mass and are eliminated in the element.
+// q4 has two incompatible modes, 1 - a^2 and 1 - b^2, each for ux and uy (QM6). The derivatives of these modes by x, y use
+// the Jacobian at the element's centre and det J_0 / det J. The modes therefore do no work in a constant stress, and
+// distorted patches are exact. The modes have no mass and are eliminated in the element.
 // A lumped mass: row sums for t3 and q4; for t6 and q8 the diagonal, scaled to the total mass, so that no entry is
 // negative.
-// Stresses are evaluated at Barlow's points and extrapolated to the nodes; their error there has nearly the order of
-// the displacements, one better than that of direct strains.
+// Stresses are evaluated at Barlow's points and extrapolated to the nodes. The error of these stresses has nearly the
+// order of the displacement error, one order better than that of strains evaluated at the nodes.
 // Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth.
 // Eng. 10 (1976) 1211; Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4 (1976) 245.
 #pragma once
@@ -55,7 +55,7 @@ class PlaneElement final : public FiniteElement {
     Eigen::MatrixXd rows;  ///< rows of stress_rows()
   };
   [[nodiscard]] std::vector<StressSample> stress_samples() const;
-  /// Stresses at its nodes, rows 3 k to 3 k + 2 for node k, extrapolated from the points of highest accuracy. t3:
+  /// Stresses at the nodes, rows 3 k to 3 k + 2 for node k, extrapolated from the points of highest accuracy. t3:
   /// constant; t6: linear through 3 points; q4, q8: bilinear through 2 x 2.
   [[nodiscard]] Eigen::MatrixXd nodal_stress_rows() const;
 

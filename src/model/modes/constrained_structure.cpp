@@ -8,7 +8,7 @@
 namespace signorini::modes {
 namespace {
 
-// Relative to the largest compliance: below it, another contact already fixes the motion.
+// Compliances below this fraction of the largest one belong to motions that another contact already fixes.
 constexpr double fixed_twice = 1e-12;
 
 }  // namespace
@@ -47,7 +47,7 @@ ConstrainedStructure::ConstrainedStructure(const SparseMatrix& k, const std::vec
       force(block.dofs) = block.t.col(j);
       kt.col(j) = solver_.solve(force)(block.dofs);
     }
-    // Two contacts may fix the same motion: the pseudo-inverse counts it once.
+    // Several contacts may fix the same motion; the pseudo-inverse ignores the redundant constraints.
     const base::EigenPairs g = base::symmetric_eigen(block.t.transpose() * kt);
     Eigen::VectorXd inverse = g.values;
     const double greatest = inverse[inverse.size() - 1];

@@ -2,8 +2,8 @@
 //
 //   K u + T r = b,   T^T u = 0
 //
-// K: n x n, springs included, without null motions that respect T^T u = 0; T: n x m, fixed forms. Springs along T make
-// K regular and do not change u.
+// K: n x n, springs included; u = 0 is the only motion with K u = 0 and T^T u = 0. T: n x m, fixed forms. Springs along T
+// make K regular and do not change u.
 #pragma once
 
 #include <vector>
@@ -17,11 +17,11 @@ class ConstrainedStructure {
   ConstrainedStructure(const SparseMatrix& k, const std::vector<Combination>& fixed);
 
   [[nodiscard]] Vector solve(const Vector& b) const;
-  /// True: K with the springs along T is positive definite, and so is K on the motions with T^T u = 0.
+  /// True if K with the springs along T is positive definite; K is then positive definite on motions with T^T u = 0.
   [[nodiscard]] bool definite() const { return solver_.ok() && solver_.smallest_pivot() > 0.0; }
 
  private:
-  /// The forms that act on one part of the structure: T on it, and K^-1 T (T^T K^-1 T)^-1.
+  /// One part of the structure: t = T of the forms on this part, correction = K^-1 T (T^T K^-1 T)^-1.
   struct ConstraintBlock {
     std::vector<int> dofs;
     Eigen::MatrixXd t, correction;
@@ -34,8 +34,7 @@ class ConstrainedStructure {
 [[nodiscard]] SparseMatrix with_constraint_springs(const SparseMatrix& k,
                                                    const std::vector<Combination>& forms);
 
-/// Q^T A Q for symmetric A, without entries below the rounding of their terms: such an entry is nothing but
-/// rounding.
+/// Q^T A Q for symmetric A. Entries below the rounding error of their terms are omitted.
 [[nodiscard]] SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q);
 
 /// The forms as columns, n x m.

@@ -15,14 +15,17 @@
 namespace signorini::modes {
 namespace {
 
-constexpr double without_mass = 1e-12;  // relative to the largest inertia of a rigid-body motion of size 1
-// Relative to the largest 1/omega^2: rounding for a motion without mass.
+// Null motions whose inertia is below this fraction of the largest one have no mass.
+constexpr double without_mass = 1e-12;
+// Values 1/omega^2 below this fraction of the largest one are rounding errors of motions without mass.
 constexpr double hardly_any = 1e-13;
-constexpr double no_part = 1e-9;  // relative to a motion's largest entry
-// Relative to the largest K_ii/M_ii: free motions keep half of the digits.
+constexpr double no_part = 1e-9;  // smaller entries of a motion, relative to its largest, are zero
+// Shift for free motions, relative to the largest K_ii/M_ii: half of the digits remain.
 constexpr double shift_of_free = 1e-8;
-constexpr double still_near = 1e-11;  // relative change of omega^2 per round, while shifts approach it
-constexpr double still_high = 1e-12, still_each = 1e-9;  // without shifts: relative to the largest; to each
+// Converged with shifts: relative change of omega^2 in one round.
+constexpr double still_near = 1e-11;
+// Converged without shifts: change in one round, relative to the largest value, and to each value.
+constexpr double still_high = 1e-12, still_each = 1e-9;
 
 NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
                     const SparseMatrix& damping) {
@@ -30,10 +33,10 @@ NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& 
   return {omega, m > 0.0 ? x.dot(damping * x) / (2.0 * omega * m) : 0.0};
 }
 
-/// The null motions of K, in a basis in which each has mass or has none.
+/// The null motions of K. The basis is chosen so that each motion either has mass or has none.
 struct FreeMotions {
   Eigen::MatrixXd heavy, massless;
-  int unstable = 0;  ///< number of unstable ones among the heavy ones
+  int unstable = 0;  ///< number of unstable motions in `heavy`
 };
 
 int count_unstable(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
@@ -57,8 +60,8 @@ FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
   return {heavy, null * pairs.vectors.leftCols(without), count_unstable(k, heavy)};
 }
 
-/// Number of motions with mass if the forms F are fixed: n - rank F - number of massless motions that respect
-/// F.
+/// Number of motions with mass if the forms F are fixed: degrees of freedom with mass - rank F + rank of F on the
+/// massless degrees of freedom.
 int motions_with_mass(const SparseMatrix& mass, const std::vector<Combination>& fixed) {
   const int heavy = assembly::degrees_with_mass(mass);
   if (fixed.empty()) return heavy;
@@ -99,7 +102,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   if (rest.cols() == 0) return result;
   const base::EigenPairs pairs =
       base::generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
-  // All further modes have no mass; their values are rounding.
+  // Modes beyond this number have no mass; their values are rounding errors.
   const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
   count = std::min(count, with_mass);
   for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
@@ -125,8 +128,8 @@ SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motion
 }
 
 /// Shifted inverse iteration with a subspace. The lowest frequencies of long structures are so close together
-/// (a chain of n masses on springs: 1/n^2 of their size) that K^-1 hardly separates them. Once rough values
-/// are known, a shift just below the lowest one separates them.
+/// (a chain of n masses on springs: relative distance 1/n^2) that K^-1 hardly separates them. Once rough values
+/// are known, a shift just below the lowest frequency separates them.
 class Subspace {
  public:
   Subspace(const SparseMatrix& k, const SparseMatrix& mass, const std::vector<Combination>& fixed,
@@ -153,7 +156,7 @@ class Subspace {
   }
   /// 1 / (omega^2 + shift), ascending: the lowest frequencies last.
   [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
-  /// The motions, in the same order.
+  /// The motions, in the order of values().
   [[nodiscard]] const Eigen::MatrixXd& motions() const { return x_; }
   /// The `wanted` lowest omega^2, the smallest one last.
   [[nodiscard]] Eigen::VectorXd squares(Eigen::Index wanted) const {
@@ -164,14 +167,14 @@ class Subspace {
     const Vector lowest = x_.col(x_.cols() - 1);
     return rounding::eps * assembly::term_magnitude(k_, lowest) / lowest.dot(mass_ * lowest);
   }
-  /// Moves the shift to just below the lowest omega^2, by about the spacing of the wanted ones.
+  /// Moves the shift to just below the lowest omega^2; distance: about the spacing of the `wanted` lowest ones.
   void approach(Eigen::Index wanted) {
     const Eigen::VectorXd found = squares(wanted);
     const double lowest = found[wanted - 1];
     double gap = std::max(found[0] - lowest, 1e4 * noise());
     for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
       ConstrainedStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
-      if (!closer.definite()) continue;  // the error of the Ritz values exceeds the distance of the shift
+      if (!closer.definite()) continue;  // the shift is closer than the error of the Ritz values
       shift_ = gap - lowest;
       solver_ = std::move(closer);
       return;
@@ -263,7 +266,7 @@ namespace {
 constexpr double nearest = 1e-9, farthest = 1e-5;  // relative, of omega^2: range of alternative shifts
 constexpr double accurate = 1e-6;  // backward error of a factorisation whose pivot signs are reliable
 
-/// Pivots are not chosen by size, so an unlucky shift may lose all digits; a trial solution detects this.
+/// Checks a factorisation by a trial solution: pivots are not chosen by size, so an unlucky shift may lose all digits.
 bool is_accurate(const assembly::SymmetricSolver& solver, const SparseMatrix& a) {
   if (!solver.ok()) return false;
   const Vector b = a.diagonal().cwiseAbs();

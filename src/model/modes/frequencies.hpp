@@ -23,8 +23,8 @@ struct NaturalMode {
 
 struct Frequencies {
   int free_motions = 0;            ///< modes with omega = 0, and unstable ones
-  int unstable = 0;                ///< unstable ones among them: omega^2 < 0
-  std::vector<NaturalMode> modes;  ///< ascending, the first ones with omega > 0
+  int unstable = 0;                ///< number of unstable modes among the free motions: omega^2 < 0
+  std::vector<NaturalMode> modes;  ///< the lowest modes with omega > 0, ascending
 };
 
 /// The `count` lowest modes with omega > 0. Shapes: n x n matrices, both triangles stored.
@@ -42,8 +42,8 @@ struct Frequencies {
 // Sylvester's law of inertia. Massless degrees of freedom, on which K is positive definite, contribute no negative
 // pivots. Source: Bathe, Finite Element Procedures, section 11.4 (Sturm sequence check).
 
-/// Number of modes with omega^2 < square, by multiplicity, free motions included. square = s > 0. If K - s M
-/// is singular up to rounding, modes up to s (1 + 1e-5) are counted. -1: no factorisation near s is accurate.
+/// Number of modes with omega^2 < s, where s = `square` > 0; repeated modes and free motions are included. If K - s M
+/// is singular up to rounding, modes up to s (1 + 1e-5) are counted. Returns -1 if no factorisation near s is accurate.
 [[nodiscard]] int count_modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square);
 
 }  // namespace signorini::modes

@@ -92,9 +92,9 @@ base::EigenPairs shift_invert_modes(int count, int width, const SparseMatrix& ma
 
 namespace {
 
-constexpr double nothing_new = 1e-20;  // relative, of a square: ten of sixteen digits are lost
+constexpr double nothing_new = 1e-20;  // relative square of a norm: ten of sixteen digits are lost
 constexpr double vector_tolerance =
-    1e-8;  // residual of a Ritz vector; the error of its omega^2 is its square
+    1e-8;  // residual of a Ritz vector; the error of omega^2 is the square of this value
 constexpr int widest_block = 100;
 constexpr int most_rounds = 50;
 
@@ -122,8 +122,8 @@ base::EigenPairs join(const base::EigenPairs& a, const base::EigenPairs& b) {
   return both;
 }
 
-/// Modes that a single start vector finds. Free motions are removed from each solution; rounding would otherwise make
-/// them dominate.
+/// Modes that a single start vector finds. Free motions are removed from each solution, because rounding errors would
+/// otherwise make them dominate.
 base::EigenPairs lanczos(int count, const assembly::SymmetricSolver& solver, const SparseMatrix& mass,
                          const Eigen::MatrixXd& free, double shift, int heavies) {
   const Eigen::MatrixXd inertia = mass * free;

@@ -31,16 +31,16 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 //   K phi = omega^2 M phi,   Phi_free^T M phi = 0
 //   A = (K + s M)^-1 M,   A phi = phi / (omega^2 + s)
 //
-// One Lanczos run (Spectra) finds one mode of each repeated frequency. The others are found by block Krylov
-// iteration, M-orthogonal to the known modes (Golub and Van Loan, Matrix Computations, section 10.3.6), with
-// blocks as wide as the number of missing modes.
+// One Lanczos run (Spectra) finds one mode of each repeated frequency. The other modes of this frequency are found by
+// block Krylov iteration, M-orthogonal to the known modes (Golub and Van Loan, Matrix Computations, section 10.3.6),
+// with blocks as wide as the number of missing modes.
 
 /// Subtracts from x its part along the M-orthonormal columns of the basis, twice because of rounding.
 void deflate(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x);
 
 /// The `below` lowest modes that are not free, and the next one: omega^2 ascending, and M-orthonormal shapes,
-/// n x (below + 1); fewer columns if some were not found. limit: omega^2 of the first ones are below it, that
-/// of the last one above. free: all M-orthonormal free motions, n x f; shift: s, with K + s M positive
+/// n x (below + 1); fewer columns if some were not found. limit: value between omega^2 of the last two of these
+/// modes. free: all M-orthonormal free motions, n x f; shift: s, with K + s M positive
 /// definite.
 [[nodiscard]] base::EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass,
                                             const SparseMatrix& stiffness, const Eigen::MatrixXd& free,

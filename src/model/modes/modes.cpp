@@ -21,7 +21,7 @@ constexpr double digits_of_highest = 1e-4;  // relative error of the highest ome
 
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
-/// omega; 0: a motion has no stiffness; nullopt: nothing with mass can move.
+/// Lowest omega; 0 if a motion has no stiffness; nullopt if nothing with mass can move.
 using Lowest = std::optional<double>;
 
 Lowest lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
@@ -58,7 +58,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   const SparseMatrix kdd = heavy.transpose() * k * heavy;
   const SparseMatrix kmm = light.transpose() * k * light;
   const SparseMatrix kmd = light.transpose() * k * heavy;
-  // A massless motion without stiffness (dampers only) cannot be condensed; fixing it gives a bound.
+  // A massless motion without stiffness (dampers only) cannot be condensed; fixing it gives an upper bound.
   const bool condense = l > 0 && statics::null_motions(kmm).cols() == 0;
   const assembly::SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
   auto condensed = [&](const Vector& x) -> Vector {
@@ -131,8 +131,8 @@ double highest_frequency(const Model& model) {
 
 namespace {
 
-constexpr double beside = 0.999;  // of omega1^2: a shift at which K - s M is regular
-constexpr int solves = 4;         // inverse iterations; each one gains a factor of some hundred
+constexpr double beside = 0.999;  // fraction of omega1^2: a shift at which K - s M is regular
+constexpr int solves = 4;         // inverse iterations; each reduces the error by some hundred
 
 }  // namespace
 

@@ -15,8 +15,8 @@
 
 namespace signorini::modes {
 
-/// Number of degrees of freedom up to which the dense solver is used, because it is faster there. Chosen value; results
-/// agree either way.
+/// Number of degrees of freedom up to which the dense solver is used, because it is faster than the sparse one there.
+/// Chosen value; both give the same results.
 inline constexpr int dense_up_to = 200;
 
 /// Constraints by contacts, for frequencies: springs, and forms that are fixed to zero.
@@ -30,7 +30,7 @@ struct ContactConstraints {
 };
 
 /// Constraints of all contacts k with closed[k], in both directions: compliant ones by kn and kt; sliders by
-/// kt, or fixed along their tangent if they have none; rigid ones fixed in both directions.
+/// kt, or fixed along the tangent if they have no kt; rigid ones fixed in both directions.
 [[nodiscard]] ContactConstraints constrain_contacts(const std::vector<Contact>& contacts,
                                                     const std::vector<bool>& closed);
 
@@ -39,8 +39,8 @@ struct ContactConstraints {
 [[nodiscard]] double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
                                       const ContactConstraints& holding);
 
-/// Highest circular frequency, rad per time, with all contact springs; an estimate for large structures. 0:
-/// no stiffness.
+/// Highest circular frequency, rad per time, with all contact springs; an estimate for large structures. 0
+/// without stiffness.
 [[nodiscard]] double highest_frequency(const Model& model);
 
 // Accuracy limit of the lowest frequency due to the rounding of the matrices.
@@ -49,10 +49,10 @@ struct ContactConstraints {
 //   delta omega / omega = eps/4 sqrt( sum (x_i K_ij x_j)^2 ) / x^T K x
 //
 // Entries of K are rounded during assembly, and x^T K x is a small difference of large terms: on a mesh of n elements
-// the loss is of order n^3 or more. Neither a smaller tolerance nor another engine removes it; times of events have the
-// same error.
+// the loss is of order n^3 or more. Neither a smaller tolerance nor another engine removes this error; times of events
+// have the same error.
 
-/// delta omega / omega of the mode with the frequency closest to model.omega1, with contact springs; 0: there
+/// delta omega / omega of the mode with the frequency closest to model.omega1, with contact springs; 0 if there
 /// is no mode.
 [[nodiscard]] double rounding_floor(const Model& model);
 

@@ -16,7 +16,7 @@
 namespace signorini::modes {
 namespace {
 
-// Relative to the largest |nu|: below it, nu is the rounding of a motion without geometric stiffness.
+// Values nu below this fraction of the largest |nu| are rounding errors of motions without geometric stiffness.
 constexpr double no_factor = 1e-12;
 constexpr double least_share = 1e-7;  // smallest s: below it K + s K_g equals K in half of the digits
 
@@ -27,8 +27,8 @@ struct Pencil {
   [[nodiscard]] SparseMatrix at(double s) const { return elastic + s * geometric; }
 };
 
-/// Fixes the common null motions that respect the constraints, each at its largest entry. They have no
-/// energy, so the factors do not change.
+/// Fixes the common null motions that respect the constraints, each at its largest entry. Null motions have no
+/// energy, so fixing them does not change the load factors.
 Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
                    const std::vector<Combination>& fixed) {
   const SparseMatrix elastic = fixed.empty() ? loose : with_constraint_springs(loose, fixed);
@@ -56,7 +56,7 @@ Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
 
 bool is_definite(const SparseMatrix& a) { return statics::null_motions(a).cols() == 0; }
 
-/// s, and the terms that make K + s K_g positive definite: springs along the fixed forms.
+/// s, and the positive definite matrix K + s K_g plus springs along the fixed forms.
 struct Shift {
   double s = 1.0;
   SparseMatrix matrix;
@@ -78,7 +78,7 @@ std::optional<Shift> find_shift(const Pencil& pencil, const std::vector<Combinat
   return std::nullopt;
 }
 
-/// Factors from nu, unsorted.
+/// Load factors s + 1/nu from unsorted nu, ascending.
 std::vector<double> factors_of(double s, const Vector& nu) {
   std::vector<double> factors;
   const double most = nu.size() == 0 ? 0.0 : nu.cwiseAbs().maxCoeff();
@@ -152,8 +152,8 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
 
 namespace {
 
-constexpr double no_inertia = 1e-14;  // relative to the terms of x.Mx: rounding
-constexpr double no_faster = 1e-9;    // relative change of a converged rate; its motion has half the digits
+constexpr double no_inertia = 1e-14;  // inertia, relative to the terms of x.Mx: rounding
+constexpr double no_faster = 1e-9;    // relative change of a converged rate
 
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = statics::null_motions(k);  // includes motions of negative energy

@@ -17,7 +17,7 @@
 
 namespace signorini::modes {
 
-/// The `count` lowest lambda, ascending. A single 0: the structure is unstable under arbitrarily small
+/// The `count` lowest lambda, ascending. A single 0 if the structure is unstable under arbitrarily small
 /// forces.
 [[nodiscard]] std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
                                                const ContactConstraints& holding, int count);

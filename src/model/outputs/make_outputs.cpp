@@ -66,7 +66,7 @@ class Maker {
     return output;
   }
 
-  /// Sum of reactions minus loads and inertia, zero up to the residual: along x (0) or y (1).
+  /// Sum of all reactions along x (0) or y (1), minus loads and inertia; zero up to the residual.
   Output reaction_sum(std::size_t c) {
     PhysicalRow row(map_.size());
     std::vector<bool> held(map_.mesh.nodes.size(), false);
@@ -103,8 +103,8 @@ class Maker {
     for (const PhysicalRow::CurvedContact& bowl : row.curved_contacts) restore(bowl, output);
   }
 
-  /// Internal forces of a reduced structure balance the loads only without the terms that its equation of motion
-  /// neglects: inertia of massless shapes, and their damping where they respond immediately.
+  /// Internal forces of a reduced structure balance the loads only without the terms that the reduced equation of motion
+  /// neglects: inertia of massless shapes, and damping of massless shapes that respond immediately.
   void balance(const PhysicalRow& row, Output& output) const {
     const Reduction& reduction = *model_.reduction;
     Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
@@ -132,8 +132,8 @@ class Maker {
     output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
-  /// Adds N u / R minus the term of the scene's spring N_0 / R, which is in the row. The model's N_K u / R is
-  /// damped by beta.
+  /// Adds N u / R minus N_0 u / R, where N_0 / R is the scene's spring, whose force is already in the row. The stiffness
+  /// N_K / R in the model's K is damped by beta.
   void restore(const PhysicalRow::CurvedContact& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
     const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].pendulum_surface;
@@ -222,7 +222,7 @@ class Maker {
     cut(spec, "at", along, MemberForces::place_of(along, spec.station), wanted, row);
   }
 
-  /// Axes rotated by the angle of `direction`, (c, s): xx = d . sigma d, yy across, xy = d . sigma (-s, c).
+  /// Stress in axes along d = `direction` = (c, s) and across: xx = d . sigma d, yy across, xy = d . sigma (-s, c).
   void body_stress(const OutputSpec& spec, PhysicalRow& row) {
     const int node = map_.mesh.by_name.at(spec.at[0]);
     const auto [c, s] = spec.direction.vector;
@@ -321,7 +321,7 @@ class Maker {
         if (d[c] != 0.0 && is_held(node, c)) rows_->add_reaction(row, node, c, d[c]);
   }
 
-  /// The nodes of the node's rigid body, or the node alone.
+  /// All nodes of the rigid body to which the node belongs; the node alone if it belongs to no body.
   [[nodiscard]] std::vector<int> together_with(int node) const {
     const int body = map_.body[static_cast<std::size_t>(node)];
     if (body < 0) return {node};

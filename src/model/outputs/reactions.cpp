@@ -108,11 +108,11 @@ std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model)
   for (const HangerLoad& h : model.hangers) {
     const Spring& spring = scene.springs[h.spring - 1];
     const double along = spring.direction[0] * scene.gravity[0] + spring.direction[1] * scene.gravity[1];
-    // The force on the node is -cold direction.
+    // The force on the node is -cold times the direction.
     if (h.hot && h.cold * along < 0.0)
       doubts.push_back(
-          fmt::format("the hanger of spring {} pushes its node along gravity; its direction goes from the "
-                      "hanger's anchor to the node",
+          fmt::format("the hanger of spring {} pushes its node along gravity; reverse its direction, which "
+                      "must point from the hanger's anchor to the node",
                       h.spring));
   }
   if (!model.static_start) return doubts;
@@ -127,7 +127,7 @@ std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model)
     else if (variability(h) > usual_variability)
       doubts.push_back(
           fmt::format("spring {} carries {:.6g} {} in equilibrium and {:.6g} {} in the undeformed state: its "
-                      "variability is {:.3g} %, usual is at most 25 %",
+                      "variability is {:.3g} %, above the usual limit of 25 %",
                       h.spring, now, unit, cold, unit, 100.0 * variability(h)));
   }
   return doubts;

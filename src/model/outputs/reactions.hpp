@@ -2,7 +2,7 @@
 //
 //   G l = F,   F = ( sum fx, sum fy, sum of (r - r_c) x f + m ),   l = (G^T G)^-1 G^T F
 //
-//   f, m: inertia and internal forces at the nodes, minus loads
+//   l: reactions of the body's supports;   f, m: inertia and internal forces at the nodes, minus loads
 //
 // G has a column for each support: (1, 0, -(y - y_c)), (0, 1, x - x_c), (0, 0, 1). Up to three independent supports can
 // be distinguished. Moments are divided by the size of the body.
@@ -33,7 +33,7 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
 //
 //   cold  F_c = preload        at t = 0  F = preload + k d.u0        variability |F_c - F| / |F|
 
-/// Sets Model::hangers; u0 has the physical degrees of freedom.
+/// Sets Model::hangers. Model::u0 must still be in the physical degrees of freedom.
 void find_hangers(const Scene& scene, const assembly::DofMap& map, Model& model);
 
 /// |F_c - F| / |F|; infinite if F is zero.

@@ -94,7 +94,7 @@ void StructureRows::add_end_forces(PhysicalRow& row, std::size_t i, const elemen
   element::ElementVector ca = cut.acceleration;
   if (moved == map_.mesh.moved.end()) ca += e.mass() * cut.forces;
   element::ElementVector cu = element::ElementVector::Zero(ca.size()),
-                         frozen = cut.deflection;  // frozen forces are not damped
+                         frozen = cut.deflection;  // terms of the prestress, which are not damped
   if (stiff) cu = e.stiffness() * cut.forces;
   const element::AxialForces standing = map_.axial_forces_in(i);
   if (stiff && !standing.is_zero() && !map_.within_body(e))
@@ -119,7 +119,7 @@ void StructureRows::add_end_forces(PhysicalRow& row, std::size_t i, const elemen
     add_given(row, strain, -e.strain_work(cut.forces));
 }
 
-/// factor times the force of an element's moved mass on component c of a node; -1: on all nodes.
+/// Adds factor times the inertia force of an element's moved mass on component c of a node; node = -1: all nodes.
 void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, std::size_t c,
                                    double factor) const {
   const element::MovedMass& moved = map_.mesh.moved.at(i);
@@ -195,7 +195,7 @@ void StructureRows::add_load(PhysicalRow& row, std::size_t i, double factor) con
   given.history = loads_[i].history.scaled(given.factor);
 }
 
-/// A force or a moment at a node; -1: at any node.
+/// Adds a force or a moment at a node; node = -1: at any node.
 void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::size_t c, double factor) const {
   const LoadSpec& load = scene_.loads[i];
   if (load.type == LoadType::distributed) return;
@@ -211,7 +211,7 @@ void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::si
   add_load(row, i, factor * (moment ? 1.0 : load.direction.vector[c]));
 }
 
-/// N n + T t of a contact on a node; -1: on all nodes that it acts on, summed.
+/// Adds N n + T t of a contact on a node; node = -1: the sum over all nodes on which the contact acts.
 void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::size_t c,
                                 double factor) const {
   const ContactSpec& spec = scene_.contacts[k];
@@ -295,7 +295,7 @@ SectionQuantity section_quantity(const OutputSpec& spec, Fibre fibre) {
   return wanted;
 }
 
-/// The distributed load is constant, inertia linear along an element and cubic across it (line_elements.hpp).
+/// N is quadratic, V quartic, M quintic: loads are constant, inertia is linear along an element and cubic across it.
 std::size_t points_of(OutputQuantity quantity) {
   return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;
 }
@@ -306,7 +306,7 @@ std::size_t MemberForces::element_of(const MemberPath& way, std::size_t k) {
 
 std::pair<std::size_t, double> MemberForces::place_of(const MemberPath& way, double station) {
   const auto count = static_cast<double>(way.piece->count);
-  // Between two elements: the next one along the way.
+  // A station between two elements belongs to the next element along the path.
   const double element = std::clamp(std::floor(station * count), 0.0, count - 1.0);
   return {static_cast<std::size_t>(element), station * count - element};
 }
@@ -316,7 +316,7 @@ element::SectionForce MemberForces::force(const MemberPath& way, std::size_t k, 
   const std::size_t number = element_of(way, k);
   const element::FiniteElement& e = map_.mesh.element(number);
   element::SectionForce cut(e.unknowns().size());
-  // In the opposite direction, left and right are exchanged.
+  // Against the direction of the piece, left and right are exchanged, so M changes its sign.
   const double sign = way.backwards && quantity == OutputQuantity::M ? -1.0 : 1.0;
   add(cut, e.section_force(quantity, {way.backwards ? 1.0 - x : x, 0.0}, map_.axial_forces_in(number)), sign);
   return cut;

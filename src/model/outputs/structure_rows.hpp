@@ -5,7 +5,7 @@
 //   sum over the supports  R = inertia - loads + springs and contacts to the ground
 //
 // a_b: acceleration of the base, g: gravity. For scenes with nodes. Degrees of freedom moved by a support
-// follow its history, fixed ones are zero.
+// follow the support's history, fixed degrees of freedom are zero.
 #pragma once
 
 #include "model/assembly/loads.hpp"
@@ -18,7 +18,7 @@ namespace signorini::outputs {
 struct PhysicalRow {
   explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u), rayleigh(u) {}
   Vector u, v, a;
-  Vector rayleigh;  ///< factors of v: contribution of alpha M + beta K to a force
+  Vector rayleigh;  ///< part of v that comes from alpha M + beta K in a force
   std::vector<Output::ContactForces> forces;
   std::vector<Output::Given> given;
   double constant = 0.0;
@@ -42,11 +42,11 @@ class StructureRows {
   void add_base_acceleration(PhysicalRow& row, double x, double y, bool gravity = true) const;
   /// Adds a section force of an element.
   void add_section_force(PhysicalRow& row, std::size_t element, const element::SectionForce& cut) const;
-  /// factors . (sigma_x, sigma_y, tau_xy) at a node of a body, an index into Scene::bodies (nodal_stress.hpp),
+  /// Adds factors . (sigma_x, sigma_y, tau_xy) at a mesh node of body `body` of Scene::bodies (nodal_stress.hpp),
   /// including stiffness-proportional damping: sigma = D (B (u + beta v) - alpha T e).
   void add_stress(PhysicalRow& row, std::size_t body, int node, const Eigen::RowVector3d& factors) const;
-  /// Adds the force in a spring times a factor, preload and damper included. It is positive if the node has
-  /// moved along the spring's direction. rotation: the spring acts on the rotation.
+  /// Adds the force in a spring times a factor, preload and damper included. The force is positive if the node has
+  /// moved along the spring's direction. rotation: takes the rotational stiffness and damping.
   void add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const;
   /// Adds the reaction at component c (0 x, 1 y, 2 rotation) of a node, times a factor.
   void add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const;
@@ -56,7 +56,7 @@ class StructureRows {
 
  private:
   [[nodiscard]] const element::FiniteElement& element(std::size_t i) const { return map_.mesh.element(i); }
-  /// stiff: include the stiffness term.
+  /// Adds the end forces of an element times the factors of `cut`. stiff: with stiffness and strain terms.
   void add_end_forces(PhysicalRow& row, std::size_t element, const element::SectionForce& cut,
                       bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
@@ -76,7 +76,7 @@ class StructureRows {
   };
   std::vector<std::vector<Uniform>> uniform_;                // per element
   std::vector<std::vector<assembly::NodeForce>> tractions_;  // per load
-  std::vector<Output::Given> loads_;                         // includes the amplitude
+  std::vector<Output::Given> loads_;                         // of Scene::loads, times the amplitude
   std::vector<std::vector<History>> strains_;                // per member; then per body
 };
 
@@ -95,14 +95,14 @@ struct MemberPath {
 struct SectionQuantity {
   OutputQuantity quantity = OutputQuantity::N;  ///< stress, or N, V, M
   Fibre fibre = Fibre::both;                    ///< fibre of a stress: left or right
-  double N_factor = 1.0, M_factor = 1.0;        ///< factors of the two parts of a stress
+  double N_factor = 1.0, M_factor = 1.0;        ///< factors of the parts of a stress from N and from M
   std::optional<double> intensification = {};
 };
 
 /// The quantity of an output, for one fibre.
 [[nodiscard]] SectionQuantity section_quantity(const OutputSpec& spec, Fibre fibre);
 
-/// Number of points of an element whose interpolation polynomial is the quantity (base/curves.hpp).
+/// Number of points in an element at which a polynomial interpolates the quantity exactly (base/curves.hpp).
 [[nodiscard]] std::size_t points_of(OutputQuantity quantity);
 
 class MemberForces {
@@ -112,11 +112,11 @@ class MemberForces {
   /// Index of the k-th element on the path.
   [[nodiscard]] static std::size_t element_of(const MemberPath& way, std::size_t k);
   /// The quantity at a position x, 0 to 1, of the k-th element on the path. Errors: SceneError under `key`
-  /// for a section with unknown stress properties.
+  /// for a section without area or modulus.
   [[nodiscard]] element::SectionForce section_force(const MemberPath& way, std::size_t k, double x,
                                                     const SectionQuantity& wanted, const SourcePlace& place,
                                                     const std::string& key) const;
-  /// k and x at a station of the whole piece, 0 to 1.
+  /// Number k of the element on the path, and position x in it, for a station 0 to 1 along the whole piece.
   [[nodiscard]] static std::pair<std::size_t, double> place_of(const MemberPath& way, double station);
 
  private:

@@ -13,12 +13,12 @@ namespace signorini::reduce {
 namespace {
 
 constexpr int dense_at_most = 5000;    // limit of the dense solver if a third of all modes or more is kept
-constexpr int most_modes = 5000;       // that can be kept
-constexpr double roundings = 1e-12;    // relative to the terms of a sum: below it the sum is zero
-constexpr double shift_share = 1e-3;   // of omega^2 of the first truncated mode, or of the highest one
-constexpr double least_shift = 1e-11;  // relative to the largest K_ii/M_ii, with free motions
-constexpr int corrections = 6;         // each reduces the error by shift/omega^2 < shift_share
-constexpr double margin = 1e-6;  // relative, of omega^2, between a mode and where modes below are counted
+constexpr int most_modes = 5000;       // largest number of modes that can be kept
+constexpr double roundings = 1e-12;    // sums below this fraction of their terms are zero
+constexpr double shift_share = 1e-3;   // shift, relative to omega^2 of the first truncated or highest mode
+constexpr double least_shift = 1e-11;  // smallest shift with free motions, relative to the largest K_ii/M_ii
+constexpr int corrections = 6;         // iterations; each reduces the error by shift/omega^2 < shift_share
+constexpr double margin = 1e-6;  // relative distance in omega^2 below a mode at which modes are counted
 
 double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   double greatest = 0.0;
@@ -41,7 +41,7 @@ base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffne
   }
   const base::EigenPairs pairs =
       base::generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
-  if (pairs.vectors.rows() != h.cols()) return {};  // it failed: the caller checks the values
+  if (pairs.vectors.rows() != h.cols()) return {};  // the decomposition failed: the caller checks the values
   Eigen::MatrixXd shapes = h * pairs.vectors;
   if (l.cols() > 0) shapes += l * (follow * pairs.vectors).eval();
   return {pairs.values, shapes};
@@ -56,7 +56,7 @@ void orthonormalise(Eigen::MatrixXd& x, const SparseMatrix& mass) {
     }
 }
 
-/// Modes that are not free, up to the cutoff, and the first one above it if there is one.
+/// Modes that are not free, up to the cutoff, and the first mode above the cutoff if there is one.
 struct ElasticModes {
   base::EigenPairs pairs;
   Eigen::Index kept = 0;
@@ -68,7 +68,7 @@ ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMa
   // A failed decomposition has no values, or values that are NaN.
   if (all.values.size() != heavies || !all.values.allFinite())
     throw NotReducible("the modes of the structure cannot be computed");
-  const Eigen::Index rest = all.values.size() - free;  // the lowest ones are free, up to rounding
+  const Eigen::Index rest = all.values.size() - free;  // the first `free` modes are the free motions
   ElasticModes found;
   while (found.kept < rest && all.values[free + found.kept] <= cutoff * cutoff) ++found.kept;
   const Eigen::Index taken = std::min(found.kept + 1, rest);
@@ -76,7 +76,7 @@ ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMa
   return found;
 }
 
-/// Same without a decomposition of the whole; `count` modes lie below the cutoff.
+/// Same as all_elastic(), without a decomposition of the whole; `count` modes, free ones included, are below the cutoff.
 ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, const SparseMatrix& stiffness,
                             const Eigen::MatrixXd& rigid) {
   const double limit = cutoff * cutoff;
@@ -201,7 +201,7 @@ Vector ResidualFlexibility::response(const Vector& f) const {
 namespace {
 
 constexpr double needless = 1e-12;  // relative to a direction's compliance: a smaller part needs no shape
-constexpr double no_mass = 1e-12;   // 1/omega^2 of a Ritz vector relative to the largest one
+constexpr double no_mass = 1e-12;   // smallest 1/omega^2 of a Ritz vector with mass, relative to the largest
 
 /// sum over the kept modes with stiffness: (phi^T f)^2/omega^2.
 double compliance_of_kept(const KeptModes& modes, const Vector& f) {
@@ -254,7 +254,7 @@ StaticShapes static_shapes(const SparseMatrix& mass, const SparseMatrix& stiffne
     result.massive.resize(n, 0);
     return result;
   }
-  // K = 1 in the basis: 1/omega^2 are the eigenvalues of its mass; the largest belongs to the lowest frequency.
+  // K is the identity in this basis, so the eigenvalues of the mass matrix are 1/omega^2, the lowest frequency last.
   const Eigen::MatrixXd h = basis.leftCols(massive);
   const base::EigenPairs ritz = base::symmetric_eigen(h.transpose() * (mass * h));
   result.massive.resize(n, massive);

@@ -1,7 +1,7 @@
-// kept_modes.hpp: the modes of a structure up to a cutoff, and the static response of all others.
+// kept_modes.hpp: the modes of a structure up to a cutoff, and the static response of all other modes.
 //
 //   K phi = omega^2 M phi,   phi_i^T M phi_j = delta_ij,   omega <= cutoff
-//   G_res f = sum over the other modes phi (phi^T f)/omega^2,   those without mass included
+//   G_res f = sum over the other modes phi (phi^T f)/omega^2,   massless modes included
 //
 // K and M symmetric, positive semidefinite; without contact constraints. With f_el = f - M Phi Phi^T f, which does no
 // work on the kept modes (inertia relief if these include free motions), G_res f solves K u = f_el with Phi^T M u = 0.
@@ -33,10 +33,10 @@ struct NotReducible : std::runtime_error {
 struct KeptModes {
   Eigen::MatrixXd shapes;        ///< n x m, M-orthonormal; free motions first, then ascending
   Eigen::VectorXd squares;       ///< omega^2, m; exactly 0 for free motions
-  int free = 0;                  ///< number of free motions among them
+  int free = 0;                  ///< number of free motions among the kept modes
   int truncated_modes = 0;       ///< modes with mass above the cutoff
-  double first_truncated = 0.0;  ///< rad per time; 0: none
-  double shift = 0.0;            ///< makes K + shift M regular; far below omega^2 of the truncated modes
+  double first_truncated = 0.0;  ///< frequency of the first truncated mode, rad per time; 0: none
+  double shift = 0.0;            ///< makes K + shift M regular; far below omega^2 of truncated modes
 };
 
 /// All modes with omega <= cutoff. free: all null motions of K, n x f; each must have mass. K must be
@@ -50,9 +50,9 @@ struct KeptModes {
 
 class ResidualFlexibility {
  public:
-  /// Mass and modes are kept by reference. Throws NotReducible where K is singular beyond the free motions.
+  /// Mass and modes are kept by reference. Throws NotReducible if K is singular beyond the free motions.
   ResidualFlexibility(const SparseMatrix& mass, const SparseMatrix& stiffness, const KeptModes& modes);
-  /// G_res f; n. Exactly 0 if no mode is truncated and all degrees of freedom have mass.
+  /// G_res f, of length n. Exactly 0 if no mode is truncated and all degrees of freedom have mass.
   [[nodiscard]] Vector response(const Vector& f) const;
 
  private:
@@ -60,7 +60,7 @@ class ResidualFlexibility {
 
   const SparseMatrix& mass_;
   const KeptModes& modes_;
-  Eigen::MatrixXd inertia_, inertia_size_;  // M Phi, and the magnitudes of its terms
+  Eigen::MatrixXd inertia_, inertia_size_;  // M Phi, and its absolute values
   double shift_;                            // shift of omega^2; its effect is removed by iteration
   bool complete_;
   assembly::SymmetricSolver solver_;
@@ -71,20 +71,20 @@ class ResidualFlexibility {
 //   massive:   Ritz vectors of (K, M) in the span of G_res f_h,   psi^T M psi = 1,  psi^T K psi = omega_h^2
 //   massless:  K-orthonormal, in the span of G_res f, K-orthogonal to the massive ones
 //
-// A direction has no shape of its own if earlier shapes represent its residual compliance up to 1e-12 of its
+// A direction gets no separate shape if earlier shapes represent its residual compliance up to 1e-12 of its
 // compliance in all modes.
 
 /// A direction along which a force acts.
 struct ActingForce {
-  ComplianceShare share;    ///< with its name; its numbers are computed here
+  ComplianceShare share;    ///< name: given; compliances: set by static_shapes()
   Vector force;             ///< n
-  bool needs_mass = false;  ///< the direction needs inertia
+  bool needs_mass = false;  ///< true: the static shape of this direction must have mass
 };
 
 struct StaticShapes {
   Eigen::MatrixXd massive, massless;    ///< n x h, n x r
   Eigen::VectorXd massive_squares;      ///< omega_h^2, ascending
-  std::vector<ComplianceShare> shares;  ///< one per force, in their order
+  std::vector<ComplianceShare> shares;  ///< one per force, in the order of the forces
   std::vector<Vector> responses;        ///< G_res f of every force
 };
 
@@ -95,8 +95,8 @@ struct StaticShapes {
 //
 //   | C - alpha M - beta K |_ij <= 1e-9 ( |C| + |alpha M| + |beta K| )_ij   for all ij,   alpha, beta >= 0
 //
-// 1e-9: programs write matrices with at least ten digits. If it is, a reduced model damps its modes by alpha
-// and beta. With C itself its static shapes would have dampers with time constants far below those of the
+// 1e-9: programs write matrices with at least ten digits. If the test succeeds, a reduced model damps its modes by
+// alpha and beta. Dampers from C itself would give the static shapes time constants far below those of the
 // modes.
 
 struct RayleighFactors {

@@ -9,12 +9,12 @@
 namespace signorini::reduce {
 namespace {
 
-// Relative to the terms of r: half of the digits. A larger remainder comes from loads, not from rounding. Chosen value;
+// Largest r that may be rounding, relative to its terms: half of the digits. A larger r comes from loads. Chosen value;
 // rounding leaves 1e-11, an omitted load leaves its full value.
 constexpr double no_rounding = 1e-8;
-// The friction of sliding contacts changes with N, which a step neglects; each step gains as many digits as d has.
+// Several steps are needed, because a step neglects that the friction of sliding contacts changes with N.
 constexpr int steps = 3;
-// Relative distance below which a contact counts as being at its friction limit.
+// Relative distance from the friction limit below which a contact is at its limit.
 constexpr double at_limit = 1e-9;
 
 class ReducedStart {
@@ -40,7 +40,7 @@ class ReducedStart {
     for (std::size_t k = 0; k < state.shears.size(); ++k) model_.contacts[k].initial_shear = state.shears[k];
   }
 
-  /// r, and the largest of its terms.
+  /// The imbalance r, and the magnitude of its largest term.
   [[nodiscard]] std::pair<Vector, double> left_over() const {
     const Vector elastic = model_.stiffness * model_.u0;
     Vector r = -elastic;
@@ -58,7 +58,7 @@ class ReducedStart {
     return {std::move(r), most};
   }
 
-  /// Returns false if there is a mechanism.
+  /// Corrects the displacements and shears by one step q + d. Returns false if there is a mechanism.
   [[nodiscard]] bool step(const Vector& r) {
     std::vector<statics::ConstraintRow> rows;
     std::vector<std::size_t> stuck;
@@ -84,7 +84,7 @@ class ReducedStart {
     return true;
   }
 
-  /// Limits shears to the friction limit, and keeps contacts at the limit there.
+  /// Limits shears to the friction limit; a contact that started at its limit stays at the limit.
   void clamp() {
     for (std::size_t k = 0; k < shares_.size(); ++k) {
       if (!rubs(k)) continue;
@@ -118,7 +118,7 @@ class ReducedStart {
                                    c.normal_force_given() ? -model_.statics.reactions[k] : normal_force(k));
   }
   Model& model_;
-  std::vector<double> shares_;  // |T| over its limit at the original start
+  std::vector<double> shares_;  // |T| / limit at the original start
 };
 
 bool is_known(const Model& model) {

@@ -1,11 +1,11 @@
-// reduced_start.hpp: static start of a reduced model, in equilibrium to the rounding of the model's own matrices.
+// reduced_start.hpp: static start of a reduced model, in equilibrium up to the rounding of the reduced matrices.
 //
-//   r = P - K q - sum ( n N + t T ),   N = kn g, at rigid contacts N of the start,   T: initial_shear
+//   r = P - K q - sum ( n N + t T ): imbalance,   N = kn g, at rigid contacts N of the start,   T: initial_shear
 //   (K + sum kn n n^T + sum_stuck kt t t^T) d = r,   n . d = 0 at rigid contacts
 //   q <- q + d,   T <- T + kt t . d in stick,   T <- T f|N|/(f|N| before) at the friction limit
 //
 // Amplitudes x^T K u0 have errors of the order of rounding of |x|^T |K| |u0|: for a long pipe 1e-11 of a support force.
-// Without this correction a run would begin with that imbalance, and contacts at their friction limit would slip.
+// Without this correction a run would begin with the imbalance r, and contacts at their friction limit would slip.
 #pragma once
 
 #include "signorini/model.hpp"

@@ -18,8 +18,8 @@
 namespace signorini::reduce {
 namespace {
 
-constexpr double nothing = 1e-14;      // relative part of a form on a shape of size 1 that is rounding
-constexpr double quick_damper = 1e-6;  // time constant of a static shape times the first truncated frequency
+constexpr double nothing = 1e-14;      // smaller parts of a form on a shape of size 1 are rounding
+constexpr double quick_damper = 1e-6;  // smallest time constant of a static shape, times first_truncated
 constexpr double over_damped = 2.0;    // beta times a frequency: above this value a mode is overdamped
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
@@ -40,8 +40,8 @@ void check_reducible(const Scene& scene, const Model& model) {
       null.col(0).cwiseAbs().maxCoeff(&greatest);
       const int dof = light[static_cast<std::size_t>(greatest)];
       refuse(scene,
-             fmt::format("{} has no mass, and no stiffness of the structure holds it, so it has neither a "
-                         "mode nor a static response; give it a mass, or leave [reduction] out",
+             fmt::format("{} has no mass, and no stiffness of the structure resists it, so it has neither "
+                         "a mode nor a static response; give it a mass, or leave [reduction] out",
                          model.dofs[static_cast<std::size_t>(dof)].displacement));
     }
   }
@@ -54,15 +54,15 @@ void check_reducible(const Scene& scene, const Model& model) {
                         "to compare with the cutoff; leave [reduction] out");
 }
 
-/// Refuses moving supports with beta K and prestress: shapes that follow a support immediately are computed
-/// without their damping, which must be that of the elastic stiffness alone.
+/// Errors: SceneError for moving supports with beta K and prestress. Shapes that follow a support immediately are
+/// computed without damping; the omitted damping would have to be that of the elastic stiffness alone.
 void check_frozen(const Scene& scene, const Model& model) {
   const bool follows = std::any_of(model.loads.begin(), model.loads.end(),
                                    [](const Load& load) { return load.kind == LoadKind::support_rate; });
   if (model.geometric && model.beta != 0.0 && follows)
     refuse(scene,
-           "a support moves, and the shapes that follow it immediately do not admit run.geometric together "
-           "with damping.beta; leave [reduction] or beta out");
+           "a support moves, and the static shapes that follow the support cannot be computed for "
+           "run.geometric together with damping.beta; leave [reduction] or beta out");
 }
 
 bool normal_needs_mass(const Contact& c) {
@@ -108,7 +108,7 @@ struct Basis {
   std::vector<Eigen::Index> at_once;  ///< shapes without the damping beta K
 };
 
-/// dampers: between shapes with mass; light: between those without.
+/// dampers: act between shapes with mass; light: acts between all other pairs of shapes.
 Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers,
                const SparseMatrix& light, double alpha, double beta) {
   Basis b;
@@ -122,7 +122,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   b.stiffness.resize(m + h + r);
   b.stiffness << modes.squares, shapes.massive_squares, Eigen::VectorXd::Ones(r);
   if (light.nonZeros() > 0 && r > 0) {
-    // Rotated so that each shape has its own time constant, or none.
+    // Rotated so that each shape has a separate time constant, or none.
     const Eigen::MatrixXd c = shapes.massless.transpose() * (light * shapes.massless);
     b.shapes.rightCols(r) = shapes.massless * base::symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
@@ -167,7 +167,7 @@ void scale(const Model& model, Basis& b) {
   }
 }
 
-/// The form on the reduced degrees of freedom; `massive`: only on those with mass.
+/// The form on the reduced degrees of freedom; `massive`: only on the degrees of freedom with mass.
 Combination reduced_form(const Combination& form, const Basis& b, bool massive) {
   const Vector full_form = assembly::dense_vector(form, static_cast<int>(b.shapes.rows()));
   const double size = full_form.lpNorm<1>();
@@ -178,7 +178,7 @@ Combination reduced_form(const Combination& form, const Basis& b, bool massive) 
   return result;
 }
 
-/// The support load whose rate term, by beta K and dampers, this load is; null: none.
+/// For the load of a support's velocity: the load of the same support's displacement. Null for all other loads.
 const Load* driving(const std::vector<Load>& loads, const Load& rate) {
   if (rate.kind != LoadKind::support_rate || rate.history_unit.time != -1) return nullptr;
   for (const Load& load : loads)
@@ -186,8 +186,8 @@ const Load* driving(const std::vector<Load>& loads, const Load& rate) {
   return nullptr;
 }
 
-/// A shape without the damping beta K follows its support immediately, q = s x. The term of beta K for the support's
-/// velocity, beta s x', balances the shape's own beta q', so both are omitted.
+/// A shape without the damping beta K follows its support immediately, q = s x. The term beta s x' of beta K for the
+/// support's velocity balances the shape's own term beta q', so both terms are omitted.
 void reduce_loads(const Basis& b, double beta, std::vector<Load>& loads) {
   std::vector<Combination> forms;
   for (const Load& load : loads) {
@@ -221,13 +221,14 @@ void reduce_contacts(const Scene& scene, const Basis& b, Model& model) {
     c.normal = reduced_form(c.normal, b, normal_mass);
     c.tangent = reduced_form(c.tangent, b, tangent_mass);
     if ((normal_mass && !has_mass(c.normal, b)) || (slides && tangent_mass && !has_mass(c.tangent, b)))
-      refuse(scene, fmt::format("contact '{}' has no effective mass under the cutoff; raise it", c.name));
+      refuse(scene,
+             fmt::format("contact '{}' has no effective mass under the cutoff; raise the cutoff", c.name));
     if ((!c.normal_force_given() && c.normal.terms.empty()) || (c.has_friction() && c.tangent.terms.empty()))
-      refuse(scene, fmt::format("under the cutoff nothing moves along contact '{}'; raise it", c.name));
+      refuse(scene, fmt::format("no shape under the cutoff moves contact '{}'; raise the cutoff", c.name));
   }
 }
 
-/// The smallest change in the norm of M that restores the gaps and rates of contacts that need mass.
+/// Restores the gaps and gap rates of rigid contacts by the smallest change of q and w in the norm of M.
 void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& gap,
                const std::vector<double>& rate, Vector& q, Vector& w) {
   std::vector<std::size_t> rigid;
@@ -251,7 +252,7 @@ void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& ga
   w.head(b.heavy) += change.col(1);
 }
 
-/// Amplitudes of a motion in the span of the shapes, such as the end of a run: modes are M-orthogonal to all others,
+/// Amplitudes of a motion in the span of the shapes, such as the end of a run. Modes are M-orthogonal to all shapes,
 /// static shapes K-orthogonal to each other. (With M, massive shapes would take part of the motion of massless ones.)
 Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, const Vector& x) {
   Vector q(b.shapes.cols());
@@ -275,8 +276,8 @@ double noise_of(const Basis& b, const Combination& physical, const Combination& 
          left_out.cwiseAbs().dot(size);
 }
 
-/// Sets gaps and their rates to zero again that were zero in a reduced run: a saved state contains them only
-/// up to rounding.
+/// Sets gaps and gap rates to zero again that were zero in the saved reduced run: the saved state contains them
+/// only up to rounding.
 void close_saved(const Model& model, const Basis& b, const std::vector<Contact>& contacts, const Vector& q,
                  const Vector& w, std::vector<double>& gap, std::vector<double>& rate) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -288,7 +289,7 @@ void close_saved(const Model& model, const Basis& b, const std::vector<Contact>&
   }
 }
 
-/// Sets the amplitudes of the initial state: those of modes by products with M, those of static shapes by
+/// Sets the amplitudes of the initial state: amplitudes of modes by products with M, amplitudes of static shapes by
 /// products with K, so that a static state is reproduced. The remainder is reported.
 void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model& model,
                   const std::vector<Contact>& contacts, Reduction& facts) {
@@ -324,7 +325,7 @@ void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model&
   model.v0 = w;
 }
 
-/// The largest jump of a load from t = 0 on; at the start, of the part that the initial state does not include.
+/// The largest jump of a load in the run. The value at t = 0 is a jump, unless the static start includes the load.
 double greatest_jump(const Load& load, const Model& model, double t_end) {
   double jump = load.is_static && model.static_start ? 0.0 : std::abs(load.history.value(0.0));
   for (const Breakpoint& at : load.history.breakpoints())
@@ -383,7 +384,7 @@ void name_dofs(const Reduction& facts, const Basis& b, Model& model) {
   }
 }
 
-/// Reduction::stiffness_terms.
+/// Computes Reduction::stiffness_terms, the magnitudes |R|^T |K| |R| for rounding errors.
 Eigen::MatrixXd stiffness_terms(const SparseMatrix& stiffness, const Basis& b) {
   const Eigen::MatrixXd sizes = b.shapes.cwiseAbs();
   return sizes.transpose() * (stiffness.cwiseAbs() * sizes);

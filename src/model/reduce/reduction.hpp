@@ -1,14 +1,14 @@
-// reduction.hpp: a model with the modes up to a cutoff, and the static compliance of all others.
+// reduction.hpp: a model with the modes up to a cutoff, and the static compliance of all other modes.
 //
 //   u = Phi q + Psi_h h + Psi r
 //   M = diag(1, 1, 0),   K = diag(omega^2, omega_h^2, 1)        up to the scale of each shape
 //
 // Phi: modes with omega <= cutoff, free motions included (model/reduce/kept_modes.hpp). Psi_h and Psi span the static
 // responses G_res f of all other modes to every direction f of a force: normals and tangents of contacts, loads, weight
-// and motion of the base. So static displacements and the compliance at contacts and loads are those of the full model.
+// and motion of the base. So static displacements and the compliance at contacts and loads equal those of the full model.
 //
-// Psi has no mass and responds immediately (MacNeal). Psi_h keeps its mass (Rubin); it is for directions that need
-// mass: those of rigid contacts, of sliders that stick rigidly, of Stribeck's friction, and of contacts with dashpots.
+// Psi has no mass and responds immediately (MacNeal). Psi_h keeps its mass (Rubin). Psi_h is used for directions that need
+// mass: along rigid contacts, sliders that stick rigidly, Stribeck friction, and contacts with dashpots.
 // Psi is K-orthogonal to G_res f_h, and f_h . Psi = (G_res f_h)^T K Psi = 0: a direction that needs mass is never
 // coupled to a massless shape.
 //
@@ -19,7 +19,7 @@
 //
 //   z'' + beta omega^2 z' + omega^2 z = f,
 //
-// oscillates if beta omega <= 2. The response time 1/omega by its inertia, which is neglected, is then longer
+// oscillates if beta omega <= 2. The neglected response time 1/omega by the inertia of this mode is then longer
 // than beta/2. With beta alone a shape would respond to a jump of f with z' = f/(omega^2 beta) and
 // z'' = z'/beta, which grow as the damping decreases. So in this case the shape responds immediately, as
 // without damping. With beta omega > 2, z follows f with the time constant beta, and so does the shape.
@@ -34,8 +34,8 @@
 
 namespace signorini::reduce {
 
-/// Reduces a model. dampers: C without alpha M + beta K; n x n. dashpots: the same without the correction of
-/// beta K for prestress (run.geometric); used on shapes without beta K. Errors: SceneError if a motion
+/// Reduces a model. dampers: C without alpha M + beta K; n x n. dashpots: dampers without the correction of
+/// beta K for prestress (run.geometric), for shapes without beta K. Errors: SceneError if a motion
 /// without mass has no stiffness, if K has negative energy, and if a direction that needs mass would have
 /// none.
 void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix& dashpots, Model& model);

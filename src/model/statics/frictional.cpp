@@ -17,7 +17,7 @@
 namespace signorini::statics {
 namespace {
 
-// Residual of an equilibrium, relative to the largest force or moment; rounding of long paths is below. Chosen value.
+// Largest residual of an equilibrium, relative to the largest force or moment; rounding errors of long paths are smaller.
 constexpr double balanced = 1e-7;
 
 class LoadingPath {
@@ -63,8 +63,8 @@ class LoadingPath {
     return result;
   }
 
-  /// Contacts that are compressed in the undeformed state (a negative gap) are fitted first: their gaps grow from
-  /// zero to the given ones.
+  /// Applies the interference of contacts with a negative gap (compressed in the undeformed state) before all stages:
+  /// their gaps grow from zero to the given values.
   void fit() {
     bool any = false;
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -118,7 +118,7 @@ class LoadingPath {
     refuse_stage(fmt::format("nothing restrains the {}: no equilibrium follows", name));
   }
 
-  /// Refuses a contact at its friction limit whose slip other contacts prevent: its force from then on is undetermined.
+  /// Errors: SceneError if other contacts prevent the slip of a contact at its limit: its force would be undetermined.
   void refuse_shares(const std::vector<ConstraintRow>& rows, const std::vector<Unknown>& unknowns,
                      const std::vector<bool>& moves) const {
     std::vector<bool> slips(rows.size(), false);
@@ -136,8 +136,8 @@ class LoadingPath {
     }
   }
 
-  /// Refuses loads without equilibrium even for infinite friction: with z = 0 for all slips, the conditions of openings
-  /// are those of a convex problem, for which the method ends in a ray only if there is no solution.
+  /// Errors: SceneError for loads without equilibrium even with infinite friction. With z = 0 for all slips, the
+  /// conditions of openings form a convex problem, for which Lemke's method fails only if there is no solution.
   void refuse_pulls(const std::vector<Unknown>& unknowns, const Eigen::MatrixXd& m,
                     const Eigen::VectorXd& q) const {
     std::vector<Eigen::Index> openings;
@@ -149,7 +149,7 @@ class LoadingPath {
       if (q[row] < -balanced) pulled.push_back(contacts_[unknowns[j].contact].name);
     }
     if (pulled.empty()) return;
-    // solver errors of forces that are zero do not count as tensile
+    // The margin `balanced` keeps solver errors of zero forces from being taken as tensile.
     const Eigen::VectorXd pressed = q(openings).array() + balanced;
     if (base::solve_lcp(m(openings, openings), pressed)) return;
     refuse_stage(
@@ -158,7 +158,7 @@ class LoadingPath {
                     pulled.size() == 1 ? "contact" : "contacts", base::join_quoted(pulled)));
   }
 
-  /// K u + sum(N n + T t) = P
+  /// Checks K u + sum(N n + T t) = P.
   void check_equilibrium() const {
     Vector rest = stiffness_ * u_ - load_, size = stiffness_.cwiseAbs() * u_.cwiseAbs() + load_.cwiseAbs();
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -240,7 +240,7 @@ class LoadingPath {
     return force_tolerance(carried_);
   }
 
-  /// Computes the rates of all quantities along the stage, and the states that go with them.
+  /// Computes the rates of all quantities along the stage, and the contact states to which they belong.
   void find_rates() {
     const double zero = this->zero();
     const std::vector<ConstraintRow> rows = make_rows(zero);
@@ -290,7 +290,7 @@ class LoadingPath {
       if (found->ambiguous)
         doubt(fmt::format(
             "at {:.4g} of stage '{}' {} may continue in several ways that all satisfy the laws of contact; "
-            "the start takes the one with the least slips and openings",
+            "the start takes the smallest slips and openings",
             part_, stage_->name, names_of_unknowns(unknowns)));
       refuse_shares(rows, unknowns, shared.moves);
       take_states(unknowns, shared.moves);
@@ -304,7 +304,7 @@ class LoadingPath {
     for (const std::size_t k : shared.undetermined) names.push_back(contacts_[k].name);
     const std::string sentence = fmt::format(
         "stage '{}': nothing resists the {} where {} {} at the limit, so the data do not determine how far "
-        "each of them slips; the start takes the least",
+        "each of them slips; the start takes the smallest slips",
         stage_->name, assembly::describe_motion(shared.motion, map_), base::join_quoted(names),
         names.size() == 1 ? "is" : "are");
     doubt(sentence);
@@ -368,7 +368,7 @@ class LoadingPath {
       s.gap_rate = c.normal_force_given() ? 0.0 : c.normal.dot(u_rate_) + s.given_gap_rate;
       s.N_rate = s.normal >= 0 && !open ? forces[s.normal] : 0.0;
       s.T_rate = s.tangent >= 0 && !open ? forces[s.tangent] : 0.0;
-      // The shear follows its limit exactly.
+      // In slip the shear stays exactly at its limit.
       if (const int sign = slip_sign(s.state); sign != 0) s.T_rate = -sign * friction(k) * s.N_rate;
     }
   }
@@ -410,7 +410,7 @@ class LoadingPath {
   std::vector<LimitMargin> standing_;
   StaticStart found_;
   const Stage* stage_ = nullptr;
-  double part_ = 0.0;     // fraction of the stage
+  double part_ = 0.0;     // load factor of the stage, 0 to 1
   double carried_ = 0.0;  // largest force of a contact so far
 };
 

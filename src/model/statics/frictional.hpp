@@ -13,10 +13,10 @@
 //
 // This is one linear complementarity problem of all contacts that touch or are at their limit
 // (quasi_static_rates.hpp). If there is no solution, or a motion without stiffness, the continuation would be
-// dynamic, and the start is refused. If there are several solutions, one is taken and reported.
+// dynamic, and the start is refused. If there are several solutions, one of them is taken and reported.
 //
 // If closed contacts at their limits do not resist some motion, many slips are possible with the same forces.
-// The smallest one is taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
+// The smallest slips are taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
 #pragma once
 
 #include <vector>
@@ -27,11 +27,11 @@
 
 namespace signorini::statics {
 
-/// One stage: its loads grow from their previous values to their values at its end.
+/// Loads of one stage; they grow linearly during the stage, in addition to the loads of earlier stages.
 struct Stage {
   std::string name;
-  Vector load;  ///< dP; n
-  int steps = 1;
+  Vector load;  ///< dP; one entry per degree of freedom
+  int steps = 1;  ///< equal steps of the load factor; one StageEnd each
 };
 
 struct FrictionalEquilibrium {
@@ -49,7 +49,7 @@ struct FrictionalEquilibrium {
                                                            const assembly::DofMap& map,
                                                            const SourcePlace& place);
 
-/// Applies one more stage with another stiffness.
+/// Applies one more stage, with another stiffness, to the result of earlier stages.
 [[nodiscard]] FrictionalEquilibrium continue_loading(FrictionalEquilibrium from,
                                                      const SparseMatrix& stiffness,
                                                      const std::vector<Contact>& contacts, const Stage& stage,

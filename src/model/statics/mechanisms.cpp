@@ -23,8 +23,8 @@ Vector scaling(const SparseMatrix& k) {
   return s;
 }
 
-/// a: scaled. A zero row has no terms, so rounding in other rows would decide about its motion; it counts with its
-/// scaled diagonal, 1, like the others.
+/// True if x is a null motion of the scaled matrix a. A zero row has no terms, so rounding in other rows would decide
+/// about its motion; the row is therefore treated as if it had the diagonal 1 of other scaled rows.
 bool is_null(const SparseMatrix& a, const Vector& x) {
   const double bare = (a.diagonal().array() == 0.0).select(x, 0.0).squaredNorm();
   return x.dot(a * x) <= rounding::many_operations * (assembly::term_magnitude(a, x) + bare);
@@ -101,7 +101,7 @@ Eigen::MatrixXd of_parts(const SparseMatrix& k) {
 }  // namespace
 
 bool may_have_null_motions(const SparseMatrix& k) {
-  // With a null motion the pivots are some n eps; a slender structure may only cause a second, unnecessary check.
+  // A null motion leaves pivots of some n eps. A slender structure below this limit only causes an unnecessary search.
   constexpr double certainly_held = 1e-9;
   const Vector s = scaling(k);
   const assembly::SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));
@@ -115,7 +115,7 @@ Eigen::MatrixXd null_motions(const SparseMatrix& k) {
 
 namespace {
 
-constexpr double belongs = 1e-3;  // relative; a null motion of a fine mesh has few digits
+constexpr double belongs = 1e-3;  // relative to a motion: smaller remainders are errors of null motions
 
 /// Translations along x and y, and the rotation about the centre, on the given degrees of freedom.
 std::array<Vector, 3> rigid_motions(const assembly::DofMap& map, const std::vector<int>& dofs) {
@@ -149,7 +149,7 @@ Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::D
                                const std::vector<int>& dofs) {
   if (map.is_matrix_scene() || motions.cols() < 2) return motions;
   const Eigen::MatrixXd q = base::orthonormal(motions);
-  Eigen::MatrixXd found(q.cols(), 0), basis(q.cols(), 0);  // coordinates in q; the same, orthonormal
+  Eigen::MatrixXd found(q.cols(), 0), basis(q.cols(), 0);  // coordinates in q; their orthonormal basis
   for (const Vector& rigid : rigid_motions(map, dofs)) {
     const Eigen::VectorXd c = q.transpose() * rigid;
     if (!((rigid - q * c).norm() <= belongs * rigid.norm()) || rigid.norm() == 0.0) continue;

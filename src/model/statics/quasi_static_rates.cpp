@@ -11,10 +11,10 @@
 namespace signorini::statics {
 namespace {
 
-// Rates that differ by less, relative to the largest one, count as equal: error of dense solves. Chosen value.
+// Relative difference below which two rates are equal: error of dense solves. Chosen value.
 constexpr double same_z = 1e-9;
 
-/// Unknowns whose conditions are zero; `free`: the last unknown has any sign.
+/// Unknowns that may be nonzero, because their conditions are zero; `free`: the last of them may have any sign.
 struct ContactRateState {
   std::vector<Eigen::Index> active;
   bool free = false;
@@ -47,7 +47,7 @@ std::vector<RateUnknowns> rate_unknowns_of(const std::vector<Unknown>& unknowns)
   return all;
 }
 
-/// z with these conditions zero and all others satisfied; nullopt if they are dependent or no such z exists.
+/// z with the chosen conditions zero and all other conditions satisfied; nullopt if there is no unique such z.
 std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
                                           const std::vector<RateUnknowns>& contacts,
                                           const std::vector<std::size_t>& choice) {
@@ -73,7 +73,7 @@ std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen:
   return Eigen::VectorXd(z.cwiseMax(0.0));
 }
 
-/// Advances to the next combination, like a counter. False: the last one was reached.
+/// Advances to the next combination, like a counter. Returns false after the last combination.
 bool next(const std::vector<RateUnknowns>& contacts, std::vector<std::size_t>& choice) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (++choice[c] < contacts[c].ways.size()) return true;
@@ -110,7 +110,7 @@ std::optional<QuasiStaticRates> quasi_static_rates(const Eigen::MatrixXd& m, con
 
 namespace {
 
-// Forces that differ by less, relative to the largest one so far, count as equal: errors of some thousand solves and
+// Difference below which two forces are equal, relative to the largest one so far: errors of some thousand solves and
 // events. Chosen value.
 constexpr double same_force = 1e-11;
 

@@ -10,8 +10,8 @@
 //   slip +, -     that slip          slip           that slip
 //   open          opening and slip, whose sign is free: N' = 0, T' = 0
 //
-// If several combinations hold, the one with the smallest |z| is taken: it is independent of the scene's
-// orientation, reflection and numbering.
+// If several combinations satisfy the conditions, the one with the smallest |z| is taken: this choice is independent of
+// the scene's orientation, reflection and numbering.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,11 +25,11 @@ namespace signorini::statics {
 
 struct QuasiStaticRates {
   Eigen::VectorXd z;       ///< one per unknown
-  bool ambiguous = false;  ///< other rates satisfy the conditions, too
+  bool ambiguous = false;  ///< true: other rates also satisfy the conditions
 };
 
-/// The rates z. q: its largest entry has magnitude one. Unknowns of one contact are adjacent, its opening
-/// first. nullopt: no combination holds, or there are more than max_combinations.
+/// Returns the rates z; nullopt if no combination satisfies the conditions, or if there are more than max_combinations.
+/// The largest entry of q must have magnitude one. Unknowns of one contact must be adjacent, its opening first.
 [[nodiscard]] std::optional<QuasiStaticRates> quasi_static_rates(const Eigen::MatrixXd& m,
                                                                  const Eigen::VectorXd& q,
                                                                  const std::vector<Unknown>& unknowns);
@@ -39,10 +39,10 @@ inline constexpr std::size_t max_combinations = 20'000;
 
 // State of a contact during quasi-static loading, and its distance from the limits.
 //
-//   f |N| - s T >= 0, s = +-1       while it sticks
+//   f |N| - s T >= 0, s = +-1       while the contact sticks
 //   touching: g = 0 and N = 0       neither compressed nor separated
 
-/// State of one contact; rates are along the stage, from 0 to 1.
+/// State of one contact; rates are derivatives by the load factor of the stage, 0 to 1.
 struct LimitMargin {
   State state = State::open;
   double gap = 0.0, N = 0.0, T = 0.0;
@@ -52,15 +52,15 @@ struct LimitMargin {
   int normal = -1, tangent = -1;  ///< indices of active constraint rows; -1: none
 };
 
-/// State before any load.
+/// State of a contact before any load.
 [[nodiscard]] LimitMargin undeformed(const Contact& contact);
 
 /// Friction coefficient: kinetic in slip, else static.
 [[nodiscard]] double friction_of(const Contact& contact, const LimitMargin& standing);
-/// f |N| - s T
+/// Margin f |N| - s T before slip in the direction s; force.
 [[nodiscard]] double margin_of(const Contact& contact, const LimitMargin& standing, int s);
 
-/// Threshold below which a force is zero, for the largest force so far.
+/// Threshold below which a force is zero; greatest: the largest force so far.
 [[nodiscard]] double force_tolerance(double greatest);
 /// True if the contact has neither a gap nor a compression. zero: threshold of forces; travelled: sum of the
 /// magnitudes of the gap's terms.

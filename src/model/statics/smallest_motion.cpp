@@ -37,8 +37,8 @@ Eigen::VectorXd smallest_motion(const Eigen::MatrixXd& b, const Eigen::VectorXd&
 
 bool has_other_motions(const Eigen::MatrixXd& b, const Eigen::VectorXd& r,
                        const std::vector<AdmissibleDirection>& ways) {
-  // Relative to the trial displacement. Chosen: far above rounding; the trial motion is not nearly orthogonal
-  // to an admissible cone.
+  // Smallest difference of two motions, relative to the trial displacement; smaller ones are rounding. Chosen
+  // value.
   constexpr double moves = 1e-6;
   Eigen::VectorXd draft(b.cols());
   for (Eigen::Index j = 0; j < draft.size(); ++j)
@@ -53,11 +53,11 @@ bool has_other_motions(const Eigen::MatrixXd& b, const Eigen::VectorXd& r,
 
 namespace {
 
-// Rates that differ by less, relative to the largest one, count as equal, being results of one solve; a contact below
-// its limit then hardly leaves it. Chosen value.
+// Rates and forces below this fraction of the largest one are zero, up to the error of one solve. Chosen
+// value.
 constexpr double same_rate = 1e-9;
 
-/// A row along which a contact may move now: its rate, and the admissible directions.
+/// A row along which a contact may move at this load: its rate, and the admissible directions.
 struct MechanismSlip {
   std::size_t row, contact;
   double rate;

@@ -26,7 +26,7 @@ enum class AdmissibleDirection : signed char { negative = -1, both = 0, positive
                                               const std::vector<AdmissibleDirection>& ways,
                                               const Eigen::VectorXd& about);
 
-/// True if r is not the only possible motion.
+/// True if other motions satisfy the same conditions as r.
 [[nodiscard]] bool has_other_motions(const Eigen::MatrixXd& b, const Eigen::VectorXd& r,
                                      const std::vector<AdmissibleDirection>& ways);
 
@@ -49,14 +49,14 @@ struct SlipDistribution {
   const assembly::DofMap& map;
   const std::vector<ConstraintRow>& rows;
   const std::vector<Unknown>& unknowns;
-  const std::vector<double>& conditions;  ///< w, one per unknown, complementary to it; force
+  const std::vector<double>& conditions;  ///< w, one per unknown, complementary to z; force
   Eigen::VectorXd z;                      ///< one per unknown; force
   double greatest_force;                  ///< largest rate of a force on the rows
 };
 
 struct SmallestSlips {
-  std::vector<bool> moves;  ///< one per unknown
-  /// Contacts at their limits whose slips the data do not determine, in the order of their rows; empty: none.
+  std::vector<bool> moves;  ///< one per unknown: true if its rate is not zero
+  /// Contacts at their limits whose slips the data do not determine, in the order of their rows.
   std::vector<std::size_t> undetermined;
   Vector motion;  ///< a motion without resistance; n
 };

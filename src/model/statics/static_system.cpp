@@ -18,9 +18,9 @@
 namespace signorini::statics {
 namespace {
 
-/// Rounding leaves a pivot of some eps of its diagonal entry; below this value null motions are searched for.
+/// Pivot ratios below this value may belong to null motions, which are then searched for; rounding leaves some eps.
 constexpr double regular_share = 1e-9;
-// Relative remainder of a row after removing other rows that span it; rounding is below. Chosen value.
+// Largest part of a row that other rows do not span, relative to the row, if it is rounding. Chosen value.
 constexpr double spanned = 1e-9;
 
 }  // namespace
@@ -88,19 +88,19 @@ std::vector<assembly::LineSpring> ConstraintRows::springs() const {
 
 namespace {
 
-constexpr double min_norm_friction = 1e-3;  // relative to a row's largest entry: limit for a pivot
-// Slip by a motion of size 1: if it is smaller, the contact does not hold the motion.
+constexpr double min_norm_friction = 1e-3;  // smallest pivot, relative to a row's largest entry
+// Smallest slip by a motion of size 1 with which a contact can fix the motion.
 constexpr double holds = 1e-6;
-// Times the destabilising stiffness, so that it is held even if two share a row.
+// Multiple of a negative stiffness of K that a row balances; enough even if two negative stiffnesses share the row.
 constexpr double firmly = 4.0;
-constexpr double weak_share = 1e-10;  // relative to the diagonal: leaves six digits and fixes loose motions
-// Relative to the largest load times motion: less work does not drive a free motion.
+constexpr double weak_share = 1e-10;  // weak support, relative to the diagonal: leaves six digits
+// Work relative to the largest load times motion: less does not drive a free motion.
 constexpr double undriven = 1e-9;
-constexpr int together_up_to =
-    300;  // degrees of freedom; larger structures are solved part by unconnected part
+// Degrees of freedom up to which a structure is solved as a whole; larger structures are solved part by part.
+constexpr int together_up_to = 300;
 
-/// Completes the independent rows (p x m) by unit rows. Each row takes the first column with a sufficient pivot, so
-/// that a contact holds the horizontal motion rather than a combination with a rotation.
+/// Unit rows that complete the independent rows (p x m). Each row takes the first column with a sufficient pivot, so
+/// that a contact fixes the horizontal motion rather than a combination with a rotation.
 Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -119,8 +119,8 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   return others;
 }
 
-/// Keeps a motion without load at zero. Both translations of a node have equal support, the sum of their stiffnesses,
-/// which does not depend on the axes: a motion orthogonal to a spring stays so.
+/// Weak springs that keep a motion without load at zero. Both translations of a node have the same spring, the sum of
+/// their stiffnesses, which does not depend on the axes: a motion orthogonal to a spring stays orthogonal.
 SparseMatrix weak_support(const assembly::DofMap& map, const SparseMatrix& k) {
   const double largest = k.diagonal().cwiseAbs().maxCoeff();
   std::map<int, double> of_node;
@@ -146,12 +146,12 @@ double structural_stiffness(const SparseMatrix& k, const Combination& form) {
   for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
   double length = 0.0;
   for (const auto& [i, a] : form.terms) length += a * a;
-  // The row alone must balance a negative stiffness of K: a block on its feet, whose weight would topple it.
+  // The row must balance a negative stiffness of K by itself, for example of a block whose weight would topple it.
   double against = 0.0;
   for (const auto& [i, a] : form.terms)
     if (a != 0.0) against = std::max(against, -firmly * k.coeff(i, i) / (a * a));
   if (sum > 0.0) return std::max(sum / (length * length), against);
-  // If there is no stiffness along the form, the largest one of the structure is used.
+  // If there is no stiffness along the form, the largest stiffness of the structure is used.
   const double largest = k.diagonal().cwiseAbs().maxCoeff();
   return largest > 0.0 ? largest / length : 1.0 / length;
 }
@@ -172,8 +172,8 @@ Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
 
 namespace {
 
-/// Motions that move no node (rotations of hinged ends) are separated from others, since no contact acts on them. In a
-/// combination, rounding would leave some translation of them, which a contact would then seem to hold.
+/// Motions that move no node (rotations of hinged ends) are separated from the other motions, since no contact acts on
+/// them. In a combination, rounding would leave some translation, which a contact would then seem to fix.
 struct Turning {
   Eigen::MatrixXd others;        ///< motions that move nodes
   std::vector<int> dofs;         ///< degrees of freedom without any such rotation
@@ -197,7 +197,7 @@ struct Turning {
   }
 };
 
-/// Motions of one part of the structure, and the contacts that may hold them.
+/// Free motions of one part of the structure, each with the contact that fixes it.
 std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::MatrixXd& motions,
                                   const std::vector<int>& dofs, const std::vector<std::size_t>& contacts,
                                   const std::vector<bool>& closed, bool pressed_only) {
@@ -294,7 +294,7 @@ struct StiffContacts {
       list.push_back(c);
     }
   }
-  /// load - matrix u minus their forces; with_gaps: g0 is not in the load.
+  /// load - matrix u minus the forces of the stiff contacts; with_gaps: these forces include g0, the load does not.
   [[nodiscard]] Vector rest(const SparseMatrix& matrix, const Vector& load, const Vector& u,
                             bool with_gaps) const {
     Vector rest = load - matrix * u;
@@ -330,7 +330,7 @@ ConstrainedState solve_constrained(const StaticProblem& problem, const std::vect
   for (const std::size_t c : stiff.list)
     apart.push_back({problem.contacts[c].normal, problem.contacts[c].normal_stiffness});
   const assembly::SymmetricSolver solver(apart.empty() ? k : assembly::with_springs(k, apart));
-  // load: with the gaps of soft contacts; of_scene: true for the scene's load, where gaps of stiff contacts count.
+  // load: includes the gaps of soft contacts. of_scene: the scene's load, for which gaps of stiff contacts are added.
   const auto refined = [&](const Vector& load, bool of_scene) {
     const Vector first = of_scene ? problem.right_side(closed) : load;
     const Vector u = solver.solve(first);
@@ -344,7 +344,7 @@ ConstrainedState solve_constrained(const StaticProblem& problem, const std::vect
   std::vector<std::size_t> rigid;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c)
     if (closed[c] && problem.contacts[c].takes_impulses()) rigid.push_back(c);
-  if (!rigid.empty()) {  // n . (u + K^-1 n r) = -g0 at all of them, r = -N
+  if (!rigid.empty()) {  // n . (u + K^-1 n r) = -g0 at all rigid contacts, r = -N
     const auto m = static_cast<Eigen::Index>(rigid.size());
     Eigen::MatrixXd answer(problem.size(), m), give(m, m);
     Eigen::VectorXd miss(m);

@@ -1,8 +1,8 @@
 // static_system.hpp: equilibrium of a structure with given closed contacts.
 //
 //   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at contacts h that fix free motions
-//   rigid contacts: n . u = -g0 by a multiplier N, P - n N; their kn is that of the structure, and does not
-//                   affect the solution
+//   rigid contacts: n . u = -g0 is enforced by a multiplier N (load P - n N); kn is the structure's own stiffness
+//                   and does not affect the solution
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@ namespace signorini::statics {
 //
 //   K u + sum_j d_j F_j = P,    d_j . u - c_j F_j = r_j        c_j = 0: rigid
 //
-// Rows with a compliance are springs in the matrix. Rigid rows are added to it with the structure's own stiffness and
-// enforced by multipliers (a dense Schur complement, with one unknown per rigid row).
+// Rows with a compliance are springs in the matrix. Rigid rows are added to the matrix with the structure's own
+// stiffness and enforced by multipliers (a dense Schur complement, with one unknown per rigid row).
 
 /// d . u - c F = r: an active constraint row; F is the force along -d.
 struct ConstraintRow {
   Combination form;
-  double stiffness = 0.0;  ///< 1 / c; for a rigid row the structure's own, which does not affect the solution
+  double stiffness = 0.0;  ///< 1 / c; for a rigid row the structure's own stiffness, without effect on u
   bool rigid = false;
 };
 
-/// True if other rigid rows that are not loose also prevent the motion along this row. Its force is then not
-/// unique.
+/// True if other rigid rows that are not loose also prevent the motion along `row`; the force of `row` is then
+/// not unique.
 [[nodiscard]] bool is_also_constrained(const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose,
                                        std::size_t row);
 
@@ -41,7 +41,6 @@ class ConstraintRows {
 
   /// True if the matrix is positive definite: every motion has stiffness.
   [[nodiscard]] bool regular() const { return regular_; }
-  /// Number of rows.
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
   /// u and the forces F, one per row, for loads P and given r. Requires regular().
@@ -87,7 +86,7 @@ struct StaticProblem {
   [[nodiscard]] Vector right_side(const std::vector<bool>& closed) const;
 };
 
-/// A free motion, and the contact whose condition ut = 0 fixes it (-1: none, the motion is zero).
+/// A free motion, and the contact whose condition ut = 0 fixes it. -1: no contact; the motion is set to zero.
 struct FreeMotion {
   Vector motion;
   int contact_index = -1;
@@ -95,7 +94,7 @@ struct FreeMotion {
 
 /// A basis of the null space `null` (n x m), with the contact that fixes each motion. Contacts are taken in
 /// file order: closed ones and sliders first, then open ones unless `pressed_only`. A motion has the slip 1
-/// at its own contact and 0 at the other contacts of the basis.
+/// at the contact that fixes it, and 0 at the other contacts of the basis.
 [[nodiscard]] std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem,
                                                              const Eigen::MatrixXd& null,
                                                              const std::vector<bool>& closed,
@@ -113,16 +112,16 @@ struct ConstrainedState {
 
 /// Work of the loads on a free motion, at the displacement u of solve_constrained(): zero in equilibrium. k
 /// and p: matrix() and right_side() of the problem. Work below rounding, or below 1e-9 of the largest load
-/// times the largest displacement, counts as zero.
+/// times the largest displacement, is set to zero.
 [[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
                                   const Vector& motion, const Vector& u);
 
 // -N of a contact before the motion starts.
 //
-//   a slider    its given normal force at t = 0
-//   others      reaction in static equilibrium, if the run begins with it
+//   a slider         its given normal force at t = 0
+//   other contacts   reaction of the static start, if there is one
 
-/// -N of a contact, force. nullopt: the run begins with a given motion, and the contact is no slider.
+/// -N of a contact, force. nullopt if there is no static start and the contact is not a slider.
 [[nodiscard]] inline std::optional<double> static_reaction(const Model& model, std::size_t contact) {
   const Contact& c = model.contacts[contact];
   if (c.normal_force_given()) return c.normal_force.value(0.0);

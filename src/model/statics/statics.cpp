@@ -14,14 +14,14 @@ namespace signorini::statics {
 namespace {
 
 constexpr double only_touches = 1e-13;  // relative to the largest translation: rounding of a gap
-constexpr double no_reaction = 1e-9;    // relative to the largest load: less drives no free motion
+constexpr double no_reaction = 1e-9;    // relative to the largest load: smaller reactions drive no motion
 
 struct Trial {
   std::vector<FreeMotion> held;
   Vector u;
   std::vector<double> reactions = {};
   int driven = -1;     ///< index into held, -1: none
-  double force = 0.0;  ///< force that drives it
+  double force = 0.0;  ///< force along the driven motion
 
   [[nodiscard]] const FreeMotion& driven_motion() const { return held[static_cast<std::size_t>(driven)]; }
 };
@@ -32,7 +32,7 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   ConstrainedState state = solve_constrained(problem, closed, trial.held);
   trial.u = std::move(state.u);
   trial.reactions = std::move(state.reactions);
-  // Motions without a holding contact first: their message is more specific than that for one held by friction.
+  // Motions that no contact fixes come first: their message is more specific than that of a motion fixed by friction.
   std::vector<std::size_t> order(trial.held.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_partition(order.begin(), order.end(),
@@ -52,7 +52,7 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
 }
 
 /// On extremely fine meshes K itself loses its digits: EI / h^3 over EI / L^3 exceeds 16 digits. A seemingly free
-/// motion then is a slow bending, and naming it would mislead.
+/// motion is then a slow bending motion, and the name of a free motion in the message would mislead.
 void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place,
                      const char* key) {
   if (problem.size() <= 10000) return;
@@ -68,7 +68,7 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
                                problem.size()));
 }
 
-/// Refuses a motion that not even adhesive, sticking contacts could fix.
+/// Errors: SceneError for a motion that no contact could restrain, even if all contacts were closed and stuck.
 void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place,
                        const char* key) {
   std::vector<assembly::LineSpring> grips;
@@ -121,7 +121,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                                assembly::describe_motion(found.driven_motion().motion, problem.map)));
 }
 
-/// True if the work of the reaction along the contact's normal is below the limit.
+/// True if the reaction is zero up to rounding: its work along the normal is below no_reaction times the largest work.
 bool carries_nothing(const StaticProblem& problem, std::size_t k, double reaction) {
   const double greatest = problem.size() == 0 ? 0.0 : problem.load.cwiseAbs().maxCoeff();
   double squares = 0.0, sum = 0.0;
@@ -132,8 +132,8 @@ bool carries_nothing(const StaticProblem& problem, std::size_t k, double reactio
   return std::abs(reaction) * squares <= no_reaction * greatest * sum;
 }
 
-/// Rigid contacts are springs in the matrix. Negative energy that only they resist needs stiff springs; friction may
-/// resist some of the remaining negative energy.
+/// Factor for the springs of rigid contacts. Negative energy of K that only these contacts resist needs stiff springs;
+/// what friction resists may remain.
 double find_rigid_stiffness_factor(StaticProblem problem, const std::vector<bool>& closed) {
   double best = 1.0;
   Eigen::Index least = null_motions(problem.matrix(closed)).cols();
@@ -166,11 +166,11 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
 
   std::vector<bool> closed = search.closed ? *search.closed : closed_supports(problem);
   if (search.closed) problem.rigid_stiffness_factor = find_rigid_stiffness_factor(problem, closed);
-  // A contact without force may be closed only since Newton's method released rigid contacts, and would displace a free
-  // motion: it opens, once. If its gap is negative without it, it closes for good.
+  // A closed contact without force could displace a free motion, so the contact opens, once. If its gap is then
+  // negative, it closes again and stays closed.
   std::vector<bool> opened(contacts.size(), false);
-  // Newton's method ended on a slightly supported structure; without that support a contact that barely touches may
-  // change its state, and change back: after 20 rounds either state is acceptable.
+  // closed_supports() adds a weak support. Without this support, a contact that barely touches may change its state in
+  // every round: after 20 rounds either state is acceptable.
   for (int round = 0;; ++round) {
     const Trial trial = attempt(problem, closed);
     if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force, search.key);
@@ -202,7 +202,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
 
 namespace {
 
-// Relative to the diagonal: it makes the matrix regular, and is negligible relative to contact springs.
+// Weak support, relative to the diagonal: makes the matrix regular, and is negligible relative to contact springs.
 constexpr double no_stiffness = 1e-12;
 
 std::vector<bool> closed_at(const StaticProblem& problem, const Vector& u) {
@@ -247,7 +247,7 @@ double best_step(const StaticProblem& problem, const SparseMatrix& k0, const Vec
   return 1.0;
 }
 
-/// A zero row has no contact, whose spring would be in it: any stiffness is suitable there.
+/// A zero row belongs to no contact, because the contact's spring would be in the row: any stiffness is suitable there.
 SparseMatrix weak_support(const SparseMatrix& k) {
   const Vector d = k.diagonal().cwiseAbs();
   SparseMatrix weak(k.rows(), k.cols());
@@ -280,7 +280,7 @@ std::vector<bool> closed_supports(const StaticProblem& problem) {
     if (reached == closed) return closed;  // no descent left: contacts that barely touch
     closed = reached;
   }
-  return closed;  // contacts at their limit, within rounding: the caller tries both states
+  return closed;  // contacts that barely touch: the caller tries both states
 }
 
 }  // namespace signorini::statics

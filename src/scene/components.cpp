@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, double>> read_counterpart(Table& contact, con
     const double x = ((at.x - from.x) * dx + (at.y - from.y) * dy) / square;
     if (x < -beside || x > 1.0 + beside)
       contact.fail(against_key,
-                   fmt::format("node '{}' projects beside the segment from '{}' to '{}', at {:.4g} of "
+                   fmt::format("node '{}' projects outside the segment from '{}' to '{}', at {:.4g} of "
                                "its length, expected 0 to 1",
                                node, b, c, x));
     return {{b, 1.0 - x}, {c, x}};

@@ -71,7 +71,7 @@ History table(const HistorySpec& spec, const std::string& key) {
   if (t.size() != y.size())
     throw SceneError(
         spec.place, key,
-        fmt::format("found {} times and {} values, expected as many of both", t.size(), y.size()));
+        fmt::format("found {} times and {} values, expected equal numbers", t.size(), y.size()));
   if (t.size() < 2) throw SceneError(spec.place, key, "a table needs at least two points");
   for (std::size_t i = 1; i < t.size(); ++i)
     if (!(t[i] >= t[i - 1]))
@@ -91,7 +91,7 @@ History table(const HistorySpec& spec, const std::string& key) {
   return History(std::move(starts), std::move(pieces));
 }
 
-/// The end of a pulse; refused unless it is after the start.
+/// End of a pulse: a rectangle, triangle or half sine. Errors: SceneError if the history has no end.
 double pulse_end(const HistorySpec& spec, const std::string& key) {
   if (!std::isfinite(spec.end)) throw SceneError(spec.place, key, "this pulse needs an end");
   return spec.end;
@@ -139,7 +139,7 @@ History make_history(const HistorySpec& spec, const std::string& key) try {
   }
   if (spec.shift != 0.0) f = f.shifted(spec.shift);
   return f.scaled(spec.amplitude, spec.offset);
-} catch (const std::invalid_argument&) {  // from History: rounding has merged starts
+} catch (const std::invalid_argument&) {  // thrown by History if rounding makes two start times equal
   throw SceneError(spec.place, key,
                    "found times of the history (start, end, shift or period) that rounding merges, or that "
                    "overflow; expected distinct, finite times");

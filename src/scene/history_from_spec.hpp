@@ -13,8 +13,8 @@
 //                zero before the first and, without `hold`, from the last time on (start and end are not
 //                used)
 //
-// With a period the shape restarts after each period, from its start (a table's first time); a shift delays the whole
-// history.
+// With a period, the shape restarts after each period. The first period begins at `start`, or at the first time of a
+// table. A shift delays the whole history.
 //
 // Steffen: Astron. Astrophys. 239 (1990) 443-450, as implemented by GSL.
 #pragma once

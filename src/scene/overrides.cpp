@@ -17,18 +17,18 @@ namespace {
 
 constexpr std::size_t most_parts = 16;  // much deeper than any key of a scene
 
-/// Pairs of keys that exclude each other.
+/// Pairs of keys that exclude each other and give the same quantity: places_of() writes both by the first name.
 constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
                                                                 {"alpha", "alpha_over_omega1"},
                                                                 {"omega", "frequency"},
                                                                 {"gap", "gaps"},
                                                                 {"cutoff_omega", "cutoff_frequency"}};
-/// Keys that replace another key.
+/// Pairs of keys that exclude each other and give different quantities.
 constexpr std::pair<const char*, const char*> instead[] = {{"tolerance", "cutoff_omega"},
                                                            {"tolerance", "cutoff_frequency"}};
 
-/// The tables of an array that one part of a path selects, by index; adds the names of all named tables to
-/// `names`.
+/// Indices of the tables in `array` that `which`, one part of a path, selects by name, by number or by *. Adds the
+/// names of all named tables to `names`.
 std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& array,
                                    std::vector<std::string>& names) {
   std::vector<std::size_t> chosen;
@@ -130,7 +130,7 @@ class Change {
     fail("the value is not TOML, expected a number, a word, \"text\", [...] or { ... }");
   }
 
-  /// Default of the value that contains the omitted part of a key: a list of numbers, or an empty table.
+  /// TOML text of a value that the path enters and the file lacks: the default if that is a list, else an empty table.
   std::string left_out(Segments rest) const {
     const Key* key = rest.size() == segments_.size() ? find_key("", rest[0]) : nullptr;
     const bool numbers = key != nullptr && key->default_value.starts_with('[');
@@ -160,7 +160,7 @@ class Change {
     into(*next, rest);
   }
 
-  /// Replaces friction = 0.3 by the table { static = 0.3, kinetic = 0.3 }, for which it is short.
+  /// Replaces friction = 0.3 by the table { static = 0.3, kinetic = 0.3 }, which means the same.
   static toml::node& split_friction(toml::table& table) {
     const double value = *table.get("friction")->value<double>();
     const toml::source_path_ptr& file = table.get("friction")->source().path;
@@ -170,7 +170,7 @@ class Change {
     return table.insert_or_assign("friction", std::move(*both.get("value"))).first->second;
   }
 
-  /// Puts the value into `node`, which rest[0] names; rest[1] and later parts are inside of it.
+  /// Puts the value into `node`, which rest[0] names; rest[1] and later parts are keys inside `node`.
   void into(toml::node& node, Segments rest) {
     const std::string done = change_.path.substr(0, offset_of(rest.subspan(1)) - 1);
     if (auto* table = node.as_table()) {
@@ -212,7 +212,7 @@ class Change {
   }
 
   const Override& change_;
-  const Override& given_;  // named in messages
+  const Override& given_;  // the override as the user gave it, for messages
   std::vector<std::string> segments_;
   std::optional<toml::table> ready_;
   toml::source_region place_;
@@ -287,7 +287,7 @@ std::string tables_met(const toml::table& root, const std::string& path) {
   if (!path.starts_with(all_contacts) || tables_in(root, "stops") == 0) return text;
   text += fmt::format(", {} of [[stops]]", stops);
   if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)
-    text += fmt::format(" ({} cannot have this key as {})", others, others == 1 ? "it is" : "they are");
+    text += fmt::format(" ({} cannot have this key with {} law)", others, others == 1 ? "its" : "their");
   return text;
 }
 

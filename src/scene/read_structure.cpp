@@ -56,7 +56,7 @@ std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
   return elements;
 }
 
-/// The inner nodes of a chain of bars would be free to move sideways.
+/// Refuses bars of several elements: nothing would prevent their inner nodes from moving sideways.
 void check_bar(const Table& table, const Member& member) {
   if (member.type != MemberType::bar) return;
   for (const int n : member.elements) {
@@ -121,7 +121,7 @@ void read_release(Table& table, Member& member) {
 
 void read_strains(Table& table, Member& member, const Scene& scene) {
   if (table.has("temperature") && !table.has("thermal_expansion"))
-    table.fail("temperature", "needs thermal_expansion beside it");
+    table.fail("temperature", "needs thermal_expansion in the same table");
   member.thermal_expansion = table.number("thermal_expansion");
   member.temperature = read_number_or_history(table, "temperature", scene);
   member.initial_strain = read_number_or_history(table, "initial_strain", scene);
@@ -146,7 +146,7 @@ Bend read_bend(Table& table, const Member& member, const Section& section, const
     const double half = 0.5 * std::hypot(b.x - a.x, b.y - a.y);
     if (!(std::abs(radius) >= half * (1.0 - rounding::many_operations)))
       keys.fail("radius",
-                fmt::format("found {}, expected at least half the distance of \"{}\" and \"{}\", {:.9g}",
+                fmt::format("found {}, expected at least half the distance between \"{}\" and \"{}\", {:.9g}",
                             base::format_number(radius), a.name, b.name, half));
   }
   Bend bend = section.pipe_wall > 0.0 ? factors_of_pipe(section, radius) : Bend{radius};
@@ -210,7 +210,7 @@ void read_members(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// Cross-section: area, second moment of area, distance of the outermost fibre.
+/// Cross-section: area, second moment of area, distance of the outermost fibre from the neutral axis.
 struct Shape {
   double area = 0.0, moment = 0.0, reach = 0.0;
   double more_mass = 0.0;  ///< mass per length in addition to that of the material
@@ -344,7 +344,8 @@ void read_box(Table& table, PointMass& mass) {
   table.record("box", box.record().inline_table());
 }
 
-/// The centre is a node, or a place: then it is a new node, named after the body.
+/// Reads the centre: an existing node, or a position [x, y], which becomes a new node with the name of the body.
+/// Returns the name of the node.
 std::string read_centre(Table& table, const std::string& name, Scene& scene, Names& nodes) {
   table.require("centre", "");
   if (!table.raw("centre")->is_array()) {

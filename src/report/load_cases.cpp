@@ -323,7 +323,8 @@ std::vector<LoadCase> read_load_cases(const std::vector<fs::path>& directories) 
     const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     for (const LoadCase& other : cases)
       if (other.name == name)
-        throw FileError(directory.string(), "has the name \"" + name + "\", which another case has, too; rename a directory");
+        throw FileError(directory.string(),
+        "has the name \"" + name + "\", which another case has, too; rename a directory");
     cases.push_back({name, read_summary(directory)});
     const base::Json &units = entry_of(cases.back().summary, "units"),
                      &first = entry_of(cases.front().summary, "units");

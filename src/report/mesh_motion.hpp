@@ -42,7 +42,7 @@ namespace signorini::report {
 struct MeshMotion {
   std::vector<double> times;
   std::vector<int> nodes;  ///< indices into Scene::nodes
-  Eigen::MatrixXd shapes;  ///< one column per shape: ux, uy of the first node, of the second, ...; largest entry 1
+  Eigen::MatrixXd shapes;  ///< one column per shape: ux, uy of the first node, ...; largest entry 1
   Eigen::MatrixXd parts;   ///< one row per time, one column per shape: displacements are shapes parts^T
   double greatest = 0.0;   ///< largest displacement along x or y
 };

@@ -53,7 +53,7 @@ class CsvFile {
 
  private:
   struct Close {
-    void operator()(std::FILE* file) const { (void)std::fclose(file); }  // unbuffered: nothing is left to write
+    void operator()(std::FILE* file) const { (void)std::fclose(file); }  // unbuffered: nothing to flush
   };
   [[noreturn]] void fail();
 

@@ -394,7 +394,7 @@ Picture raster_picture(const PlottedRun& run) {
         fmt::format("{}:({} + {:.4f}):(0):({:.4f})", at, mark_table().value("row"),
                     -0.42 + lane * static_cast<double>(i), 0.86 * lane),
         fmt::format("with vectors nohead linewidth 1.6 linecolor '{}'", lanes[i].colour), std::nullopt);
-  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot refuses an empty plot command
+  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot refuses an empty plot
   for (const EventStyle& look : lanes)
     panel.curves.push_back({"keyentry", "", fmt::format("with lines linewidth 4 linecolor '{}'", look.colour),
                             translate(run, signorini::to_string(look.type))});

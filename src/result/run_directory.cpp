@@ -116,9 +116,10 @@ RunDirectory::~RunDirectory() = default;
 
 RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
-  check_run_directory(path_, options_.force);  // again: the directory may have been created since the first check
+  check_run_directory(path_, options_.force);  // again, in case another process created it
   const fs::path created = base::make_directory(path_);
-  if (!lock_.take(path_)) throw FileError(path_.string(), "another process is writing a run to this directory");
+  if (!lock_.take(path_))
+  throw FileError(path_.string(), "another process is writing a run to this directory");
   try {
     base::remove_manifest(path_);
     // summary.json is written first: a directory without it is no run, and a later --force would refuse to replace the

@@ -114,8 +114,8 @@ class TableReader {
       fail(fmt::format("found {}, expected two or more",
                        base::count_text(table_.times.size(), values_only ? "value" : "row")));
     if (layout_.peer && table_.times.size() != points_)
-      fail(fmt::format("found {}, expected {}, the number given by NPTS", base::count_text(table_.times.size(), "value"),
-                       points_));
+      fail(fmt::format("found {}, expected {}, the number given by NPTS",
+      base::count_text(table_.times.size(), "value"), points_));
     return std::move(table_);
   }
 
@@ -169,7 +169,9 @@ class TableReader {
     const bool whole = numbers.size() >= 2 && numbers[0] >= 2.0 &&
                        numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
     if (!contains_word(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
-      fail("found no NPTS and DT, expected \"NPTS= 5372, DT= .0050\" or similar in the fourth line of a PEER file");
+      fail(
+      "found no NPTS and DT, expected \"NPTS= 5372, DT= .0050\" or similar in the fourth line of a PEER "
+      "file");
     points_ = static_cast<std::size_t>(numbers[0]);
     layout_.time_step = numbers[1] * layout_.second;
     heading_allowed_ = false;

@@ -287,7 +287,7 @@ std::string tables_met(const toml::table& root, const std::string& path) {
   if (!path.starts_with(all_contacts) || tables_in(root, "stops") == 0) return text;
   text += fmt::format(", {} of [[stops]]", stops);
   if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)
-    text += fmt::format(" ({} cannot have this key with {} law)", others, others == 1 ? "its" : "their");
+    text += fmt::format(" ({} cannot have this key with {} present settings)", others, others == 1 ? "its" : "their");
   return text;
 }
 

@@ -147,7 +147,8 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
                                           "expected the place of a node",
                                           nearest.name, nearest.x, nearest.y));
     if (!nearest.of_mesh)
-      points.fail(entry.name, fmt::format("the node at this place already has the name \"{}\"", nearest.name));
+      points.fail(entry.name,
+      fmt::format("the node at this place already has the name \"{}\"", nearest.name));
     if (!names.add(entry.name))
       points.fail(entry.name, fmt::format("node \"{}\" exists already", entry.name));
     nearest.name = entry.name;

@@ -101,9 +101,10 @@ void check_mass(const Table& table, const MatrixSpec& mass, const std::vector<st
   for (const auto& e : mass.entries) {
     const auto row = static_cast<std::size_t>(e.row);
     if (diagonal[row] < 0.0 || (diagonal[row] == 0.0 && e.row != e.column)) {
-      table.fail("mass", fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
-                                     base::format_number(diagonal[row]), dofs[row],
-                                     diagonal[row] < 0.0 ? "" : ", and > 0 in a row with off-diagonal entries"));
+      table.fail("mass",
+      fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
+      base::format_number(diagonal[row]), dofs[row],
+      diagonal[row] < 0.0 ? "" : ", and > 0 in a row with off-diagonal entries"));
     }
   }
 }

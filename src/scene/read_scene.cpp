@@ -115,8 +115,8 @@ void compare_with_run(Scene& scene) {
   if (froze && scene.run.geometric && !scene.initial.saved->prestress)
     throw SceneError(
         scene.initial.place, "run.initial.run",
-        fmt::format("found no {}, expected the frozen static forces of that run, which had run.geometric = true "
-                    "(run.toml): its stiffness depends on them",
+        fmt::format("found no {}, expected the frozen static forces of that run, which had run.geometric = "
+        "true (run.toml): its stiffness depends on them",
                     (std::filesystem::path(scene.initial.saved->run) / prestress_file).string()));
   scene.initial.saved->structure_differences = differing_structure(run, here);
 }

@@ -235,9 +235,10 @@ void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& 
   const std::string first = mesh_name(seam.nodes.front().node, scene);
   std::erase_if(seam.nodes, [&](const mesh::MortarNode& k) { return master.contains(k.node); });
   if (seam.nodes.empty())
-    table.fail("master", fmt::format("node {} and all other slave nodes are also master nodes: expected meshes that "
-                                     "share no nodes there, except at the tip of a crack",
-                                     first));
+    table.fail("master",
+    fmt::format("node {} and all other slave nodes are also master nodes: expected meshes that "
+    "share no nodes there, except at the tip of a crack",
+    first));
 }
 
 /// Reads and checks the mortar of a table.
@@ -265,7 +266,8 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
     table.fail(
         "slave",
         fmt::format("node {} lies at the end of a quadratic edge that the master covers only in part, so no "
-                    "length belongs to it: end the master at a node of the slave, or exchange slave and master",
+                    "length belongs to it: end the master at a node of the slave, or exchange slave and "
+                    "master",
                     base::join_quoted(mesh_names(seam.negative, scene), 3)));
   if (!seam.corners.empty())
     table.fail(

@@ -68,7 +68,7 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag) {
   return row + "</tr>\n";
 }
 
-/// Gives all columns of forces the same greatest value, and all columns of velocities: rounding errors are judged by it.
+/// Gives all columns of forces one common greatest value, likewise all columns of velocities: the scale of rounding.
 void share_scales(const std::vector<std::string>& header, std::vector<double>& greatest) {
   for (const std::vector<std::string_view>& alike :
        {std::vector<std::string_view>{"N", "T", "N_after", "T_after"},

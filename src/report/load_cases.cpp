@@ -31,7 +31,7 @@ struct Figure {
   std::string item, quantity, unit;
   Governs governs = Governs::greatest;
   std::optional<double> value, t;
-  std::string place;  ///< of an envelope: piece, station and fibre of the extreme
+  std::string place;  ///< for an envelope: piece, station and fibre of the extreme
 };
 
 /// The member `name` of a JSON object; null if there is none.

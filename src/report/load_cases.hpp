@@ -26,7 +26,7 @@ struct LoadCase {
 /// HTML table of one run, with the sign conventions; empty if the run has no contacts. A click on a time, <td data-t=...>,
 /// moves the player of the page to this time.
 [[nodiscard]] std::string support_loads_html(const base::Json& summary);
-/// HTML table of the envelopes, or of all other outputs.
+/// HTML table of outputs; envelopes: only outputs of kind envelope, otherwise only outputs of all other kinds.
 [[nodiscard]] std::string responses_html(const base::Json& summary, bool envelopes);
 
 /// Reads the summaries of run directories; a case has the name of its directory without the path. Errors: FileError, also

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t max_rows = 2000;  // of a table on the page
+constexpr std::size_t max_rows = 2000;  // rows of a table on the page
 
 struct Kind {
   const char *marker, *name;
@@ -149,8 +149,8 @@ std::string event_table(const fs::path& file, const Units& units) {
   const std::string table = csv_table(file, max_rows, columns, of_columns);
   return table.empty() ? ""
                        : table +
-                             "<p class=hint>N and T are the forces just before the event. events.csv also has "
-                             "rates, impulses and the forces after the event.</p>\n";
+                             "<p class=hint>N and T are the forces just before the event. events.csv also "
+                             "has rates, impulses and the forces after the event.</p>\n";
 }
 
 /// A condition that the audit checks: key in summary.json, name as on the terminal, and unit.

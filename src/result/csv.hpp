@@ -124,7 +124,7 @@ class TableFolder {
  public:
   explicit TableFolder(std::filesystem::path directory) : directory_(std::move(directory)) {}
   [[nodiscard]] bool has(const char* table) const;
-  /// Errors: FileError.
+  /// Opens a table of the directory. Errors: FileError.
   [[nodiscard]] CsvReader open(const char* table) const { return CsvReader(directory_ / table); }
 
  private:

@@ -96,7 +96,7 @@ struct FrameScales {
   double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0;  ///< drawn area, arrows included
 };
 
-/// Frames between the two times; empty if frames.csv is missing. Errors: FileError.
+/// Reads the frames from time `from` to time `to`; empty if frames.csv is missing. Errors: FileError.
 [[nodiscard]] std::vector<Frame> read_frames(const TableFolder& tables, double from, double to);
 /// Subtracts each frame's mean translation from displacements and adds it to positions, so that only the deformation is
 /// magnified. Does so only if all shapes differ from a translation by less than half of the largest displacement.

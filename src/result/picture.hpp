@@ -42,13 +42,13 @@ struct Panel {
   std::string axes = "";   ///< gnuplot lines for axes that differ from the usual ones
   double weight = 1.0;     ///< relative height of the panel
   std::string after = "";  ///< gnuplot lines that undo permanent settings of `axes`
-  bool own_axis = false;   ///< has numbers and a label at its horizontal axis, even if panels follow below
+  bool own_axis = false;   ///< numbers and label at the horizontal axis even if panels follow
   /// gnuplot lines for its position and all of its axes; empty: panels are stacked.
   std::string margins = "";
 };
 
 struct Picture {
-  std::string name;      ///< base name of its files
+  std::string name;      ///< base name of the picture's files
   std::string subtitle;  ///< line below the run's title
   Canvas canvas;
   bool over_time = true;

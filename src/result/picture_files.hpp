@@ -2,7 +2,7 @@
 //
 //   DIR/plots/NAME.gp, TABLE.csv
 //
-// When run in DIR/plots, each script writes pictures with its own name. gnuplot is not started by this file.
+// When run in DIR/plots, each script writes pictures with its own name. PictureFiles does not start gnuplot.
 #pragma once
 
 #include <filesystem>

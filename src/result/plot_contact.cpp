@@ -238,7 +238,7 @@ Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   const auto entry = [&](const std::string& look, const std::string& name) {
     curves.push_back({"keyentry", "", "with " + look, name});
   };
-  curves.push_back({"2", "", ""});  // gnuplot draws no plot that consists of legend entries only
+  curves.push_back({"2", "", ""});  // gnuplot needs a plot in addition to legend entries
   entry("lines linecolor '#c0182b' linewidth 1.2", "±f|N|");
   const auto two = [](const auto& c) { return c.kinetic_friction != c.static_friction; };
   if (std::any_of(run.facts.contacts.begin(), run.facts.contacts.end(), two))
@@ -394,7 +394,7 @@ Picture raster_picture(const PlottedRun& run) {
         fmt::format("{}:({} + {:.4f}):(0):({:.4f})", at, mark_table().value("row"),
                     -0.42 + lane * static_cast<double>(i), 0.86 * lane),
         fmt::format("with vectors nohead linewidth 1.6 linecolor '{}'", lanes[i].colour), std::nullopt);
-  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot refuses an empty plot
+  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot rejects empty plots
   for (const EventStyle& look : lanes)
     panel.curves.push_back({"keyentry", "", fmt::format("with lines linewidth 4 linecolor '{}'", look.colour),
                             translate(run, signorini::to_string(look.type))});

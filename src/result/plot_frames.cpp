@@ -112,7 +112,7 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
       text += " " + run.facts.units.force;
     }
     const bool sideways = std::abs(dx) > 2.0 * std::abs(dy);
-    const bool upright = !figures && !sideways;  // many names side by side
+    const bool upright = !figures && !sideways;  // vertical text: many names side by side
     const double part = (x - l.x0) / (l.x1 - l.x0);
     const char* side = upright       ? (dy < 0.0 ? "right rotate by 90" : "left rotate by 90")
                        : sideways    ? (dx > 0.0 ? "left" : "right")

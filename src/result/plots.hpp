@@ -14,8 +14,7 @@
 //   DIR/plots/states-NAME.csv         from,to,state: time intervals of each state, between events
 //   DIR/plots/marks.csv               row,t,event,N,T: the events of raster and cone
 //
-// When run in DIR/plots, each script writes an SVG and a PNG with its own name. gnuplot is not started by
-// this file.
+// When run in DIR/plots, each script writes an SVG and a PNG with its own name. These functions do not start gnuplot.
 #pragma once
 
 #include <filesystem>

@@ -137,7 +137,7 @@ void read_curves(const TableFolder& tables, PlottedRun& run) {
   for (std::size_t row = 0; curves.next(); ++row) {
     count(run.curves[curves.cell(name)], row, curves, "curves");
     if (curves.number(value) != 0.0)
-    run.energies.used.insert(curves.cell(name));  // displacements too, but nobody looks these names up
+    run.energies.used.insert(curves.cell(name));  // also displacements, which no energy picture uses
   }
 }
 

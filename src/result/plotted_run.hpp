@@ -65,7 +65,7 @@ struct PlottedRun {
     std::string state;
   };
   std::vector<std::vector<Band>> bands;
-  std::vector<std::string> event_types;                     ///< types that occur
+  std::vector<std::string> event_types;                     ///< event types that occur in the run
   std::set<std::pair<std::size_t, std::string>> occurring;  ///< (contact, type) pairs that occur
   std::vector<double> greatest_compression;                 ///< largest -N in the tables, for each contact
   double greatest_force = 0.0;                              ///< largest sqrt(N^2 + T^2) of all contacts

@@ -1,4 +1,4 @@
-// table.hpp: a table of results: list of columns, one writer, column numbers by name.
+// table.hpp: a table of results as a list of columns, from which rows are written and column numbers are found.
 //
 //   const CsvTable<Wave> waves = {{"t", &Wave::t}, {"height", [](const Wave& w) { return w.top - w.bottom; }}};
 //   waves.text(list)              header and rows
@@ -45,7 +45,7 @@ template <class Row>
 class CsvTable {
  public:
   struct Column {
-    /// cell: a member of Row, or a function of it.
+    /// cell: a member of Row, or a function of a Row, that gives the value of the cell.
     template <class Cell>
     Column(std::string column, Cell cell)
         : name(std::move(column)), put([cell = std::move(cell)](CsvBlock& block, const Row& row) {

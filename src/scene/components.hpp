@@ -1,6 +1,6 @@
 // components.hpp: names of the motion components of a node; the counterpart of a contact.
 //
-//   0  ux, vx    1  uy, vy    2  rz, wz (a rotation)      degrees of freedom of [matrices]: u, v
+//   displacement, rate:  0  ux, vx    1  uy, vy    2  rz, wz (rotation)      degrees of freedom of [matrices]: u, v
 //
 //   motion_named("A.wz")   // rate of a rotation, unit 1 / time
 #pragma once

@@ -124,7 +124,7 @@ class TableReader {
     throw SceneError({file_, number_, 0}, key_, message);
   }
 
-  /// Advances to the next line that is not blank.
+  /// Advances to the next line that is not blank; false at the end of the file.
   bool next() {
     while (read_line(in_, line_)) {
       ++number_;

@@ -28,7 +28,7 @@ namespace signorini::scene {
 
 /// The history that a spec describes. Errors: SceneError at the spec's place under `key` ("loads.1.history").
 [[nodiscard]] History make_history(const HistorySpec& spec, const std::string& key);
-/// Integral of the history from 0 to t. Errors: as make_history().
+/// Integral of the history from 0 to t, as a history. Errors: as make_history(); SceneError for a user-defined function.
 [[nodiscard]] History make_integral(const HistorySpec& spec, const std::string& key);
 
 }  // namespace signorini::scene

@@ -2,7 +2,7 @@
 //
 // The reader takes types and defaults from this table; `signorini keys` and the scene reference print the table.
 // A table is identified by its path: "" (top level), "run", "sections.*" (any name), "contacts[]" (each of
-// [[contacts]]), "history" (any place that accepts a history). The key "*" stands for a user-chosen name.
+// [[contacts]]), "history" (any place that accepts a history). The key "*" means a name chosen by the user.
 //
 //   const Key* key = find_key("contacts[]", "gap");   // key->unit == "length"
 #pragma once
@@ -52,7 +52,7 @@ struct Key {
   std::string_view table, name;
   KeyType type;
   std::string_view unit;           ///< product of force, mass, length, time; "" if dimensionless
-  std::string_view default_value;  ///< TOML text of the default; "required"; "" for none
+  std::string_view default_value;  ///< TOML text of the default; "required"; "" without default
   std::string_view choices;        ///< allowed words, separated by blanks; choices_of() splits them
   std::string_view meaning;        ///< description of the key, in sentences
 };

@@ -39,7 +39,7 @@ bool turns_left(const Node& a, const Node& b, const Node& c) {
   return ux * vy - uy * vx > on_the_line * std::hypot(ux, uy) * std::hypot(vx, vy);
 }
 
-/// One side of the hull of sorted nodes.
+/// Appends one side of the convex hull: of nodes sorted by x the lower side, of nodes in reversed order the upper side.
 template <class Iterator>
 void add_side(Iterator first, Iterator last, std::vector<Node>& hull) {
   const std::size_t begin = hull.size();

@@ -97,7 +97,7 @@ class Change {
     throw UsageError(override_text(given_) + ": " + message);
   }
 
-  /// Puts a fresh value at its place on each call, because a copied toml++ node loses its source place.
+  /// Parses the value anew on each call and passes it to `put`, because a copied toml++ node loses its source place.
   template <typename Put>
   void give(const Put& put) {
     toml::table source = ready_ ? *std::exchange(ready_, std::nullopt) : parsed();
@@ -110,7 +110,7 @@ class Change {
     return std::find(std::begin(words), std::end(words), value) != std::end(words);
   }
 
-  /// Parses `value = VALUE`.
+  /// Parses the value as TOML; returns the table { value = VALUE }.
   toml::table parsed() const {
     const std::string file = override_mark + override_text(given_);
     const auto parse = [&](const std::string& value) {
@@ -287,7 +287,8 @@ std::string tables_met(const toml::table& root, const std::string& path) {
   if (!path.starts_with(all_contacts) || tables_in(root, "stops") == 0) return text;
   text += fmt::format(", {} of [[stops]]", stops);
   if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)
-    text += fmt::format(" ({} cannot have this key with {} present settings)", others, others == 1 ? "its" : "their");
+    text += fmt::format(" ({} cannot have this key with {} present settings)", others,
+    others == 1 ? "its" : "their");
   return text;
 }
 
@@ -310,7 +311,7 @@ const Key* key_of(const std::string& path) {
   // [run], [sections.NAME], [[contacts]]: the table itself, a named table, or one of several.
   for (const std::string& kind : {table, table + ".*", table + "[]"})
     if (const Key* key = find_key(kind, name); key != nullptr && key->name == name) return key;
-  // A table within a named one: sections.NAME.pipe.wall.
+  // A table within a named table: sections.NAME.pipe.wall.
   if (const std::size_t second = path.find('.', first + 1); second < last)
     for (const char* named : {".*", "[]"})
       if (const Key* key = find_key(table + named + path.substr(second, last - second), name);

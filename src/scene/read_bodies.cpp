@@ -150,7 +150,7 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
       points.fail(entry.name,
       fmt::format("the node at this place already has the name \"{}\"", nearest.name));
     if (!names.add(entry.name))
-      points.fail(entry.name, fmt::format("node \"{}\" exists already", entry.name));
+      points.fail(entry.name, fmt::format("node \"{}\" exists already; expected another name", entry.name));
     nearest.name = entry.name;
     nearest.of_mesh = false;
   }

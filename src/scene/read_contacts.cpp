@@ -1,4 +1,4 @@
-// [[contacts]]: required and refused keys of each law.
+// [[contacts]], [[stops]] and [[pendulums]]: required and refused keys of each law.
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 /// A law of friction that varies between two coefficients: its keys are required, keys of other laws are
 /// refused.
 struct VaryingFriction {
-  std::array<const char*, 3> keys;  // of static_, kinetic, and the constant of the exponential
+  std::array<const char*, 3> keys;  // keys of Friction::static_, Friction::kinetic and *constant
   std::optional<double> Friction::*constant;
   const char* required;
   std::span<const char* const> others;
@@ -125,7 +125,7 @@ Direction tangent_of(const Direction& normal) {
 
 namespace {
 
-/// Normal, tangent and gap of a contact that can open.
+/// Reads normal, tangent and gap of a contact that can open.
 void read_gap(Table& table, ContactSpec& contact, const NameScope& space, const std::string& law) {
   const char* key = table.is("stops[]") ? "direction" : "normal";
   table.require(key, " (required for law = \"" + law + "\")");
@@ -199,7 +199,7 @@ void read_data_law(Table& table, ContactSpec& contact, const NameScope& space, c
   contact.user_law = std::make_shared<const UserContactLaw>(law.make(contact.normal_stiffness, constants));
 }
 
-/// Counterpart of the contact's node: another node or a segment instead of the ground.
+/// Reads the counterpart of the contact's node: another node, or a segment, instead of the ground.
 void read_against(Table& table, ContactSpec& contact, const Scene& scene, const NameScope& space,
                   const std::string& node) {
   const auto touched = read_counterpart(table, scene, space, node);
@@ -471,7 +471,7 @@ void read_pendulums(Table& top, Scene& scene, ResolvedScene& record) {
     ContactSpec contact = part_of(table, read_contact_name(table, "pendulum", ++number));
     const std::string node = read_node(table, "node", space);
     const std::string against = table.has("against") ? read_node(table, "against", space) : "";
-    if (against == node) table.wrong("against", "another node than the pendulum's own");
+    if (against == node) table.wrong("against", "a node other than the pendulum's own node");
     contact.normal = along(table, node, against, read_unit_vector(table, "normal"));
     contact.tangent = tangent_of(*contact.normal);
     const double radius = table.number("radius");

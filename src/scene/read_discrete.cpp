@@ -80,7 +80,7 @@ struct ConflictingKey {
   at->table.fail(at->key, message);
 }
 
-/// A spring hanger: hot + stiffness travel = cold.
+/// Reads a spring hanger: cold = hot + stiffness travel. The cold load is the preload of the spring.
 void read_hanger(Table& table, Spring& spring) {
   Table hanger = table.child("hanger");
   if (table.has("preload"))
@@ -128,7 +128,7 @@ void read_springs(Table& top, Scene& scene, ResolvedScene& record) {
     spring.node = read_node(table, "node", space);
     if (table.has("against")) {
       spring.against = read_node(table, "against", space);
-      if (spring.against == spring.node) table.wrong("against", "another node than the spring's own");
+      if (spring.against == spring.node) table.wrong("against", "a node other than the spring's own node");
     }
     spring.rotation_stiffness = table.number("rotation_stiffness");
     spring.rotation_damping = table.number("rotation_damping");
@@ -182,7 +182,7 @@ void read_supports(Table& top, Scene& scene, ResolvedScene& record) {
     for (const std::string& name : held) {
       check_known(name, {"ux", "uy", "rz"}, "degree of freedom", table.place("fix"), table.path("fix"));
       bool& fixed = name == "ux" ? support.ux : name == "uy" ? support.uy : support.rz;
-      if (fixed) table.fail("fix", "found \"" + name + "\" twice");
+      if (fixed) table.fail("fix", "found \"" + name + "\" twice, expected each direction once");
       fixed = true;
     }
     read_support_motion(table, support, held.size(), scene);

@@ -1,4 +1,4 @@
-// run.initial: "static", or the state at t = 0.
+// run.initial: "static", "frictional", the state of another run, or displacements and velocities at t = 0.
 #include <fmt/core.h>
 
 #include <cmath>

@@ -41,7 +41,7 @@ void read_distributed(Table& table, LoadSpec& load, const NameScope& space) {
   load.amplitude = table.number("distributed");
 }
 
-/// A load on a boundary of a body.
+/// Reads a traction or a pressure on a boundary of a body.
 void read_traction(Table& table, LoadSpec& load, const NameScope& space, const Scene& scene) {
   load.type = LoadType::traction;
   load.pressure = table.has("pressure");
@@ -179,7 +179,8 @@ void read_half_sine_end(Table& table, HistorySpec& spec) {
   }
   table.require("duration", " (half_sine: give duration or end)");
   spec.end = spec.start + table.number("duration");
-  if (!(spec.end > spec.start)) table.fail("duration", "too short to end after the start");
+  if (!(spec.end > spec.start))
+  table.fail("duration", "too short: rounding makes the end equal to the start; expected a longer one");
 }
 
 void read_span(Table& table, HistorySpec& spec) {
@@ -228,7 +229,7 @@ double metric_acceleration(const Units& units) {
 /// Use of a history. load: the amplitude is a key of the load, not of the history; acceleration: values may be in g.
 enum class Role { load, standalone, acceleration };
 
-/// Layout of the values in the file. The caller records it with the file.
+/// Reads column and time_step, the layout of the file. The caller records these keys together with the file.
 TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   TableLayout layout;
   std::string extension = path.extension().string();
@@ -358,7 +359,7 @@ HistorySpec read_history(Table& parent, std::string_view key, Role role, const S
 
   HistorySpec spec;
   spec.place = table.place();
-  // An absent history is a constant.
+  // Without a history the shape is constant.
   const std::string type = node ? table.choice("type") : "constant";
   if (!node) table.record("type", toml_string(type));
   spec.type = type_of(type);

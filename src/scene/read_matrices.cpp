@@ -116,7 +116,8 @@ std::vector<std::string> read_dofs(Table& table, int size) {
     std::set<std::string> seen;
     for (const std::string& name : dofs) {
       check_name(name, table.place("dofs"), table.path("dofs"));
-      if (!seen.insert(name).second) table.fail("dofs", fmt::format("found \"{}\" twice", name));
+      if (!seen.insert(name).second)
+      table.fail("dofs", fmt::format("found \"{}\" twice, expected different names", name));
     }
     if (dofs.size() != static_cast<std::size_t>(size)) {
       table.fail("dofs", fmt::format("found {}, expected one for each of the {} rows of the mass matrix",

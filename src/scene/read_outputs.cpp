@@ -169,8 +169,8 @@ void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, cons
       check_known(output.at[0], space.names, "node", table.place("at"), table.path("at"));
   if (!body_of_node(scene, node))
     table.fail("at",
-               fmt::format("node \"{}\" belongs to no body: expected a node of a body, or two nodes [A, B] of "
-               "a member",
+               fmt::format("node \"{}\" belongs to no body: expected a node of a body, or two nodes [A, B] "
+               "of a member",
                            output.at[0]));
   read_quantity(table, output, "\"xx\", \"yy\", \"xy\"");
   output.direction.vector = {1.0, 0.0};

@@ -93,7 +93,7 @@ void read_certification(Table& table, RunSpec& run) {
                                          : Companion::automatic;
 }
 
-/// Keys of the engines with a given step.
+/// Reads the keys of engines that have a time step.
 void read_steps(Table& table, RunSpec& run) {
   const EngineInfo* engine = run.engine == Engine::automatic ? nullptr : &engine_info(run.engine);
   const bool steps = engine != nullptr && engine->accuracy == Accuracy::step;
@@ -169,7 +169,7 @@ std::vector<double> RunSpec::grid() const {
 
 namespace signorini::scene {
 
-// [reduction]: the cutoff, in cycles or in radians per time, or the tolerance from which it is found.
+// [reduction]: the cutoff in cycles or in radians per time, or the tolerance from which the program finds the cutoff.
 
 void read_reduction(Table& top, Scene& scene, ResolvedScene& record) {
   if (!top.has("reduction")) return;

@@ -1,4 +1,4 @@
-// From a file to a Scene: parse, apply --set, read table by table.
+// Reads a Scene from a file: parses TOML, applies --set, reads table by table.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -158,7 +158,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     read_damping(top, scene, record);
   }
   read_reduction(top, scene, record);
-  read_contacts(top, scene, record);  // compressions are checked up to t_end
+  read_contacts(top, scene, record);  // after [run]: compressions are checked up to t_end
   read_stops(top, scene, record);
   read_pendulums(top, scene, record);
   read_surfaces(top, scene, record);
@@ -195,7 +195,7 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   try {
     return scene::build(text, file, overrides);
   } catch (const SceneError& error) {
-    // An override may have made another key invalid (kinetic above static).
+    // If the file alone is valid, an override has made another key invalid (kinetic above static): name all overrides.
     if (overrides.empty() || !scene::can_be_read(text, file)) throw;
     message = error.what();
   }

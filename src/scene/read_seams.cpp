@@ -29,7 +29,7 @@ int index_of(const Table& table, const SurfaceNode& node, Scene& scene) {
   }
   if (same->ux != node.ux || same->uy != node.uy || same->x != node.x || same->y != node.y)
     table.fail(node.ux == same->ux ? "ux" : "uy",
-               fmt::format("found \"{}\" at two places, [{:.9g}, {:.9g}] and [{:.9g}, {:.9g}]",
+               fmt::format("found \"{}\" at two places, [{:.9g}, {:.9g}] and [{:.9g}, {:.9g}], expected one",
                            node.ux == same->ux ? node.ux : node.uy, same->x, same->y, node.x, node.y));
   return static_cast<int>(same - scene.surface_nodes.begin());
 }
@@ -96,7 +96,8 @@ void read_surfaces(Table& top, Scene& scene, ResolvedScene& record) {
       };
       if (at(0).x == at(1).x && at(0).y == at(1).y)
         table.fail("x",
-                   fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge", at(0).x, at(0).y));
+                   fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge, expected different ends",
+                   at(0).x, at(0).y));
     }
     surface.thickness = table.number("thickness");
     table.finish();
@@ -107,7 +108,7 @@ void read_surfaces(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// Contact law of a seam, per area.
+/// Contact law of a seam; its stiffnesses and its damping are per area.
 struct SeamLaw {
   ContactSpec contact;
   double normal_stiffness = 0.0, normal_damping = 0.0;
@@ -227,7 +228,7 @@ std::vector<std::string> mesh_names(const std::vector<int>& nodes, const Scene& 
   return names;
 }
 
-/// A node shared by both boundaries (the tip of a crack) never opens and is not a contact.
+/// Removes contacts at nodes that both boundaries share (the tip of a crack), because they can never open.
 void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& seam) {
   std::set<int> master;
   for (const mesh::MortarNode& k : seam.nodes)
@@ -241,7 +242,7 @@ void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& 
     first));
 }
 
-/// Reads and checks the mortar of a table.
+/// Reads master or line of a seam, and computes its contacts: nodes, weights and gaps.
 mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
   const mesh::NodePosition place = [&](int n) { return place_in(scene, n); };
   if (table.has("master") == table.has("line"))
@@ -321,7 +322,7 @@ ContactSpec contact_of(const mesh::MortarNode& k, const SeamLaw& law, double thi
   return contact;
 }
 
-/// law = "tied": nodes of the slave follow the master, at any gap.
+/// Reads a seam with law = "tied": the nodes of the slave follow the master, whatever the gap.
 void read_tied(Table& table, const std::string& name, Scene& scene) {
   static_cast<void>(table.choice("law"));
   if (scene.matrices)

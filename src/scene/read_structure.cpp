@@ -1,4 +1,4 @@
-// Nodes and members.
+// Nodes, lines, members, sections and rigid bodies.
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -92,7 +92,8 @@ void read_lines(Table& top, Scene& scene, ResolvedScene& record) {
     for (int i = 0; i <= pieces; ++i) {
       const double s = static_cast<double>(i) / pieces;
       const std::string own = fmt::format("{}{}", name, i);
-      if (!names.add(own)) table.fail("name", fmt::format("node \"{}\" exists already", own));
+      if (!names.add(own))
+      table.fail("name", fmt::format("node \"{}\" exists already; expected another name", own));
       scene.nodes.push_back(
           {own, from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1]), table.place("name")});
     }
@@ -116,7 +117,7 @@ void read_release(Table& table, Member& member) {
                                       "member with two ends",
                                       member.nodes.front()));
   if (member.release.size() == 2 && member.release[0] == member.release[1])
-    table.fail("release", "found \"" + member.release[0] + "\" twice");
+    table.fail("release", "found \"" + member.release[0] + "\" twice, expected each end once");
 }
 
 void read_strains(Table& table, Member& member, const Scene& scene) {
@@ -329,7 +330,7 @@ void read_sections(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// m = density width height thickness,  J = m (width^2 + height^2)/12
+/// Reads the box of a rigid body: m = density width height thickness,  J = m (width^2 + height^2)/12
 void read_box(Table& table, PointMass& mass) {
   for (const char* key : {"mass", "inertia"})
     if (table.has(key))
@@ -371,10 +372,14 @@ void read_rigid(Table& top, Scene& scene, ResolvedScene& record) {
     Names nodes = space.names;
     RigidBody body;
     body.name = table.text("name");
-    if (!bodies.add(body.name)) table.fail("name", fmt::format("found \"{}\" twice", body.name));
+    if (!bodies.add(body.name))
+    table.fail("name",
+    fmt::format("found \"{}\" twice, expected each rigid body to have its own name", body.name));
     for (const BodySpec& other : scene.bodies)
       if (other.name == body.name)
-        table.fail("name", fmt::format("found \"{}\", which is the name of one of [[bodies]]", body.name));
+        table.fail("name",
+        fmt::format("found \"{}\", which is the name of one of [[bodies]]; expected another name",
+        body.name));
     table.require("nodes", "");
     body.place = table.place("nodes");
     body.nodes = read_node_names(table, "nodes", space);

@@ -20,7 +20,7 @@ namespace signorini::scene {
 struct NameScope {
   bool matrices = false;
   Names names;
-  std::unordered_map<std::string, std::vector<std::string>> groups;  ///< "BODY.GROUP": its nodes
+  std::unordered_map<std::string, std::vector<std::string>> groups;  ///< nodes of "BODY.GROUP" and of "BODY"
   std::filesystem::path directory;                                   ///< directory of relative file names
 };
 /// Names in the part of the scene that has been read so far.
@@ -65,7 +65,7 @@ void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
 [[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);
 /// Reads the name of an existing node; the key is required.
 [[nodiscard]] std::string read_node(Table& table, std::string_view key, const NameScope& space);
-/// Node names with "P0..P9", "P0..P9:3" and groups "BODY.GROUP" expanded; recorded as given.
+/// Reads node names and expands "P0..P9", "P0..P9:3" and groups "BODY.GROUP"; records the key as given.
 [[nodiscard]] std::vector<std::string> read_node_names(Table& table, std::string_view key,
                                                        const NameScope& space);
 /// Reads `node` or `nodes`; one of the two is required.
@@ -73,8 +73,7 @@ void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
 /// Reads a direction: with [nodes] a unit vector (Direction::node stays empty); with [matrices] degrees of
 /// freedom by name, or the name of a file with one column.
 [[nodiscard]] Direction read_direction(Table& table, std::string_view key, const NameScope& space);
-/// The column of numbers in the Matrix Market file that the key names, one for each degree of freedom of
-/// [matrices].
+/// Reads the Matrix Market file that the key names: one number for each degree of freedom of [matrices].
 [[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key,
                                                    const NameScope& space);
 
@@ -83,7 +82,7 @@ struct BoundaryRef {
   std::size_t body = 0;
   const PlaneMesh::Group* group = nullptr;
 };
-/// The boundary with this name; it has edges. Errors: SceneError that lists the existing groups.
+/// Finds the boundary with this name, a group that has edges. Errors: SceneError that lists the existing boundaries.
 [[nodiscard]] BoundaryRef find_boundary(const Table& table, std::string_view key, const std::string& name,
                                         const Scene& scene);
 

@@ -44,7 +44,7 @@ class ResolvedScene {
 
   /// `table` is the top-level key, `header` the whole line: "[sections.pipe]".
   void add(std::string_view table, std::string header, const ResolvedTable& record);
-  /// Tables in `order` (top-level keys as in the file), then all others.
+  /// Text of the scene: tables in `order` (top-level keys as in the file), then all other tables.
   [[nodiscard]] std::string text(const std::vector<std::string>& order) const;
 
  private:
@@ -74,7 +74,7 @@ using ResolvedKeys = std::map<std::string, std::string>;
 //   nodes, lines, sections, members, bodies, surfaces, seams, masses, rigid, springs, damping, supports, contacts,
 //   stops, pendulums, reduction, matrices, gravity, run.geometric
 //
-// Excitation is ignored, because a continued run may have another one: motions of supports and surfaces, normal forces
+// Excitation is ignored, because it may differ in a continued run: motions of supports and surfaces, normal forces
 // of sliders, temperatures and initial strains of members, and the initial shear of friction.
 
 [[nodiscard]] bool same_units(const toml::table& a, const toml::table& b);

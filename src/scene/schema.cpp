@@ -53,7 +53,7 @@ base::Json number_type(KeyType type) {
   return json;
 }
 
-/// An array [x, y].
+/// Schema of an array [x, y].
 base::Json plane_vector() {
   base::Json json = array_of(number_type(KeyType::number));
   json["minItems"] = 2;

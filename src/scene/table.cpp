@@ -74,7 +74,7 @@ std::vector<double> number_array(const toml::node& node, const std::string& path
 
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path) {
   constexpr std::size_t longest = 255;
-  if (name.empty()) refuse(place, path, "found an empty name");
+  if (name.empty()) refuse(place, path, "found an empty name, expected a name");
   if (name.size() > longest)
     refuse(place, base::excerpt(path),
            fmt::format("found a name of {} bytes, expected at most {}", name.size(), longest));

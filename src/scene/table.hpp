@@ -49,9 +49,9 @@ class Table {
 
   /// Throws an error if the key is absent: "missing WHY, expected ...".
   void require(std::string_view key, const std::string& why);
-  /// Error "found X, expected Y" at a given key.
+  /// Throws the error "found X, expected Y", where X is the value of the key, or "missing, expected Y".
   [[noreturn]] void wrong(std::string_view key, const std::string& expected) const;
-  /// Error with a free message, at the key's value, or at the table if the key is absent.
+  /// Throws an error with this message at the place of the key, or of the table if the key is absent.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
   /// Refuses keys that were given but not read. `why` ends the message.

@@ -96,7 +96,7 @@ void read_surfaces(Table& top, Scene& scene, ResolvedScene& record) {
       };
       if (at(0).x == at(1).x && at(0).y == at(1).y)
         table.fail("x",
-                   fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge, expected different ends",
+                   fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge, expected two places",
                    at(0).x, at(0).y));
     }
     surface.thickness = table.number("thickness");

@@ -68,7 +68,7 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag) {
   return row + "</tr>\n";
 }
 
-/// N and T, before and after, are adjacent columns with a common scale for rounding.
+/// Gives all columns of forces one common greatest value, likewise all columns of velocities: the scale of rounding.
 void share_scales(const std::vector<std::string>& header, std::vector<double>& greatest) {
   for (const std::vector<std::string_view>& alike :
        {std::vector<std::string_view>{"N", "T", "N_after", "T_after"},
@@ -110,7 +110,7 @@ std::string csv_table(const fs::path& file, std::size_t most, const std::vector<
   for (std::vector<std::string>& cells : kept) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto value = base::parse_number(cells[i]);
-      // Rounding relative to the other values of its column is shown as 0.
+      // A value that is a rounding error compared with its column is shown as 0.
       if (value && std::abs(*value) <= rounding::elimination * greatest[i]) cells[i] = "0";
       cells[i] = short_number(cells[i], header[i] == "t" ? 11 : 6);
     }

@@ -19,13 +19,13 @@ namespace signorini::report {
 /// JSON that is safe in <script type="application/json">.
 [[nodiscard]] std::string script_json(const std::string& json);
 
-/// A number with this number of digits, "1.2e-08"; other texts unchanged.
+/// The number in `cell` with this many significant digits, "1.2e-08"; a text that is no number stays unchanged.
 [[nodiscard]] std::string short_number(const std::string& cell, int digits = 6);
 
 /// HTML table of a CSV file: numbers with six digits, times (t) with eleven. columns: names of the columns
-/// shown; empty: all. Rows after the first `most` are omitted, with a note. Values of rounding size relative
-/// to their column are 0. units: units of columns, for the header. Returns an empty text if the file is
-/// missing. Errors: FileError.
+/// shown; empty: all. Rows after the first `most` are omitted, with a note. Rounding errors, compared with the values of
+/// their column, are shown as 0. units: units of columns, for the header. Returns an empty text if the file is missing or
+/// has no rows. Errors: FileError.
 [[nodiscard]] std::string csv_table(const std::filesystem::path& file, std::size_t most,
                                     const std::vector<std::string>& columns = {},
                                     const std::map<std::string, std::string>& units = {});

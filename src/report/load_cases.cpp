@@ -31,10 +31,10 @@ struct Figure {
   std::string item, quantity, unit;
   Governs governs = Governs::greatest;
   std::optional<double> value, t;
-  std::string place;  ///< place of an envelope's extreme
+  std::string place;  ///< for an envelope: piece, station and fibre of the extreme
 };
 
-/// A member, or null.
+/// The member `name` of a JSON object; null if there is none.
 const base::Json& entry_of(const base::Json& json, const char* name) {
   static const base::Json none;
   return json.is_object() && json.contains(name) ? json[name] : none;
@@ -46,7 +46,7 @@ std::optional<double> number_in(const base::Json& json) {
 
 std::string text_in(const base::Json& json) { return json.is_string() ? json.get<std::string>() : ""; }
 
-/// Sets numbers of rounding size, relative to the largest of the same kind, to 0.
+/// Sets figures with this unit to 0 if they are rounding errors compared with the largest of them.
 void clear_rounding(std::vector<Figure>& figures, const std::string& unit) {
   double greatest = 0.0;
   for (const Figure& f : figures)
@@ -126,7 +126,7 @@ std::string cell(const std::optional<double>& value) {
   return fmt::format("<td class=n>{}</td>", value ? shown(*value) : "");
 }
 
-/// Cell with a time that the player can jump to.
+/// Table cell with a time; a click on the cell moves the player of the page to this time.
 std::string time_cell(const std::optional<double>& t) {
   return t ? fmt::format("<td class=n data-t=\"{}\">{:.5g}</td>", base::format_number(*t), *t) : "<td></td>";
 }
@@ -139,7 +139,7 @@ std::string table(const std::string& head, const std::string& rows) {
                             head, rows);
 }
 
-/// A heading with the unit in a second line.
+/// Heading of a table column, with the unit in a second line.
 std::string heading(const std::string& text, const std::string& unit = "") {
   return "<th>" + html_text(text) + (unit.empty() ? "" : "<br>[" + html_text(unit) + "]") + "</th>";
 }
@@ -148,7 +148,7 @@ std::string heading(const std::string& text, const std::string& unit = "") {
 
 namespace {
 
-/// Sign conventions below tables of support loads; `more`: an additional sentence.
+/// Paragraph with the sign conventions of a table of support loads; more: an additional sentence.
 std::string signs(const std::string& more = "") {
   return "<p class=signs>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the reaction "
          "at the start "
@@ -232,7 +232,7 @@ bool is_done(const LoadCase& c) {
   return text_in(entry_of(entry_of(c.summary, "outcome"), "kind")) == "done";
 }
 
-/// Index of the governing case among the completed ones; -1: none has a value, or the value is 0 in all.
+/// Index of the governing case; only completed cases can govern. -1 if none of them has a value, or if all values are 0.
 int governing(const std::vector<LoadCase>& cases, const CaseRow& row) {
   int best = -1;
   double most = 0.0;
@@ -251,7 +251,7 @@ int governing(const std::vector<LoadCase>& cases, const CaseRow& row) {
   return any ? best : -1;
 }
 
-/// Quotes cells, since names of directories may contain commas and quotes.
+/// Line of a CSV file; quotes cells if necessary, because names of directories may contain commas and quotes.
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -283,7 +283,7 @@ base::Json read_summary(const fs::path& directory) {
   }
 }
 
-/// "kN, t, m, s"
+/// Names of the units for messages: "kN, t, m, s".
 std::string unit_list(const base::Json& units) {
   std::string text;
   for (const char* of : {"force", "mass", "length", "time"})
@@ -323,7 +323,8 @@ std::vector<LoadCase> read_load_cases(const std::vector<fs::path>& directories) 
     const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     for (const LoadCase& other : cases)
       if (other.name == name)
-        throw FileError(directory.string(), "has the name \"" + name + "\", as another case has");
+        throw FileError(directory.string(),
+        "has the name \"" + name + "\", which another case has, too; rename a directory");
     cases.push_back({name, read_summary(directory)});
     const base::Json &units = entry_of(cases.back().summary, "units"),
                      &first = entry_of(cases.front().summary, "units");
@@ -358,7 +359,7 @@ std::string load_cases_csv(const std::vector<LoadCase>& cases) {
 
 namespace {
 
-/// "a=b, c=d" from --set a=b --set=c=d on a run's command line: the description of a case.
+/// Description of a case by the overrides on the command line of its run: "a=b, c=d" for --set a=b --set=c=d.
 std::string overrides_of(const base::Json& summary) {
   const base::Json& line = entry_of(summary, "command_line");
   std::string text;

@@ -68,8 +68,8 @@ double fitting_magnification(const base::Json& nodes, const base::Json& curve, d
 namespace {
 
 constexpr double accuracy =
-    1e-3;  // relative to the largest displacement: a quarter of a pixel if that is an eighth of 2000 pixels
-constexpr std::size_t max_on_page = 120'000;  // numbers: about 0.8 MB
+    1e-3;  // relative to the largest displacement: 0.25 pixels if the page draws it with 250 pixels
+constexpr std::size_t max_on_page = 120'000;  // numbers on the page: about 0.8 MB
 
 base::Json digits(double value, int count) {
   return std::isfinite(value) ? base::Json(std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr))

@@ -4,7 +4,7 @@
 //   proper orthogonal decomposition: G = A^T A = W diag(s^2) W^T,  shapes A w_k,  parts w_k
 //
 // A: displacements of body_motion.csv, one column per time. Shapes are added until no displacement has an error above
-// 1/1000 of the largest one, or until the size limit of the page is reached.
+// 1/1000 of the largest displacement, or until the size limit of the page is reached.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,16 +22,16 @@ namespace signorini::report {
 //   shapes[k]  rows s, a, rotation_a, b, rotation_b
 //   across the member   v(s) = a v_a + b v_b + L (rotation_a rz_a + rotation_b rz_b);   along it linear
 //
-// k: 0 straight, 1 bent, 2 bent and hinged at a, 3 hinged at b. Page and ParaView know the shape functions
-// only from these rows.
+// k: 0 straight, 1 bent, 2 bent and hinged at a, 3 bent and hinged at b. The page and the files for ParaView take all
+// shape functions from these rows.
 
-/// The rows of all shapes[k].
+/// The list `shapes`: rows of shape functions for each k.
 [[nodiscard]] base::Json shapes_json();
 
-/// Index into shapes_json().
+/// Index k into shapes_json() for a piece of a member.
 [[nodiscard]] int shape_of(const element::MemberLine& line);
 
-/// Shape functions across the line, from a row.
+/// Shape functions across the member, from a row of shapes_json().
 [[nodiscard]] element::LineShapes across_of(const base::Json& row);
 
 /// Magnification for nodes and curve of run_data(): the largest displacement is drawn with at most an eighth
@@ -42,18 +42,19 @@ namespace signorini::report {
 struct MeshMotion {
   std::vector<double> times;
   std::vector<int> nodes;  ///< indices into Scene::nodes
-  Eigen::MatrixXd shapes;  ///< 2 nodes (ux, uy of the first, ...) x shapes; the largest entry of each is 1
-  Eigen::MatrixXd parts;   ///< times x shapes: displacements are shapes parts^T
+  Eigen::MatrixXd shapes;  ///< one column per shape: ux, uy of the first node, ...; largest entry 1
+  Eigen::MatrixXd parts;   ///< one row per time, one column per shape: displacements are shapes parts^T
   double greatest = 0.0;   ///< largest displacement along x or y
 };
 
-/// Decomposes displacements (2 nodes x times); most: limit for the entries of shapes and parts together.
+/// Sets shapes, parts and greatest. displacements: rows as in shapes, one column per time. most: limit for the number of
+/// entries of shapes and parts together; at least one shape is kept.
 void decompose_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMotion& motion);
 
-/// Mesh motion of a run; without nodes if the directory has no body_motion.csv. Errors: FileError.
+/// Mesh motion of a run; `nodes` is empty if the directory has no body_motion.csv. Errors: FileError.
 [[nodiscard]] MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& directory);
 
-/// JSON of the motion; null without nodes.
+/// The motion as JSON for the page; null if `nodes` is empty.
 [[nodiscard]] base::Json mesh_motion_json(const MeshMotion& motion);
 
 }  // namespace signorini::report

@@ -26,12 +26,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t max_rows = 2000;  // limit for a table on the page
+constexpr std::size_t max_rows = 2000;  // rows of a table on the page
 
 struct Kind {
   const char *marker, *name;
 };
-// The order matters: a comparison has no summary of its own, but folders of runs.
+// Files that identify the kind of results in a directory. The first file that exists decides.
 constexpr Kind kinds[] = {{"compare.json", "comparison"},
                           {"study.json", "study"},
                           {"sweep.json", "sweep"},
@@ -62,14 +62,14 @@ std::string part(std::string_view name) {
   return {};
 }
 
-/// A value for readers: a text without quotes, a number with six digits.
+/// Text of a JSON value for the page: a text without quotes, a number with six digits, "-" for null.
 std::string value_text(const base::Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
   return value.is_number() ? short_number(base::json_line(value)) : base::json_line(value);
 }
 
-/// A member, or null: summaries of other versions may lack it.
+/// The member `name` of a JSON object; null if there is none, because summaries of other versions may lack it.
 const base::Json& member(const base::Json& json, const char* name) {
   static const base::Json none;
   return json.is_object() && json.contains(name) ? json[name] : none;
@@ -134,7 +134,7 @@ std::string run_facts(const base::Json& summary) {
   return text;
 }
 
-/// The part of events.csv that fits a page, with units in the header; the rest stays in the file.
+/// HTML table of events.csv: the main columns, with units in the header, and at most max_rows rows.
 std::string event_table(const fs::path& file, const Units& units) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
@@ -149,11 +149,11 @@ std::string event_table(const fs::path& file, const Units& units) {
   const std::string table = csv_table(file, max_rows, columns, of_columns);
   return table.empty() ? ""
                        : table +
-                             "<p class=hint>N and T are those just before the event. events.csv has rates, "
-                             "impulses and forces after it, too.</p>\n";
+                             "<p class=hint>N and T are the forces just before the event. events.csv also "
+                             "has rates, impulses and the forces after the event.</p>\n";
 }
 
-/// Name of a condition of the audit, as on the terminal, and its unit.
+/// A condition that the audit checks: key in summary.json, name as on the terminal, and unit.
 struct Condition {
   const char *key, *name, *unit;
 };
@@ -190,7 +190,7 @@ std::string audit_table(const base::Json& summary, const Units& units) {
          rows + "</tbody></table></div>\n";
 }
 
-/// List of the scalars at the top level.
+/// HTML list of the numbers and texts at the top level of a JSON object.
 std::string json_facts(const base::Json& json) {
   std::string text;
   for (const auto& [name, value] : json.items())
@@ -198,7 +198,7 @@ std::string json_facts(const base::Json& json) {
   return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
 }
 
-/// Section for a run of one period: facts of orbit.json, and the largest multipliers.
+/// Section for a periodic motion: facts of orbit.json, and the first Floquet multipliers.
 std::string orbit_section(const fs::path& directory) {
   constexpr std::size_t most_multipliers = 12;
   std::error_code error;
@@ -223,14 +223,14 @@ std::string orbit_section(const fs::path& directory) {
   return section("orbit", "Periodic motion", json_facts(orbit) + families + table);
 }
 
-/// `taken`: size of the page without pictures, in bytes.
+/// Pictures of a directory, as many as the page has room for. taken: size of the page without pictures, in bytes.
 std::string pictures(const fs::path& directory, const std::string& command, std::size_t taken) {
   constexpr std::size_t most = 2'950'000;  // limit of the page: 3 MB
   const std::string all = figures(directory, taken < most ? most - taken : 0);
-  return all.empty() ? "<p>There are none; " + html_text(command) + " draws them.</p>\n" : all;
+  return all.empty() ? "<p>There are no pictures; " + html_text(command) + " draws them.</p>\n" : all;
 }
 
-/// The sentences of study.md; its table and picture are on the page already.
+/// The sentences of study.md, without its table and picture, which the page shows separately.
 std::string sentences(const std::string& markdown) {
   std::string text;
   std::istringstream lines(markdown);

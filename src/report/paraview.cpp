@@ -106,7 +106,7 @@ std::vector<SeamNodeAt> read_seams_at(const result::TableFolder& tables) {
   return all;
 }
 
-/// Cell types of VTK.
+/// Number of the VTK cell type for an element shape.
 int cell_type(PlaneShape shape) {
   switch (shape) {
     case PlaneShape::t3:
@@ -156,11 +156,11 @@ class BodyCells {
   const Scene& scene_;
   std::string points_, bodies_, seams_;
   VtkCells cells_;
-  std::vector<std::size_t> point_of_;  // by node of the scene
+  std::vector<std::size_t> point_of_;  // index of the VTK point of each node of the scene
   std::size_t count_ = 0, elements_ = 0;
 };
 
-/// seams: rows of all seams, in their order; empty if the run has no such table.
+/// seams: rows of frame_seams.csv at this time; empty if the run has no frame_seams.csv.
 std::string BodyCells::point_data(const BodiesAt& at, const std::vector<SeamNodeAt>& seams) const {
   std::string displacements, stresses, mises;
   for (const auto& [ux, uy, xx, yy, xy, equivalent] : at.nodes) {
@@ -231,7 +231,8 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-/// A row of a record, and the fraction of the way to the next one; at a jump, the row after it.
+/// Place of a time in a record: the last row that is not later, and the fraction of the interval to the next row. At a
+/// jump this is the row after the jump.
 struct Place {
   std::size_t row = 0;
   double part = 0.0;
@@ -249,7 +250,7 @@ Place place_in(const base::Json& times, double t) {
   return place;
 }
 
-/// Numbers that are not finite are null in JSON.
+/// The number; 0 for null, which JSON has for numbers that are not finite.
 double number_of(const base::Json& value) { return value.is_number() ? value.get<double>() : 0.0; }
 
 double value_at(const base::Json& values, const Place& place) {
@@ -258,7 +259,7 @@ double value_at(const base::Json& values, const Place& place) {
   return place.part > 0.0 ? from + place.part * (number_of(values[place.row + 1]) - from) : from;
 }
 
-/// The cells and data of a file under construction.
+/// Collects the points, cells and data of a .vtu file.
 class Grid {
  public:
   std::size_t point(double x, double y, const Pair& displacement, const Pair& force = {0.0, 0.0}) {

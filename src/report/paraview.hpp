@@ -28,7 +28,7 @@ namespace signorini::report {
 // Parts of VTK's XML files that all frames share, as text.
 //
 //   VtkCells cells;  cells.add(type, corners);  ...
-//   vtk_grid(points, cells, point_data + cell_data)           the text of a .vtu file
+//   vtk_grid(points, point_count, cells, point_data + cell_data)   the text of a .vtu file
 //   VtkSeries series(folder, "frame");  series.add(t, text);  return series.finish("run.pvd");
 
 /// Text of a data array. values: numbers separated by blanks or line ends.
@@ -47,11 +47,11 @@ class VtkCells {
   std::size_t count_ = 0, end_ = 0;
 };
 
-/// Text of a .vtu file. points: three coordinates per point.
+/// Text of a .vtu file. points: three coordinates per point; data: texts of point data and cell data.
 [[nodiscard]] std::string vtk_grid(const std::string& points, std::size_t point_count, const VtkCells& cells,
                                    const std::string& data);
 
-/// Files FOLDER/PREFIX-0001.vtu, ... and a list of them with their times. Errors: FileError.
+/// Writes files FOLDER/PREFIX-0001.vtu, ... and a list of these files with their times. Errors: FileError.
 class VtkSeries {
  public:
   VtkSeries(std::filesystem::path folder, std::string prefix)
@@ -80,18 +80,18 @@ class VtkSeries {
 //
 // Data: frame_bodies.csv and frame_seams.csv (result/body_frames.hpp) on the mesh of the scene.
 
-/// Adds frames to the folder of write_paraview(), and returns the path of bodies.pvd; nullopt if the run has
-/// no such frames. Errors: FileError.
+/// Adds frames of bodies to DIR/paraview after write_paraview(), and returns the path of bodies.pvd; nullopt if the run
+/// has no frame_bodies.csv. Errors: FileError.
 std::optional<std::filesystem::path> write_paraview_bodies(const std::filesystem::path& directory,
                                                            const Scene& scene);
 
-/// `count` equidistant times over the record; with `events`, also the times of events.
+/// `count` equidistant times from the first to the last time of the record; with `events` also the times of events.
 [[nodiscard]] std::vector<double> frame_times(const base::Json& data, std::size_t count, bool events);
 
-/// The text of a frame. `data`: run_data().
+/// Text of the .vtu file of the frame at time t. data: result of run_data().
 [[nodiscard]] std::string vtu_frame(const base::Json& data, double t);
 
-/// Writes frames at these times into the folder, which is replaced; returns the path of run.pvd. Errors:
+/// Removes earlier frames from DIR/paraview, writes frames at these times, and returns the path of run.pvd. Errors:
 /// FileError.
 std::filesystem::path write_paraview(const std::filesystem::path& directory, const base::Json& data,
                                      const std::vector<double>& times);

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_values = 60'000;  // limit for displacements on a page: a megabyte with their times
-constexpr std::size_t max_motion = 16'000;   // limit for rows of contacts
+constexpr std::size_t most_values = 60'000;  // displacements on a page: 1 MB with their times
+constexpr std::size_t max_motion = 16'000;   // rows of all contacts on a page
 constexpr std::size_t max_events = 5'000;
 
 double rounded(double value, int digits) {
@@ -41,7 +41,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-/// Indices of the kept rows: every `step`-th, and both sides of a jump.
+/// Indices of the rows that are kept: about `most` rows, evenly selected; both sides of each jump; the last row.
 std::vector<std::size_t> kept_rows(const std::vector<double>& t, std::size_t most) {
   const std::size_t step = std::max<std::size_t>(1, (t.size() + most - 1) / std::max<std::size_t>(most, 1));
   std::vector<std::size_t> kept;
@@ -52,7 +52,7 @@ std::vector<std::size_t> kept_rows(const std::vector<double>& t, std::size_t mos
   return kept;
 }
 
-/// Displacements in a run's tables, by name of the column; several may share their times.
+/// Displacement curves of a run, with names as in history.csv; several curves may share one list of times.
 struct Displacements {
   struct Curve {
     std::size_t times = 0;
@@ -92,7 +92,7 @@ struct ValueOf {
   std::array<double, 1> operator()(const CurvePoint& point) const { return {point.value}; }
 };
 
-/// Displacements of curves.csv, each with its own times.
+/// Displacements of curves.csv, each with its own times; empty if one of `names` has no curve.
 Displacements each(const fs::path& file, const std::vector<std::string>& names, double t_end) {
   std::map<std::string, std::vector<CurvePoint>> points;
   result::CsvReader reader(file);
@@ -199,7 +199,7 @@ base::Json pieces_json(const Scene& scene, const Places& places) {
   return pieces;
 }
 
-/// Pairs of nodes.
+/// Lines of the meshes as pairs of indices of nodes.
 base::Json mesh_json(const Scene& scene) {
   base::Json mesh = base::Json::array();
   for (const auto& ends : scene::mesh_lines(scene)) mesh.push_back(ends);
@@ -266,7 +266,7 @@ base::Json loads_json(const Scene& scene, const Places& places, const fs::path& 
   return loads;
 }
 
-/// Index of the place where a direction acts: its node, or with [matrices] its largest degree of freedom.
+/// Index of the place where a direction acts: its node, or with [matrices] the degree of freedom with the largest factor.
 int place_of_direction(const Direction& direction, const Places& places) {
   if (!direction.node.empty()) return places.of(direction.node);
   int place = -1;
@@ -295,7 +295,7 @@ base::Json contact_json(const ContactSpec& contact, const Scene& scene, const Pl
           {"gap", number(contact.gap)}};
 }
 
-/// A row of a contact.
+/// A row of motion.csv or contacts.csv.
 struct ContactRow {
   double t = 0.0, N = 0.0, T = 0.0, gap = 0.0;  // gap: NaN for sliders
   std::ptrdiff_t state = 0;
@@ -373,7 +373,7 @@ base::Json events_json(const Scene& scene, const fs::path& directory) {
   return events;
 }
 
-/// Columns of response.csv, with units from summary.json; rows are dropped evenly, jumps kept.
+/// Columns of response.csv; rows are dropped evenly, but never the two sides of a jump.
 base::Json responses_json(const fs::path& directory) {
   base::Json responses = base::Json::array();
   const fs::path file = directory / "response.csv";

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A coordinate in tenths, in its shortest form.
+/// Shortest text of a coordinate that is given in tenths of a pixel: 5 -> ".5", -30 -> "-3".
 std::string tenths(long value) {
   std::string text = value < 0 ? "-" : "";
   const long size = std::labs(value);
@@ -29,7 +29,7 @@ std::string tenths(long value) {
   return text;
 }
 
-/// Appends a number: after a blank, or directly if it has a sign.
+/// Appends a number to a path: after a blank, or directly if the number has a minus sign.
 void append(std::string& path, long value) {
   const std::string text = tenths(value);
   const bool apart =
@@ -41,7 +41,7 @@ struct Point {
   long x = 0, y = 0;
 };
 
-/// Reads "74.59,420.49" at `at` and advances it; false for anything else.
+/// Reads a point such as "74.59,420.49" at position `at` and advances `at`; false if there is no point.
 bool read_point(const std::string& path, std::size_t& at, Point& point) {
   double x = 0.0, y = 0.0;
   const char* end = path.data() + path.size();
@@ -56,7 +56,7 @@ bool read_point(const std::string& path, std::size_t& at, Point& point) {
   return true;
 }
 
-/// Shortens a path that only has M x,y and L x,y; other paths are unchanged.
+/// Shortens a path that has only commands M x,y and L x,y; any other path stays unchanged.
 std::string slim_path(const std::string& path) {
   std::string result;
   Point here;
@@ -143,7 +143,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// The SVG, or the PNG beside it if that is smaller: a picture with many thousand points.
+/// Figure with the SVG, or with the PNG of the same name if it is smaller, as for a picture with many thousand points.
 std::string smaller_figure(const fs::path& svg) {
   std::string text = figure(svg, svg.stem().string());
   const fs::path png = fs::path(svg).replace_extension(".png");
@@ -165,8 +165,8 @@ std::string figures(const fs::path& directory, std::size_t room) {
   for (const auto& entry : fs::directory_iterator(directory / "plots", error))
     if (entry.path().extension() == ".svg") all.emplace_back(entry.path(), smaller_figure(entry.path()));
   std::sort(all.begin(), all.end());
-  // The pictures of the whole run come first, then small ones; single contacts last, those with the most events first.
-  // The page's charts contain the contents of the contacts' pictures.
+  // Order in which pictures get room: pictures of the whole run; then the others, small ones first; pictures of single
+  // contacts last, large ones first, because the charts of the page show the same curves.
   std::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), 0);
   const auto rank = [&](std::size_t i) {
@@ -190,7 +190,7 @@ std::string figures(const fs::path& directory, std::size_t room) {
       left_out += (left_out.empty() ? "" : ", ") + all[i].first.stem().string();
   }
   if (!left_out.empty())
-    text += "<p class=hint>Left out, so that the page stays below 3 MB; they are in plots/: " +
+    text += "<p class=hint>In plots/ only, because the page must stay below 3 MB: " +
             html_text(left_out) + ".</p>\n";
   return text;
 }

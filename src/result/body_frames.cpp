@@ -83,7 +83,7 @@ BodyFrameWriter::BodyFrameWriter(const std::filesystem::path& directory, const S
   }
 }
 
-/// Displacements (order 0) or velocities (1) of the nodes of a body.
+/// Displacements (order 0) or velocities (order 1) of the nodes of a body: x and y of the first node, of the second, ...
 Vector BodyFrameWriter::of_body(const BodySpec& body, const Sample& sample, int order) const {
   Vector own(static_cast<Eigen::Index>(2 * body.node_count));
   for (std::size_t k = 0; k < body.node_count; ++k)

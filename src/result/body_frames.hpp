@@ -46,13 +46,13 @@ struct SeamFrameRow {
 /// Columns of frame_seams.csv.
 [[nodiscard]] const CsvTable<SeamFrameRow>& seam_frame_table();
 
-/// Rows for the nodes of a seam at an instant, in their order.
+/// Rows at time t for the nodes of a seam, in the order of SeamSpec::nodes. contacts: samples of all contacts.
 [[nodiscard]] std::vector<SeamFrameRow> seam_frame(const Scene& scene, const SeamSpec& seam, double t,
                                                    const std::vector<ContactSample>& contacts);
 
 class BodyFrameWriter {
  public:
-  /// For a scene with bodies. Both arguments must outlive the object.
+  /// The scene must have bodies. Scene and model must outlive the object.
   BodyFrameWriter(const std::filesystem::path& directory, const Scene& scene, const Model& model);
   void write(const Sample& sample);
 
@@ -62,7 +62,7 @@ class BodyFrameWriter {
   const Scene& scene_;
   double beta_;
   NodeDisplacements movers_;
-  std::vector<History> strains_;  ///< per body: alpha T
+  std::vector<History> strains_;  ///< thermal strain alpha T of each body
   std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> stresses_;
   TableFile<BodyFrameRow> bodies_;
   std::optional<TableFile<SeamFrameRow>> seams_;
@@ -72,16 +72,16 @@ class BodyFrameWriter {
 ///
 ///   t, NODE.ux, NODE.uy, ...     every k-th output time, the first and the last
 ///
-/// Nodes are the drawn ones only (scene/outlines.hpp). k is the smallest value for which the table has at
-/// most max_values numbers; but it has at least min_times rows if there are as many output times. Numbers
-/// have six digits.
+/// Only drawn nodes are written (scene/outlines.hpp). k is the smallest value for which the table has at most
+/// max_values numbers and max_times rows; but at least min_times rows are written, if there are as many output times.
+/// Numbers have six digits.
 class BodyMotionFile {
  public:
   static constexpr std::size_t max_values = 400'000, min_times = 25, max_times = 250;
 
   /// Stores nothing for a scene without bodies.
   BodyMotionFile(const Scene& scene, const Model& model);
-  /// Stores a row; to be called at every output time.
+  /// Must be called at every output time; stores a row at every k-th one.
   void add(const Sample& sample);
   /// Writes no file if nothing was stored. Errors: FileError.
   void write(const std::filesystem::path& directory) const;
@@ -94,7 +94,7 @@ class BodyMotionFile {
   NodeDisplacements movers_;
   std::size_t every_ = 1, count_ = 0;
   std::vector<std::vector<double>> rows_;  ///< t, then displacements
-  std::vector<double> last_;               ///< the last row, not yet in rows_
+  std::vector<double> last_;               ///< row of the latest time; empty if it is in rows_
 };
 
 }  // namespace signorini::result

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t much = 1 << 16;  // bytes per write
 
-/// Works row by row, so that a long list of events is never in memory as text.
+/// Adds the columns of the certificate to events.csv, row by row, because a long list of events needs much memory.
 void add_columns(const fs::path& path, const Certificate& certificate) {
   std::ifstream old(path, std::ios::binary);
   std::string line;
@@ -21,7 +21,7 @@ void add_columns(const fs::path& path, const Certificate& certificate) {
   fs::path draft = path;
   draft += ".part";
   std::error_code error;
-  fs::remove(draft, error);  // left by a killed run, or a foreign link, which must not be followed
+  fs::remove(draft, error);  // a killed run left it, or it is a symbolic link, which must not be followed
   {
     CsvFile file(draft);
     CsvBlock block;

@@ -3,8 +3,8 @@
 //   events.csv   two additional columns, t_error and certain
 //   errors.csv   the columns of history.csv, with error bounds as values
 //
-// events.csv is complete at any time: first without the additional columns, and with them once they are
-// known.
+// events.csv is a complete table at any time: without the additional columns until the certificate is known, then with
+// them.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ struct CertificateColumn {
 inline constexpr std::array certificate_columns = {
     CertificateColumn{"t_error", "time",
                       "bound of the error of `t`, which includes errors of earlier events; empty: unknown"},
-    CertificateColumn{"certain", "", "1: this event and all before it are those of the exact motion; else 0"},
+    CertificateColumn{"certain", "",
+    "1: this event and all earlier events are those of the exact motion; 0: not certified"},
 };
 
 /// Adds the columns to events.csv, and writes errors.csv. Errors: FileError.
@@ -33,7 +34,7 @@ void write_certificate(const std::filesystem::path& directory, const Model& mode
 
 // The certificate in summary.json (docs/output.md).
 
-/// Value of the key `certified`; null if there is no certificate.
+/// Value of the key `certified` in summary.json; null if the run has no certificate.
 [[nodiscard]] base::Json certificate_json(const CertifiedReport& run);
 
 /// Error bounds of the peaks of contact k; null if unknown.

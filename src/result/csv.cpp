@@ -27,7 +27,7 @@ void CsvBlock::separate() {
 
 CsvBlock& CsvBlock::number(double value) {
   separate();
-  text_ += base::format_number(value + 0.0);  // no negative zero
+  text_ += base::format_number(value + 0.0);  // + 0.0 turns -0 into 0
   return *this;
 }
 
@@ -82,7 +82,7 @@ void CsvFile::write(CsvBlock& block) {
 void CsvFile::fail() {
   const std::string why = reason(errno);
   file_.reset();
-  std::error_code ignored;  // not every file can be truncated, and the message is more important
+  std::error_code ignored;  // a pipe cannot be truncated; the error below is thrown anyway
   std::filesystem::resize_file(path_, good_, ignored);
   throw FileError(path_.string(), "cannot be written: " + why);
 }
@@ -93,7 +93,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   const auto create = [&] { return open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); };
   int file = create();
   if (file < 0 && errno == EEXIST) {
-    // A file there is a draft of a killed run, or a foreign link, which must not be followed.
+    // A killed run left the draft, or the draft is a symbolic link, which must not be followed.
     unlink(draft.c_str());
     file = create();
   }

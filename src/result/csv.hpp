@@ -1,6 +1,6 @@
 // csv.hpp: writes CSV files that are valid at every moment, and reads them.
 //
-//   one header row, commas, no comments; numbers as shortest() writes them
+//   one header row, commas, no comments; numbers with the fewest digits that read back exactly
 //
 // A block of rows is passed to the system in one write as soon as it is complete; after a failed write (disk full) the
 // file is truncated to whole rows, and a FileError is thrown. SIGKILL may end a write at a page boundary of the file,
@@ -53,17 +53,17 @@ class CsvFile {
 
  private:
   struct Close {
-    void operator()(std::FILE* file) const { (void)std::fclose(file); }  // unbuffered
+    void operator()(std::FILE* file) const { (void)std::fclose(file); }  // unbuffered: nothing to flush
   };
   [[noreturn]] void fail();
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::uintmax_t good_ = 0;  // number of bytes known to be written
+  std::uintmax_t good_ = 0;  // number of bytes in complete blocks, which stay after a failed write
 };
 
-/// Writes a text file to a temporary file beside it and renames that: readers see the old or the new file,
-/// never a part.
+/// Writes the text to a temporary file in the same directory and renames it to `path`: readers see the old or the new
+/// file, never a part.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 // Reads the tables of a run, for the pictures.
@@ -72,9 +72,9 @@ void write_file(const std::filesystem::path& path, const std::string& text);
 //   const auto contact = reader.column("contact");
 //   while (reader.next()) use(reader.cell(contact), reader.t());
 //
-// A last line without its line break (a run in progress, or killed) is omitted. gnuplot would read it, so scripts limit
-// it to the rows counted here. In tables written by people (LastLine::counts) it is a row like any other, and a byte
-// order mark before the header is skipped.
+// A last line without its line break (a run in progress, or killed) is omitted. gnuplot would read that line, so scripts
+// limit gnuplot to the rows counted here. LastLine::counts, for tables written by hand, accepts that line as a row and
+// skips a byte order mark before the header.
 
 /// Treatment of a last line without its line break.
 enum class LastLine { cut, counts };
@@ -86,27 +86,27 @@ class CsvReader {
   explicit CsvReader(const std::filesystem::path& path, LastLine last = LastLine::cut);
 
   [[nodiscard]] const std::vector<std::string>& header() const { return header_; }
-  /// Index of the column with this name.
+  /// Index of the column with this name. Errors: FileError if there is none.
   [[nodiscard]] std::size_t column(const std::string& name) const;
 
-  /// The row's `t`.
+  /// Value of the column `t` in the current row.
   [[nodiscard]] double t() const { return number(time_ ? *time_ : column("t")); }
 
   /// Moves to the next row; false at the end. Refuses a row whose number of cells differs from the header.
   bool next();
-  /// Same as next(), but accepts a row of any length.
+  /// Moves to the next row, which may have any number of cells; false at the end.
   bool next_of_any_length();
   /// Error message if the row's number of cells differs from the header; otherwise empty.
   [[nodiscard]] std::string row_length_error() const;
   [[nodiscard]] const std::string& cell(std::size_t index) const { return cells_[index]; }
   [[nodiscard]] double number(std::size_t index) const;
 
-  /// Line number of the row, from 1, if no cell contains a line break.
+  /// Line number of the current row, from 1; correct only if no cell contains a line break.
   [[nodiscard]] int line() const { return line_; }
-  /// At the end: true if a line without its line break was omitted.
+  /// After the last row: true if a last line without its line break was omitted.
   [[nodiscard]] bool is_cut() const { return cut_; }
 
-  /// Throws a FileError with the name of this table.
+  /// Throws a FileError that names this file and the reason `why`.
   [[noreturn]] void refuse(const std::string& why) const;
 
  private:
@@ -124,7 +124,7 @@ class TableFolder {
  public:
   explicit TableFolder(std::filesystem::path directory) : directory_(std::move(directory)) {}
   [[nodiscard]] bool has(const char* table) const;
-  /// Errors: FileError.
+  /// Opens a table of the directory. Errors: FileError.
   [[nodiscard]] CsvReader open(const char* table) const { return CsvReader(directory_ / table); }
 
  private:

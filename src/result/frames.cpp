@@ -8,7 +8,7 @@
 namespace signorini::result {
 
 NodeDisplacements::NodeDisplacements(const Scene& scene, const Model& model) : movers_(scene.nodes.size()) {
-  for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // they are the first drawn nodes, in the same order
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // the drawn nodes begin with the nodes of the scene
     for (const std::size_t c : {0U, 1U}) movers_[n][c].dof = model.drawn_nodes[n].dofs[c];
   for (const Support& support : scene.supports) {
     if (!support.motion || support.rz) continue;
@@ -79,7 +79,7 @@ void FrameWriter::write_contacts(const Sample& sample) {
 
 namespace {
 
-/// Columns of frames.csv for a node: its position and its displacement.
+/// Columns of frames.csv with position, displacement and rotation of a node.
 class EndColumns {
  public:
   explicit EndColumns(const CsvReader& rows)
@@ -175,7 +175,7 @@ double magnification_of(double size, double greatest) {
 
 namespace {
 
-/// Displacement on the straight line.
+/// Position and displacement at the fraction s between two ends, both interpolated linearly.
 FrameEnd straight_between(const FrameEnd& a, const FrameEnd& b, double s) {
   FrameEnd p;
   p.x = a.x + s * (b.x - a.x);
@@ -198,7 +198,7 @@ FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const element::
   const double c = (b.x - a.x) / length, d = (b.y - a.y) / length;
   const double va = -d * a.ux + c * a.uy, vb = -d * b.ux + c * b.uy;
   const double v = h.a * va + h.b * vb + length * (h.rotation_a * a.rz + h.rotation_b * b.rz);
-  const double more = v - (va + s * (vb - va));  // deviation from the straight line
+  const double more = v - (va + s * (vb - va));  // deviation from linear interpolation
   p.ux += -d * more;
   p.uy += c * more;
   return p;

@@ -4,9 +4,9 @@
 //   frames.csv          t,kind,element,node,x,y,ux,uy,rz
 //   frame_contacts.csv  t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T
 //
-// kind: beam, bar or spring (two rows per element, one for each end; "B-D.3" is an inner node), then node or support
-// (one row per named node, element empty). x, y: undeformed. The force on the body at a contact is -N n - T t. Both
-// files are created with the first frame. Errors: FileError.
+// kind: beam, bar, spring, rigid or mesh (two rows per element, one for each end; "B-D.3" is an inner node), then node or
+// support (one row per named node, element empty). x, y: undeformed position. The force on the body at a contact is
+// -N n - T t. Both files are created with the first frame. Errors: FileError.
 #pragma once
 
 #include <array>
@@ -23,8 +23,7 @@
 
 namespace signorini::result {
 
-/// Displacements of the nodes of a scene, each given by a degree of freedom or by the motion of a support, or
-/// zero.
+/// Displacements of the nodes of a scene. Each component is a degree of freedom, the motion of a support, or zero.
 class NodeDisplacements {
  public:
   NodeDisplacements(const Scene& scene, const Model& model);
@@ -57,10 +56,10 @@ class FrameWriter {
 //
 //   X = x + magnification u,   arrow = force_scale (-N n - T t)
 //
-// magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an
-// eighth of the structure's size; 1 if it is that large already. Frames share one magnification, except a
-// frame whose own magnification is at least five times as large. Arrows have one scale: the longest belongs
-// to the largest force of the run.
+// magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an eighth of the
+// structure's size; but at least 1. Frames share one magnification; a frame whose own magnification would be at least
+// five times the shared one is drawn with its own. All arrows have one scale: the longest arrow is the largest force of
+// the run.
 
 struct FrameEnd {
   double x = 0.0, y = 0.0, ux = 0.0, uy = 0.0, rz = 0.0;
@@ -79,11 +78,11 @@ struct Frame {
   struct Force {
     std::string contact, state;
     double x = 0.0, y = 0.0, ux = 0.0, uy = 0.0, nx = 0.0, ny = 0.0;
-    double fx = 0.0, fy = 0.0;  ///< on the body
+    double fx = 0.0, fy = 0.0;  ///< force on the body
     double N = 0.0, T = 0.0;
   };
   double t = 0.0;
-  /// Mean translation, subtracted from displacements and added to positions.
+  /// Mean translation of the named nodes, subtracted from displacements and added to positions.
   double slid_x = 0.0, slid_y = 0.0;
   std::vector<Element> elements;
   std::vector<Point> points;
@@ -92,28 +91,27 @@ struct Frame {
 
 struct FrameScales {
   double magnification = 1.0;
-  double greatest_force = 0.0;                    ///< force
+  double greatest_force = 0.0;                    ///< largest contact force
   double force_scale = 0.0;                       ///< length in the picture per unit of force
   double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0;  ///< drawn area, arrows included
 };
 
-/// Frames between the two times; empty if frames.csv is missing. Errors: FileError.
+/// Reads the frames from time `from` to time `to`; empty if frames.csv is missing. Errors: FileError.
 [[nodiscard]] std::vector<Frame> read_frames(const TableFolder& tables, double from, double to);
-/// Subtracts each frame's mean translation, which is then drawn in true scale, if the shapes differ from a
-/// translation by less than half of their largest displacement: a structure that slides far would show no
-/// deformation.
+/// Subtracts each frame's mean translation from displacements and adds it to positions, so that only the deformation is
+/// magnified. Does so only if all shapes differ from a translation by less than half of the largest displacement.
 void subtract_translations(std::vector<Frame>& frames);
-/// Common scales of frames. greatest_force: largest force of the run; a larger force of the frames replaces
-/// it.
+/// Common scales of all frames. greatest_force: largest force of the run; a larger force in the frames replaces this
+/// value.
 [[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force = 0.0);
-/// Scales of one frame among others whose scales are `shared`.
+/// Scales for one frame: `shared`, or its own if its own magnification is at least five times the shared one.
 [[nodiscard]] FrameScales scales_of(const Frame& frame, const FrameScales& shared);
 
 /// Magnification: 1, 2 or 5 times a power of ten, so that the largest displacement is drawn with at most an
 /// eighth of the size; 1 if all displacements are zero.
 [[nodiscard]] double magnification_of(double size, double greatest);
 
-/// Displacement at the fraction s of an element: linear along it, cubic across it (beams).
+/// Displacement at the fraction s of an element: linear along the element; across it, cubic for beams, else linear.
 [[nodiscard]] FrameEnd between(const Frame::Element& element, double s);
 /// Displacement at the fraction s between two ends, with given shape functions across the line
 /// (model/element/line_elements.hpp).

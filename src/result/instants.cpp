@@ -13,7 +13,7 @@
 namespace signorini::result {
 namespace {
 
-// The order of the columns.
+// Columns in this order: Head, then the degrees of freedom, then Part for each contact.
 enum Head : std::size_t {
   at_t,
   at_side,
@@ -164,7 +164,7 @@ ContactState InstantReader::state(std::size_t contact, std::size_t column) const
         result.state = own[i];
         return result;
       }
-    fail(column, "the number of a state of its law");
+    fail(column, "the number of a state of the contact's law");
   }
   for (const State known : {State::open, State::inside, State::closed, State::stick, State::slip_plus,
                             State::slip_minus, State::static_limit_plus, State::static_limit_minus})
@@ -198,13 +198,13 @@ void InstantReader::take_impulses(std::size_t contact, std::size_t column, Insta
   for (std::string word; blows >> word;) {
     const std::size_t first = word.find(':'), second = word.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos)
-      fail(column + of_blows, "turn:Pn:Pt between blanks");
-    const auto turn = base::parse_number(word.substr(0, first)),
+      fail(column + of_blows, "impulses turn:Pn:Pt separated by blanks");
+      const auto turn = base::parse_number(word.substr(0, first)),
                n = base::parse_number(word.substr(first + 1, second - first - 1)),
                t = base::parse_number(word.substr(second + 1));
     if (!turn || !n || !t || !(*turn >= 1.0 && *turn < 1e6) || !std::isfinite(*n) || !std::isfinite(*t))
-      fail(column + of_blows, "turn:Pn:Pt between blanks");
-    row.impacts.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
+      fail(column + of_blows, "impulses turn:Pn:Pt separated by blanks");
+      row.impacts.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
   }
   if (!reader_.cell(column + of_capture_n).empty()) {
     if (row.capture_impulses.size() == 0) row.capture_impulses = Vector::Zero(model_.force_count());
@@ -234,7 +234,7 @@ std::optional<InstantRow> InstantReader::next() {
                     reader_.line(), row.t));
   if (reader_.cell(at_side) != "after") fail(at_side, "after");
   if (number(at_t) != row.t)
-    fail(at_t, fmt::format("{}, the time of the side before", base::format_number(row.t)));
+    fail(at_t, fmt::format("{}, the time of the row of the side \"before\"", base::format_number(row.t)));
   take_side(row.after, true);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) take_impulses(k, of_contact(k), row);
   return row;

@@ -6,9 +6,9 @@
 //                  displacements, velocities and accelerations of all degrees of freedom of the model;
 //                  of each contact c: c.state, c.p, c.N, c.T, c.blows, c.capture_n, c.capture_t, c.released
 //
-// Each instant has two rows in one block: a killed run has both or, at the very end, one. Cells without meaning on a
-// side are empty. c.blows: impulses on the contact, "turn:Pn:Pt" separated by blanks; turn: number of the
-// impact. States of user laws are numbers.
+// Each instant has two rows, written in one block; the file of a killed run may lack the second row of its last instant.
+// Cells without meaning on a side are empty. c.blows: impulses on the contact, "turn:Pn:Pt" separated by blanks; turn is
+// the number of the impact, Pn and Pt its impulses along the normal and the tangent. States of user laws are numbers.
 // Errors: FileError.
 #pragma once
 
@@ -42,11 +42,11 @@ class InstantWriter {
 
 class InstantReader {
  public:
-  /// The columns must match the model.
+  /// Opens the file and compares its columns with the model. Errors: FileError if they differ.
   InstantReader(const std::filesystem::path& directory, const Model& model);
   /// The next instant; nullopt at the end of the file.
   [[nodiscard]] std::optional<InstantRow> next();
-  /// Reader whose line() is that of the last row; at the end of the file, that of the row after it.
+  /// The reader of the file; its line() is the line read last, or after the end of the file the line after the last row.
   [[nodiscard]] const CsvReader& rows() const { return reader_; }
 
  private:
@@ -71,7 +71,7 @@ class InstantReader {
 //    "tried":{"A":"slip+","B":"open"},"failed":[{"contact":"A","guard":"slip rate","order":1,"excess":7.5}],
 //    "holds":false}
 //
-// The last round of an instant holds, unless the run stops there. Errors: FileError.
+// The last round of an instant has "holds": true, unless the run stops there. Errors: FileError.
 
 class TraceWriter {
  public:

@@ -20,7 +20,7 @@ std::string quoted(const std::string& text) {
       continue;
     }
     // Within a block, gnuplot reads three quotes at the start as an empty string, and fails at four in a row:
-    // consecutive apostrophes become a string of their own.
+    // consecutive apostrophes are written as a separate string in double quotes.
     const std::size_t count = std::min(text.find_first_not_of('\'', i), text.size()) - i;
     if (count > 1) {
       result += "'.\"";

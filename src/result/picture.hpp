@@ -42,13 +42,13 @@ struct Panel {
   std::string axes = "";   ///< gnuplot lines for axes that differ from the usual ones
   double weight = 1.0;     ///< relative height of the panel
   std::string after = "";  ///< gnuplot lines that undo permanent settings of `axes`
-  bool own_axis = false;   ///< has numbers and a label at its horizontal axis, even if panels follow below
+  bool own_axis = false;   ///< numbers and label at the horizontal axis even if panels follow
   /// gnuplot lines for its position and all of its axes; empty: panels are stacked.
   std::string margins = "";
 };
 
 struct Picture {
-  std::string name;      ///< base name of its files
+  std::string name;      ///< base name of the picture's files
   std::string subtitle;  ///< line below the run's title
   Canvas canvas;
   bool over_time = true;
@@ -59,25 +59,25 @@ struct Picture {
 /// Text of the gnuplot script that draws the picture.
 [[nodiscard]] std::string script_of(const PlottedRun& run, const Picture& picture);
 
-/// Width in pixels of a legend with these names, results of legend_name().
+/// Width in pixels of a legend with these names after legend_name().
 [[nodiscard]] double legend_width(const std::vector<std::string>& names);
-/// The name with its middle replaced if it is too long for a legend.
+/// The name; if it is too long for a legend, "..." replaces its middle.
 [[nodiscard]] std::string legend_name(const std::string& name);
 
 /// The text in single quotes for gnuplot, which expands nothing in it. A leading apostrophe becomes a
 /// typographic one.
 [[nodiscard]] std::string quoted(const std::string& text);
-/// Named tics of the axis "x" or "y": "set xtics ('A' 0, ...)". % is escaped, since gnuplot reads formats in
-/// them.
+/// gnuplot command for named tics of the axis 'x' or 'y': "set xtics ('A' 0, ...)". % is doubled, because gnuplot reads
+/// the names as formats.
 [[nodiscard]] std::string named_tics(char axis,
                                      const std::vector<std::pair<std::string, std::size_t>>& names);
 
-/// Edges of stacked panels with these relative heights; `space` between them in pixels.
+/// Edges of stacked panels with these relative heights, from top to bottom. space: pixels between two panels.
 [[nodiscard]] std::vector<PanelEdges> panel_edges(const std::vector<double>& weights, const Canvas& canvas,
                                                   double space);
-/// "set xrange [a:b]".
+/// gnuplot command for the range of the axis 'x' or 'y': "set xrange [a:b]".
 [[nodiscard]] std::string range_of(char axis, double from, double to);
-/// A vertical line across the panel at x.
+/// gnuplot command for a vertical line across the panel at x; number: that of the gnuplot arrow; look: line style.
 [[nodiscard]] std::string vertical_line(std::size_t number, double x, const std::string& look);
 
 }  // namespace signorini::result

@@ -1,8 +1,8 @@
-// picture_files.hpp: files of a set of pictures: scripts, and their tables in addition to those of the results.
+// picture_files.hpp: files of a set of pictures: gnuplot scripts, and tables that only the pictures need.
 //
 //   DIR/plots/NAME.gp, TABLE.csv
 //
-// When run in DIR/plots, each script writes pictures with its own name. gnuplot is not started by this file.
+// When run in DIR/plots, each script writes pictures with its own name. PictureFiles does not start gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ namespace signorini::result {
 
 class PictureFiles {
  public:
-  /// ours: true for files of earlier pictures of this kind, which are replaced. Null: no file is replaced.
+  /// ours: selects the files of earlier pictures of this kind, which write() removes. Null: write() removes no file.
   explicit PictureFiles(bool (*ours)(const std::filesystem::path&) = nullptr) : ours_(ours) {}
 
-  /// Adds a picture; one without panels is ignored.
+  /// Adds a picture, unless it has no panels.
   void add(const PlottedRun& run, const Picture& picture);
   /// Adds a table; `text` includes the header.
   void add_table(const std::string& name, std::string text);
-  /// Writes into DIR/plots; returns the scripts, in their order. Without scripts nothing is changed. Errors: FileError.
+  /// Writes all files into DIR/plots; returns the paths of the scripts. Without scripts nothing changes. Errors: FileError.
   std::vector<std::filesystem::path> write(const std::filesystem::path& directory) const;
 
  private:
@@ -33,19 +33,19 @@ class PictureFiles {
   std::vector<File> scripts_, tables_;
 };
 
-// The folder of pictures, from which only the program's own files are removed.
+// Functions for the folder of pictures. They remove only files that the program has written.
 
-/// True for a script or a picture: .gp, .svg, .png.
+/// True for a script or a picture: .gp, .svg, .png, .pdf.
 [[nodiscard]] bool is_picture(const std::filesystem::path& file);
 
-/// True for a ParaView frame or the list of frames.
+/// True for a ParaView frame (.vtu) or the list of frames (.pvd).
 [[nodiscard]] bool is_paraview(const std::filesystem::path& file);
 
-/// Removes the files selected by `ours`, and the folder if it is empty then; does nothing without a folder. Errors:
+/// Removes the files selected by `ours`, and the folder if it is then empty; does nothing if there is no folder. Errors:
 /// FileError.
 void clear_plot_folder(const std::filesystem::path& folder, bool (*ours)(const std::filesystem::path&));
 
-/// Creates the folder, or removes our earlier files from it. Errors: FileError.
+/// Creates the folder if there is none, and removes the files selected by `ours`. Errors: FileError.
 void begin_plot_folder(const std::filesystem::path& folder, bool (*ours)(const std::filesystem::path&));
 
 }  // namespace signorini::result

@@ -77,7 +77,7 @@ Canvas canvas_of(const PictureStyle& look, double height, bool over_time, bool f
   const double size = look.width * pixels_a_mm;
   canvas.pixel = std::max(least_letter / letter_height, 1.05 * size / wide);
   const double high = over_time ? look.height * pixels_a_mm : 0.0;
-  // Panels of less than half their usual height have no room for text beside them: letters become smaller.
+  // A panel of less than half the usual height has no room for its labels: letters become smaller.
   if (high > 0.0) canvas.pixel = std::min(canvas.pixel, high / (0.5 * height));
   canvas.width = size / canvas.pixel;
   if (high > 0.0) {

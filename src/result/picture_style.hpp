@@ -21,7 +21,7 @@ struct PictureStyle {
   std::string language = "en";  ///< for labels, legends and subtitles
 };
 
-/// Formats of pictures, in the order of lists.
+/// Formats of pictures, in the order in which messages list them.
 [[nodiscard]] const std::vector<std::string>& picture_formats();
 
 /// Reads a size, "160" or "160x90", in mm from 20 to 2000. Errors: UsageError.
@@ -31,47 +31,47 @@ void read_formats(const std::string& text, PictureStyle& look);
 /// Reads a language: "en", "de" or "ru". Errors: UsageError.
 void read_language(const std::string& text, PictureStyle& look);
 
-/// Layout area of a picture, in pixels; the usual letter has 13 pixels. On paper a pixel may be smaller.
+/// Layout area of a picture, in pixels; letters usually are 13 pixels high. On paper a pixel may be smaller.
 ///
 ///   pixel = max(6 points of 13, 1.05 size / 1120),   width = size / pixel,   height = height_1120 sqrt(width / 1120)
 struct Canvas {
   double width = 1120.0, height = 0.0;
-  double pixel = 1.0;  ///< size relative to 1/96 inch
+  double pixel = 1.0;  ///< size of a pixel, in 1/96 inch
 
   /// Left edge of the panels, and their right edge if `legend` pixels are left free; fractions of the width.
   [[nodiscard]] double left() const;
   [[nodiscard]] double right(double legend = usual_legend) const;
   [[nodiscard]] bool narrow() const { return width < 700.0; }
-  /// Font size for gnuplot; the usual one is 13.
+  /// Font size for gnuplot of letters that are `size` pixels high.
   [[nodiscard]] double font(double size) const { return size * pixel; }
   [[nodiscard]] double legend_font() const { return font(narrow() ? 11.0 : 13.0); }
   static constexpr double usual_legend = 185.0;
 };
-/// Canvas of a picture. height: for a width of 1120; over_time: a height in `look` replaces it; fixed:
-/// otherwise the height does not change with the width.
+/// Canvas of a picture. height: in pixels, for a width of 1120; over_time: a height in `look` replaces this height;
+/// fixed: without a height in `look`, the height does not depend on the width.
 [[nodiscard]] Canvas canvas_of(const PictureStyle& look, double height, bool over_time, bool fixed = false);
 
-/// The largest height of a `fixed` canvas. Cairo draws at most 32767 dots per side.
+/// Largest height of a `fixed` canvas, in pixels. The limit is Cairo, which draws at most 32767 dots per side.
 [[nodiscard]] double max_canvas_height(const PictureStyle& look);
 
-/// gnuplot lines that set the terminal for each value of the variable `format`.
+/// gnuplot lines that set the terminal for each value of the variable `format`. sized: the user gave a size in mm.
 [[nodiscard]] std::string terminals(const Canvas& canvas, bool sized);
 
 // Translations of the words in pictures.
 //
 //   translate("de", "slip") == "Gleiten"
 //
-// One table, with one row per word or phrase; phrases without a row stay English. Names of contacts, symbols and units
-// are not translated. Terms of mechanics follow the textbooks of each language; stick, slip: Haften, Gleiten;
-// сцепление, скольжение, as in the paper behind the program.
+// A table has one row per word or phrase; phrases without a row stay English. Names of contacts, symbols and units are
+// not translated. Terms of mechanics follow the textbooks of each language. Stick and slip: Haften and Gleiten;
+// сцепление and скольжение.
 
 /// Language codes, "en" first.
 [[nodiscard]] const std::vector<std::string>& picture_languages();
 
-/// The phrase in a language of picture_languages().
+/// The phrase in a language of picture_languages(); in English if the phrase has no translation.
 [[nodiscard]] std::string translate(std::string_view language, std::string_view english);
 
-/// Every English phrase that has a row.
+/// All English phrases that have translations.
 [[nodiscard]] std::vector<std::string> translated_phrases();
 
 }  // namespace signorini::result

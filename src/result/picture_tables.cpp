@@ -23,10 +23,10 @@ void PictureTables::curves(const Curves& curves) {
 
 namespace {
 
-constexpr int pieces = 1200;                    // about one per pixel
+constexpr int pieces = 1200;                    // intervals of the time axis, about one per pixel
 constexpr std::size_t max_breakpoints = 10000;  // more than a picture can show
 
-/// The base's acceleration acts as -M r a.
+/// Sign of a load: the acceleration a of the base acts as the load -M r a.
 double sign_of(const Load& load) { return load.kind == LoadKind::base ? -1.0 : 1.0; }
 
 }  // namespace

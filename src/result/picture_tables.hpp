@@ -10,14 +10,14 @@
 
 namespace signorini::result {
 
-/// Errors of all members: FileError.
+/// Writes motion.csv and curves.csv. Errors of all members: FileError.
 class PictureTables {
  public:
   /// The directory must exist. The model must outlive the tables.
   PictureTables(std::filesystem::path directory, const Model& model)
       : directory_(std::move(directory)), model_(model) {}
 
-  /// Same calls as Recorder::motion (rows of the next contact) and Recorder::curves (once).
+  /// Take the data of Recorder::motion, which is called once for each contact, and of Recorder::curves, called once.
   void motion(int contact, const std::vector<MotionRow>& rows);
   void curves(const Curves& curves);
 
@@ -32,7 +32,7 @@ class PictureTables {
 //   loads.csv  t,NAME,...   f_i(t) of every load that is not constant, amplitude included,
 //                           and the acceleration of the base; both sides of breakpoints
 
-/// Table from 0 to t_end; empty if no load varies.
+/// Text of loads.csv from 0 to t_end; empty if no load varies.
 [[nodiscard]] std::string load_table(const Model& model, double t_end);
 
 }  // namespace signorini::result

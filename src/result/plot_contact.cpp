@@ -38,11 +38,11 @@ class ContactPicture {
     const bool rubs = contact_.static_friction > 0.0;
     p.panels = {states(), normal_force()};
     if (rubs) p.panels.push_back(friction_force());
-    // on its own scale: a lift-off is small compared with the sliding
+    // The gap has its own scale, because a lift-off is small compared with sliding.
     if (!contact_.slider)
       p.panels.push_back(panel(192.0, "g " + length(), {curve("gap", "#2166ac", translate(run_, "gap g"))},
                                constant_axis(ranges_.gap, scales_.length)));
-    // A wheel or a guide also moves along its tangent; a motion of rounding size is not drawn.
+    // A contact without friction (a wheel, a guide) may move along its tangent too. Rounding errors are not drawn.
     if (rubs || !is_rounding(ranges_.ut, scales_.length)) p.panels.push_back(sliding());
     double height = margin_above + margin_below - p.space;
     for (const Panel& panel : p.panels) height += panel.weight + p.space;
@@ -54,7 +54,7 @@ class ContactPicture {
   [[nodiscard]] std::string length() const { return "[" + run_.facts.units.length + "]"; }
   [[nodiscard]] std::string force() const { return " [" + run_.facts.units.force + "]"; }
 
-  /// A panel with curves in front of the states.
+  /// A panel with curves in front of coloured bands for the states.
   [[nodiscard]] Panel panel(double weight, const std::string& label, const std::vector<Curve>& curves,
                             const std::string& axes) const {
     Panel p{label, bands_of(run_, k_, 0.28), axes, weight};
@@ -70,7 +70,7 @@ class ContactPicture {
   [[nodiscard]] Panel normal_force() const {
     std::vector<Curve> curves = band_legend(run_, k_);
     curves.insert(curves.begin(), curve("N", "#1a1a1a", "N"));
-    // N <= 0; a constant N is drawn below zero
+    // N <= 0, so the axis ends at zero; but not if N is zero throughout.
     const bool none = is_rounding(ranges_.N, scales_.force);
     return panel(177.0, "N" + force(), curves,
                  none ? constant_axis(ranges_.N, scales_.force) : "set yrange [*:0] noextend\n");
@@ -106,7 +106,7 @@ class ContactPicture {
     return panel(208.0, length(), curves, constant_axis(range, scales_.length));
   }
 
-  /// Curve of a column of the contact's table.
+  /// Curve over time of a column of the contact's table.
   [[nodiscard]] Curve curve(std::string_view column, const char* colour, const std::string& title,
                             const char* look = "") const {
     return {rows_, fmt::format("{}:{}", contact_table().number("t"), contact_table().number(column)),
@@ -153,13 +153,13 @@ Picture states_picture(const PlottedRun& run) {
 namespace {
 
 constexpr std::size_t max_panels = 20;
-constexpr double least_panel = 130.0, small_panel = 300.0;  // pixels, including text beside the panel
+constexpr double least_panel = 130.0, small_panel = 300.0;  // pixels, including labels to the left and right
 
 struct Grid {
   std::size_t columns = 1, rows = 1;
 };
 
-/// Arrangement of panels, with at most `most` side by side.
+/// Arrangement of panels in rows, with at most `most` panels in a row.
 Grid grid_for(std::size_t panels, std::size_t most) {
   Grid grid;
   grid.columns = panels <= 3
@@ -172,14 +172,14 @@ Grid grid_for(std::size_t panels, std::size_t most) {
 
 std::string rgb(const std::string& colour) { return "0x" + colour.substr(1); }
 
-/// 1, 2 or 5 times a power of ten, at least a third of the range: the numbers then fit below a small panel.
+/// Distance of tics: 1, 2 or 5 times a power of ten, at least a third of the range, so that labels of a small panel fit.
 double tic_step(double range) {
   const double power = std::pow(10.0, std::floor(std::log10(range / 3.0)));
   const double digit = range / 3.0 / power;
   return (digit > 5.0 ? 10.0 : digit > 2.0 ? 5.0 : digit > 1.0 ? 2.0 : 1.0) * power;
 }
 
-/// The colour of a state, as a gnuplot function.
+/// Definition of the gnuplot function state_colour(s), the colour of a state.
 std::string colour_function() {
   std::string s = "state_colour(s) = ";
   for (const std::string& name : state_names())
@@ -221,7 +221,7 @@ std::vector<Curve> curves_of(const PlottedRun& run, std::size_t k, bool small) {
 
 bool rubs(const PlottedRun& run, std::size_t k) { return run.facts.contacts[k].static_friction != 0.0; }
 
-/// The legend, in a panel of its own without axes.
+/// A panel without axes that contains the legend. top: upper edge, as a fraction of the height.
 Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   const double left = canvas.right() + 10.0 / canvas.width;
   Panel panel;
@@ -238,7 +238,7 @@ Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   const auto entry = [&](const std::string& look, const std::string& name) {
     curves.push_back({"keyentry", "", "with " + look, name});
   };
-  curves.push_back({"2", "", ""});  // gnuplot draws no plot that consists of legend entries only
+  curves.push_back({"2", "", ""});  // gnuplot needs a plot in addition to legend entries
   entry("lines linecolor '#c0182b' linewidth 1.2", "±f|N|");
   const auto two = [](const auto& c) { return c.kinetic_friction != c.static_friction; };
   if (std::any_of(run.facts.contacts.begin(), run.facts.contacts.end(), two))
@@ -264,7 +264,7 @@ Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   return panel;
 }
 
-/// Name and friction coefficients above a panel, and its ranges.
+/// gnuplot lines for the heading of a panel (name and friction coefficients) and for its axis ranges.
 std::string heading_and_ranges(const PlottedRun& run, std::size_t k, const Canvas& canvas, bool small) {
   const auto& contact = run.facts.contacts[k];
   const std::string f =
@@ -324,7 +324,7 @@ Picture cone_picture(const PlottedRun& run) {
     s += fmt::format("set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n",
                      top - panel_height * line, top);
     s += heading_and_ranges(run, shown[i], canvas, small);
-    // Labels on the outer panels only.
+    // Only outer panels have axis labels.
     const bool lowest = i + grid.columns >= shown.size();
     s += lowest ? "set xlabel " +
                       quoted((small ? "-N [" : translate(run, "compression") + " -N [") +
@@ -348,7 +348,7 @@ bool occurs(const PlottedRun& run, EventType type) {
          run.event_types.end();
 }
 
-/// Lines of the event types within a row, from the top.
+/// Event types that occur in the run. Each has a line within the row of a contact, in this order from the top.
 std::vector<EventStyle> lanes_of(const PlottedRun& run) {
   std::vector<EventStyle> lanes;
   for (const EventStyle& look : event_styles)
@@ -394,7 +394,7 @@ Picture raster_picture(const PlottedRun& run) {
         fmt::format("{}:({} + {:.4f}):(0):({:.4f})", at, mark_table().value("row"),
                     -0.42 + lane * static_cast<double>(i), 0.86 * lane),
         fmt::format("with vectors nohead linewidth 1.6 linecolor '{}'", lanes[i].colour), std::nullopt);
-  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot needs a plot
+  if (panel.curves.empty()) panel.curves.push_back({"NaN", "", "with lines"});  // gnuplot rejects empty plots
   for (const EventStyle& look : lanes)
     panel.curves.push_back({"keyentry", "", fmt::format("with lines linewidth 4 linecolor '{}'", look.colour),
                             translate(run, signorini::to_string(look.type))});

@@ -13,10 +13,10 @@ namespace signorini::result {
 
 namespace {
 
-constexpr std::size_t max_pictures = 40;  // evenly selected from more
-// Largest number of contacts for which forces have numbers; with more contacts they only have names.
+constexpr std::size_t max_pictures = 40;  // if there are more frames, 40 are selected evenly
+// Largest number of contacts whose labels show the forces; with more contacts labels show names only.
 constexpr std::size_t max_labelled = 6;
-constexpr std::size_t max_names = 30;
+constexpr std::size_t max_names = 30;  // with more contacts there are no labels
 
 struct ShapePoint {
   std::string kind;
@@ -24,7 +24,7 @@ struct ShapePoint {
   double magnification;
 };
 
-/// Undeformed positions, and deformed positions as drawn.
+/// Columns of frame-1-shape.csv: undeformed positions, and deformed positions as drawn.
 const CsvTable<ShapePoint>& shape_table() {
   using P = ShapePoint;
   static const CsvTable<P> table = {{"kind", &P::kind},
@@ -35,7 +35,8 @@ const CsvTable<ShapePoint>& shape_table() {
   return table;
 }
 
-/// A blank line ends a line; consecutive elements form one line, so that no joint is visible.
+/// Text of frame-1-shape.csv. gnuplot ends a drawn line at a blank line; connected elements are drawn as one line, so
+/// that no joint is visible.
 std::string shape_text(const Frame& frame, double magnification) {
   const int steps = frame.elements.size() > 2000 ? 1 : 12;
   CsvBlock all;
@@ -57,7 +58,7 @@ std::string shape_text(const Frame& frame, double magnification) {
   return text + block.str();
 }
 
-/// The arrow of a contact's force: its tip and its vector.
+/// Columns of frame-1-forces.csv: tip (x, y) and vector (dx, dy) of the arrow of a contact force.
 CsvTable<Frame::Force> force_table(const FrameScales& scales) {
   using F = Frame::Force;
   const double m = scales.magnification, s = scales.force_scale;
@@ -92,7 +93,7 @@ Layout layout_of(const FrameScales& scales, const PlottedRun& run) {
   return l;
 }
 
-/// Labels of contacts, at the tails of their arrows.
+/// gnuplot lines for the labels of contacts, at the tails of their arrows.
 std::string labels(const Frame& frame, const FrameScales& scales, const Layout& l, const PlottedRun& run) {
   std::string s;
   const bool figures = frame.forces.size() <= max_labelled;
@@ -111,7 +112,7 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
       text += " " + run.facts.units.force;
     }
     const bool sideways = std::abs(dx) > 2.0 * std::abs(dy);
-    const bool upright = !figures && !sideways;  // many names side by side
+    const bool upright = !figures && !sideways;  // vertical text: many names side by side
     const double part = (x - l.x0) / (l.x1 - l.x0);
     const char* side = upright       ? (dy < 0.0 ? "right rotate by 90" : "left rotate by 90")
                        : sideways    ? (dx > 0.0 ? "left" : "right")
@@ -125,7 +126,7 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
   return s;
 }
 
-/// "Shape at t = ...": time and magnification of the picture.
+/// Subtitle "Shape at t = ...": time, translation and magnification of the picture.
 std::string subtitle(const Frame& frame, const FrameScales& scales, const PlottedRun& run) {
   const bool slid = frame.slid_x != 0.0 || frame.slid_y != 0.0;
   const auto number = [](double x, int digits) { return fmt::format("{:.{}g}", x, digits); };
@@ -143,7 +144,7 @@ std::string subtitle(const Frame& frame, const FrameScales& scales, const Plotte
   return about;
 }
 
-/// Elements, nodes and supports, undeformed and deformed.
+/// Curves of elements, nodes and supports, undeformed and deformed.
 std::vector<Curve> shape_curves(const Frame& frame, const std::string& name, const PlottedRun& run) {
   const std::string shape = quoted(name + "-shape.csv") + " skip 1";
   const auto has = [&](const std::string& kind) {
@@ -179,7 +180,7 @@ std::vector<Curve> shape_curves(const Frame& frame, const std::string& name, con
   return curves;
 }
 
-/// Arrows, and points in the colours of the states.
+/// Adds arrows of the contact forces, and contact points in the colours of their states.
 void add_forces(const Frame& frame, const std::string& name, const PlottedRun& run,
                 std::vector<Curve>& curves) {
   if (frame.forces.empty()) return;

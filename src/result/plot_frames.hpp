@@ -5,7 +5,8 @@
 //   DIR/plots/frame-1-shape.csv   kind,x,y,X,Y    x, y undeformed; X, Y deformed and magnified
 //   DIR/plots/frame-1-forces.csv  contact,state,x,y,dx,dy
 //
-// Magnification, force scale and drawn area are the same in all frames of a run, and are printed.
+// Frames of a run share magnification, force scale and drawn area (exception: frames.hpp). The subtitle states the
+// magnification.
 #pragma once
 
 #include "result/picture_files.hpp"
@@ -13,7 +14,7 @@
 
 namespace signorini::result {
 
-/// Adds one picture per frame in the time window, evenly selected if there are many.
+/// Adds one picture per frame in the time window; of more than 40 frames, 40 are selected evenly.
 void add_frame_pictures(const PlottedRun& run, PictureFiles& pictures);
 
 }  // namespace signorini::result

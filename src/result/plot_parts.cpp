@@ -12,16 +12,16 @@
 namespace signorini::result {
 namespace {
 
-constexpr std::size_t most_points = 20000;  // per curve; more points make an SVG slow and show no more
+constexpr std::size_t most_points = 20000;  // per curve; more points only make an SVG slow
 
-/// " every ..." for rows of a table with `group` rows per time.
+/// gnuplot option " every ..." for the row `index` of each time, in a table with `group` rows per time.
 std::string every(std::size_t times, std::size_t group, std::size_t index) {
   const std::size_t stride = (times + most_points - 1) / most_points;
-  // Up to the last whole row; a row after it may be incomplete in a killed run.
+  // Ends at the last complete time; in a killed run the row after it may be incomplete.
   return fmt::format(" every {}::{}::{}", std::max<std::size_t>(stride, 1) * group, index, times * group - 1);
 }
 
-/// Rows in the table of bands, which is ordered by state name.
+/// Rows of a state in the table of bands of contact k, which is sorted by state.
 PlottedRun::Rows bands_in(const PlottedRun& run, std::size_t k, const std::string& state) {
   PlottedRun::Rows rows;
   for (const PlottedRun::Band& band : run.bands[k]) {

@@ -1,4 +1,4 @@
-// plot_parts.hpp: parts shared by the pictures of a run: rows of its tables, states as bands, looks of events.
+// plot_parts.hpp: parts shared by the pictures of a run: rows of tables, bands for states, styles of events.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ namespace signorini::result {
 
 // Axes of nearly constant curves.
 //
-//   least..greatest of a curve, m the middle, s the largest value of its kind in the run:
+//   range of a curve from least to greatest, m its middle, s the largest length or force of the run:
 //   within 1e3 eps s of 0 rounding:   axis 0 +- 1e-3 s, a flat line
 //   narrower than 2e-4 m  constant:   axis m (1 +- 0.01)
 //   otherwise             gnuplot's automatic axis
 //
 // 1e3 eps: src/base/rounding.hpp. 2e-4: above it about ten tic labels with six digits are all different.
-// 1e-3, 0.01: chosen values; the line looks flat beside numbers of a few digits.
+// 1e-3, 0.01: chosen values; the line looks flat, and tic labels have few digits.
 
 struct ContactScales {
   double length = 0.0, force = 0.0;
@@ -30,14 +30,14 @@ struct ContactScales {
 
 /// "set yrange [a:b]" and a line break, or "" for gnuplot's automatic axis.
 [[nodiscard]] std::string constant_axis(const Range& range, double scale);
-/// True if the range is no more than rounding.
+/// True if all values of the range are rounding errors compared with `scale`.
 [[nodiscard]] bool is_rounding(const Range& range, double scale);
 
-/// Rows of a table with one row per time, thinned to the resolution of a picture.
+/// gnuplot data source: rows of a table with one row per time, thinned to the resolution of a picture.
 [[nodiscard]] std::string rows_over_time(const std::string& table, std::size_t times);
 
-/// Rows of a contact: from motion.csv, else from contacts.csv; both have the same columns. run_directory: path from the
-/// folder of the scripts.
+/// gnuplot data source: rows of contact k in motion.csv, if it has them, else in contacts.csv; both have the same
+/// columns. run_directory: path from the folder of the scripts.
 [[nodiscard]] std::string contact_rows(const PlottedRun& run, std::size_t k,
                                        const std::string& run_directory = "..");
 
@@ -47,7 +47,7 @@ struct TableColumn {
   std::size_t time = 1, number = 0;
   [[nodiscard]] std::string columns() const { return fmt::format("{}:{}", time, number); }
 };
-/// The given rows of one of the tables, for gnuplot.
+/// gnuplot data source: the given rows of a table. table: file name in quotes.
 [[nodiscard]] std::string table_rows(const std::string& table, const PlottedRun::Rows& rows);
 /// A curve by name: its rows in curves.csv if they exist, `otherwise` if not.
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& name,
@@ -55,14 +55,14 @@ struct TableColumn {
 
 /// Height in pixels of one of `count` stacked rows: `usual`, or less if the picture would be too tall.
 [[nodiscard]] double row_height(double usual, std::size_t count, const PictureStyle& look);
-/// Names of contacts beside rows of this height, without those that would overlap.
+/// gnuplot command for contact names as tics, one per row; leaves out names that would overlap. height: pixels of a row.
 [[nodiscard]] std::string row_tics(const std::vector<RunFacts::Contact>& contacts, double height);
 
 /// Fill colour of a state, "#rrggbb".
 [[nodiscard]] std::string state_colour(const std::string& state);
 /// Text of states-CONTACT.csv: bands sorted by state.
 [[nodiscard]] std::string band_table(std::vector<PlottedRun::Band> bands);
-/// The bands of contact k in this state, from `low` to `high`; opacity 0..1. nullopt if the state never occurs.
+/// Bands of contact k in this state, from y = `low` to `high`; opacity 0..1. nullopt if the state never occurs.
 [[nodiscard]] std::optional<Curve> band_curve(const PlottedRun& run, std::size_t k, const std::string& state,
                                               double low, double high, double opacity);
 /// States in the order of legends.
@@ -88,7 +88,7 @@ static_assert(event_styles.size() + 1 == all_event_types.size(),
 /// Columns of marks.csv.
 [[nodiscard]] const CsvTable<Mark>& mark_table();
 
-// The pictures; one without panels is not written.
+// Pictures of a run; a picture without panels is not written.
 
 /// Displacements of named nodes over time.
 [[nodiscard]] Picture displacement_picture(const PlottedRun& run);

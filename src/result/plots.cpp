@@ -71,10 +71,10 @@ void remove_plots(const fs::path& directory) { clear_plot_folder(directory / "pl
 
 namespace {
 
-// Number of names in a legend beside the panel; curves.csv has all curves.
+// Largest number of curves in a panel, because its legend has no room for more; curves.csv has all curves.
 constexpr std::size_t max_curves = 24;
 
-constexpr double unit_rotation = 1e-3;  // rad; relative to this, rotations of 1e-15 are rounding
+constexpr double unit_rotation = 1e-3;  // scale of rotations in rad, to recognise rounding errors
 
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                 "#e7298a", "#666666", "#a6761d", "#17becf"};
@@ -98,9 +98,9 @@ struct PlottedLine {
 constexpr std::size_t max_displacements = 8, chosen_displacements = 6;
 
 struct PanelOfLines {
-  std::string key, label;  ///< key: common name of its lines
+  std::string key, label;  ///< key: common end of the column names, or common unit
   std::vector<PlottedLine> lines;
-  std::string axis = "";  ///< gnuplot lines for the axis if the automatic one would be poor
+  std::string axis = "";  ///< gnuplot lines for a nearly constant curve; else empty
   /// If above 0: number of lines from which those with the largest motion were selected.
   std::size_t chosen_of = 0;
 };
@@ -153,7 +153,7 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
   return panels;
 }
 
-/// One panel per unit.
+/// Panels of the response quantities, one panel per unit.
 std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
   std::vector<PanelOfLines> panels;
   for (std::size_t i = 0; i + 1 < run.responses.size(); ++i) {
@@ -175,7 +175,7 @@ Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canva
   const std::size_t shown = std::min(p.lines.size(), max_curves);
   if (shown > 12) panel.axes += fmt::format("set key spacing 0.9 font ',{:.4g}'\n", canvas.font(10.0));
   for (std::size_t j = 0; j < shown; ++j)
-    // Coinciding curves stay visible: every other one is thinner and dashed, on top.
+    // Every second curve is thinner and dashed, so that curves which coincide stay visible.
     panel.curves.push_back({p.lines[j].curve.rows, p.lines[j].curve.columns(),
                             std::string("with lines linewidth ") + (j % 2 == 0 ? "1.9 " : "1.2 ") +
                                 colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),

@@ -16,10 +16,10 @@ namespace signorini::result {
 
 namespace {
 
-// Limit per contact; shorter bands are below the resolution of a picture.
+// Limit per contact. Beyond it, bands shorter than 1/5000 of the run are merged: a picture cannot show them.
 constexpr std::size_t max_bands = 5000;
 constexpr double max_marks = 3000;           // per contact and type, over the picture's width
-constexpr const char* close_up = "-events";  // suffix of pictures from the first event to the last
+constexpr const char* close_up = "-events";  // suffix for pictures from the first event to the last
 
 std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
   std::vector<std::string> slugs;
@@ -52,7 +52,7 @@ std::size_t number_of(const ContactNumbers& numbers, const std::string& contact,
 
 bool shows(const PlottedRun& run, double t) { return t >= run.from && t <= run.to; }
 
-/// Adds the next row to the rows of one name, which must be adjacent.
+/// Extends `rows`, the rows of one name, by `row`; refuses the table if the row does not follow them.
 void count(PlottedRun::Rows& rows, std::size_t row, const CsvReader& table, const char* of) {
   if (rows.count == 0) rows.first = row;
   if (row != rows.first + rows.count)
@@ -60,7 +60,7 @@ void count(PlottedRun::Rows& rows, std::size_t row, const CsvReader& table, cons
   ++rows.count;
 }
 
-/// Returns the number of output times in the window.
+/// Reads columns and output times from history.csv; returns the number of output times in the window.
 std::size_t read_times(const TableFolder& tables, const PlotWindow& window, PlottedRun& run) {
   std::size_t shown = 0;
   CsvReader history = tables.open("history.csv");
@@ -73,7 +73,7 @@ std::size_t read_times(const TableFolder& tables, const PlotWindow& window, Plot
   return shown;
 }
 
-/// States at the first output time; returns the number of rows of all contacts.
+/// Reads the states at the first output time, and the greatest compressions. Returns the number of rows of contacts.csv.
 std::size_t read_states(const TableFolder& tables, const ContactNumbers& index, PlottedRun& run) {
   CsvReader contacts = tables.open("contacts.csv");
   const std::size_t name = contacts.column("contact"), state = contacts.column("state");
@@ -102,7 +102,7 @@ void read_motion(const TableFolder& tables, const ContactNumbers& numbers, Plott
   }
 }
 
-/// Bands with limits at the exact event times.
+/// Reads the events; the bands of states begin and end at exact event times.
 void read_events(const TableFolder& tables, const ContactNumbers& index, PlottedRun& run) {
   CsvReader events = tables.open("events.csv");
   const std::size_t contact_column = events.column("contact"), to = events.column("to");
@@ -137,7 +137,7 @@ void read_curves(const TableFolder& tables, PlottedRun& run) {
   for (std::size_t row = 0; curves.next(); ++row) {
     count(run.curves[curves.cell(name)], row, curves, "curves");
     if (curves.number(value) != 0.0)
-      run.energies.used.insert(curves.cell(name));  // displacement curves are not needed
+    run.energies.used.insert(curves.cell(name));  // also displacements, which no energy picture uses
   }
 }
 
@@ -168,7 +168,7 @@ void read_contact_ranges(const TableFolder& tables, PlottedRun& run) {
   }
 }
 
-/// Ranges of displacements, from curves.csv if there is such a table.
+/// Reads the ranges of displacements from curves.csv, or from history.csv if the run has no curves.csv.
 void read_moves(const TableFolder& tables, PlottedRun& run) {
   run.moves.clear();
   const bool record = tables.has("curves.csv");
@@ -199,7 +199,7 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
     const auto [place, first] = last.try_emplace({events.cell(contact_column), events.cell(type)}, t);
     if (!first && t - place->second < least) continue;
     place->second = t;
-    // A load's time event has no contact: row -1.
+    // The time event of a load has no contact; its mark has the row -1.
     if (events.cell(contact_column).empty())
       run.marks.push_back({-1, t, events.cell(type), 0.0, 0.0});
     else
@@ -227,7 +227,7 @@ void read_headers(const TableFolder& tables, PlottedRun& run) {
     run.responses.push_back(response.column(column.name) + 1);
 }
 
-/// Refuses a window without data before anything is removed, since gnuplot fails for it.
+/// Refuses a time window without data, for which gnuplot would fail. Called before earlier files are removed.
 void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun& run) {
   const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
     if (!t || (std::isfinite(*t) && shows)) return;
@@ -274,7 +274,7 @@ PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts, co
   run.bands.resize(index.size());
   run.greatest_compression.assign(index.size(), 0.0);
   const std::size_t rows = read_states(tables, index, run);
-  // Fewer than in history.csv if the run was killed in between.
+  // contacts.csv has fewer times than history.csv if the run was killed between the two writes.
   if (!index.empty()) run.times = std::min(run.times, rows / index.size());
   read_motion(tables, index, run);
   read_events(tables, index, run);
@@ -289,7 +289,7 @@ PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts, co
 }
 
 std::optional<PlottedRun> event_window(const TableFolder& tables, const PlottedRun& run) {
-  constexpr std::size_t most_contacts = 6;  // limit for pictures of single contacts
+  constexpr std::size_t most_contacts = 6;  // with more contacts there would be too many pictures
   double first = run.t_last, last = run.t_first;
   std::size_t changes = 0;
   for (const auto& bands : run.bands) {
@@ -313,7 +313,7 @@ PlottedRun read_compared(const TableFolder& tables, const RunFacts& facts, doubl
   PlottedRun run;
   run.facts = facts;
   read_times(tables, {}, run);
-  // A killed run may lack the last row of contacts.csv, or have only a part of it.
+  // If the run was killed, its last output time may be incomplete in contacts.csv.
   if (run.times > 0 && run.facts.outcome == "running") --run.times;
   run.from = run.t_first;
   run.to = std::max(run.t_last, t_end);

@@ -41,14 +41,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Files of a run in the order of removal. The manifest is first: without it no file counts as complete.
+/// Files of a run in the order of removal. The manifest is removed first: without it no file is taken as complete.
 std::vector<std::string_view> run_files() {
   std::vector<std::string_view> files = {base::manifest_file, "report.html"};
   files.insert(files.end(), base::result_files.begin(), base::result_files.end());
   return files;
 }
 
-/// Refuses to replace a run if that would remove the scene itself.
+/// Refuses to replace a run if that would remove the scene file of the new run.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
   std::error_code missing;
   for (const std::string_view name : run_files()) {
@@ -116,13 +116,14 @@ RunDirectory::~RunDirectory() = default;
 
 RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
-  check_run_directory(path_, options_.force);  // again: it may have been created since
+  check_run_directory(path_, options_.force);  // again, in case another process created it
   const fs::path created = base::make_directory(path_);
-  if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
+  if (!lock_.take(path_))
+  throw FileError(path_.string(), "another process is writing a run to this directory");
   try {
     base::remove_manifest(path_);
-    // Written first, over an earlier one: a folder without summary.json is no run, and --force would not
-    // replace it.
+    // summary.json is written first: a directory without it is no run, and a later --force would refuse to replace the
+    // directory.
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
     if (options_.force) remove_run(path_, false);
     write_file(path_ / "run.toml", scene_.resolved);

@@ -3,11 +3,11 @@
 //   RunDirectory directory("pipeline-run", scene, model, {.force = false, .command_line = ...});
 //   directory.finish(simulate(model, scene.run, directory));
 //
-// The constructor writes nothing; the directory is created by the first row, sign of progress or finish(), so a
-// run that never starts leaves no files. Existing files are never overwritten without `force`. With
-// `force` the directory must be a run; only files that Signorini writes are removed, and never the scene
-// itself. No other process can write into the directory while the object exists. A manifest
-// (base/run_files.hpp) is written last, and removed first.
+// The constructor writes nothing. The directory is created by the first row, by progress() or by finish(), so a run that
+// never starts leaves no files. Existing files are never overwritten without `force`. With `force` the directory must
+// contain a run; only files that Signorini writes are removed, and never the scene file. From its creation on, the
+// directory is locked against other processes of Signorini. A manifest (base/run_files.hpp) is written after all other
+// files, and removed before them.
 #pragma once
 
 #include <filesystem>
@@ -20,12 +20,12 @@
 
 namespace signorini::result {
 
-// One writer per directory.
+// A lock that allows one writer per directory.
 //
 //   DirectoryLock lock;   if (!lock.take("pipeline-run")) throw FileError(...);
 //
-// The lock is the system's (flock): it ends with the object and with the processes that inherited it, even if they are
-// killed.
+// The lock is a system lock (flock). It ends when the object and all child processes that inherited the lock have ended,
+// even if they are killed.
 
 class DirectoryLock {
  public:
@@ -34,8 +34,8 @@ class DirectoryLock {
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
-  /// Takes the lock; returns false if another process holds it. On network file systems without locks it
-  /// returns true. Errors: FileError if the directory cannot be opened.
+  /// Takes the lock; returns false if another process has it. Returns true on network file systems without locks. Errors:
+  /// FileError if the directory cannot be opened.
   [[nodiscard]] bool take(const std::filesystem::path& directory);
 
  private:
@@ -46,12 +46,12 @@ class PictureTables;
 
 struct RunDirectoryOptions {
   bool force = false;
-  std::vector<std::string> command_line;  ///< for summary.json
+  std::vector<std::string> command_line;  ///< recorded in summary.json
   bool instants = false;                  ///< also write instants.csv
   bool pictures = true;                   ///< also write motion.csv, curves.csv and body_motion.csv
 };
 
-/// Errors of all members: FileError.
+/// Writes a run to its directory. Errors of all members: FileError.
 class RunDirectory : public Recorder {
  public:
   /// Scene and model must outlive the directory.
@@ -69,12 +69,12 @@ class RunDirectory : public Recorder {
   [[nodiscard]] bool wants_instants() const override { return options_.instants; }
   void instant(const InstantRow& row) override;
   bool progress(double t) override;
-  /// Writes the final summary.json, then the manifest; returns the summary's text, for a certified run with its
-  /// certificate.
+  /// Writes the final summary.json, then the manifest. Returns the text of summary.json, which has the certificate of a
+  /// certified run.
   std::string finish(const Report& report);
   std::string finish(const CertifiedReport& run);
-  /// To be called after a FileError: writes the time and the reason of the stop to summary.json, if this is
-  /// possible.
+  /// Must be called after a FileError: writes the time and the reason of the stop to summary.json; does nothing if this
+  /// fails too.
   void abandon(double t, const std::string& reason);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -94,15 +94,15 @@ class RunDirectory : public Recorder {
   const Scene& scene_;
   const Model& model_;
   RunDirectoryOptions options_;
-  DirectoryLock lock_;  // held from the first row on
+  DirectoryLock lock_;  // taken when the directory is created
   std::unique_ptr<Writers> writers_;
 };
 
-/// Removes the files of a run and no others; the directory itself stays. summary: summary.json is also
-/// removed. Errors: FileError.
+/// Removes the files of a run and no other files; the directory itself stays. summary: also remove summary.json. Errors:
+/// FileError.
 void remove_run(const std::filesystem::path& path, bool summary = true);
 
-/// Throws FileError unless a run may be written to this path.
+/// Throws FileError unless a run may be written to this path. force: a run that exists there may be replaced.
 void check_run_directory(const std::filesystem::path& path, bool force);
 
 }  // namespace signorini::result

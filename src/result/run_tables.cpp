@@ -6,9 +6,9 @@
 namespace signorini::result {
 namespace {
 
-double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // negative: fixed by a support
+double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // dof < 0: fixed by a support
 
-/// Converts a member of an event to a cell; the contact is written by name.
+/// Writes a member of an event as a cell; a contact is written by name.
 struct EventCell {
   CsvBlock& block;
   const Model& model;

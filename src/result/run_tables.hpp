@@ -2,14 +2,14 @@
 //
 //   events.csv    the columns of signorini/event.hpp
 //   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T,ratio  one row per time and contact
-//   motion.csv    the same, contact by contact
+//   motion.csv    columns of contacts.csv; all rows of the first contact, then of the second, ...
 //   history.csv   t, then the model's columns
 //   response.csv  t, then the model's outputs
 //   energy.csv    t, the columns of signorini/result.hpp, balance
 //   curves.csv    curve,t,value
 //   frames.csv, frame_contacts.csv                           deformed shapes, and the contacts in them
 //
-// Writers and pictures use these columns by name. The model of a table must outlive it.
+// Writers and pictures use these columns by name. A table that depends on a model must not outlive the model.
 #pragma once
 
 #include <optional>
@@ -82,7 +82,7 @@ struct FrameContactRow {
 // seams.csv: the resultants of seams at the output times.
 //
 //   N = sum N_k,   T = sum T_k,   moment = sum (x_k - x_m) x (-N_k n_k - T_k t_k),   x_m = sum D_k x_k / sum D_k
-//   stick, slip, open: sums of D_k
+//   stick, slip, open: sums of D_k, the length of seam node k, over the contacts in this state
 //
 // Forces act on the slave. Units: force, force * length, length. Positions are undeformed.
 

@@ -4,7 +4,7 @@
 //                 velocities; positions p of the sliding points of shear elements, p = slip + motion of the surface;
 //                 motions of surfaces; T and state of contacts with friction; state and memory of user laws
 //
-// One row at each time of run.frames, and one at t_end. Read by scene/saved_state.hpp. Errors: FileError.
+// One row at each time of run.frames, and one at t_end. scene/saved_state.hpp reads the file. Errors: FileError.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace signorini::result {
 class StateWriter {
  public:
   StateWriter(const std::filesystem::path& directory, const Model& model);
-  /// Writes a row; to be called once for each time.
+  /// Writes a row; ignores a second sample at the time of the last row.
   void write(const Sample& sample);
 
  private:

@@ -56,7 +56,7 @@ base::Json version_json() {
   return {{"signorini", version}, {"sundials", sundials_version}, {"compiler", "g++ " __VERSION__}};
 }
 
-/// History of a frictional start: changes of state, and the contacts at the end of each part of a stage.
+/// History of a frictional start: changes of contact states, and all contacts at the end of each load step of a stage.
 base::Json frictional_json(const Model& model) {
   base::Json events = base::Json::array(), stages = base::Json::array();
   const auto name = [&](int k) { return model.contacts[static_cast<std::size_t>(k)].name; };
@@ -111,7 +111,7 @@ base::Json support_json(const SupportLoad& load) {
           {"residual_slip", load.residual_slip()}};
 }
 
-/// `run`: null before its end.
+/// Object of contact k in summary.json. run: null if the run has not ended; results are then omitted.
 base::Json contact_json(const Model& model, std::size_t k, double capture_velocity,
                         const CertifiedReport* run) {
   const Report* report = run != nullptr ? &run->report : nullptr;
@@ -275,9 +275,7 @@ base::Json head_json(const Scene& scene, const Model& model, const std::vector<s
           {"model", model_json(model)}};
 }
 
-// Names come from files in any encoding; a byte that is not UTF-8 must not prevent the summary.
-
-/// Reason why states could not be decided. Unknown or infinite values are written as null.
+/// Reason why the contact states could not be determined. Unknown or infinite values are written as null.
 base::Json refusal_json(const Model& model, const Refusal& refusal) {
   base::Json contacts = base::Json::array();
   for (const std::size_t c : refusal.contacts) contacts.push_back(model.contacts[c].name);
@@ -330,7 +328,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
 
 namespace {
 
-/// summary.json without the results of the run's Report.
+/// Text of summary.json without results, for a run that has no Report.
 std::string brief_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line,
                        const base::Json& outcome) {
   base::Json json;

@@ -19,11 +19,11 @@ namespace signorini::result {
 [[nodiscard]] std::string summary_json(const Scene& scene, const Model& model, const CertifiedReport& run,
                                        const std::vector<std::string>& command_line);
 
-/// Content at the start of a run: outcome.kind is "running", without counters.
+/// summary.json at the start of a run: outcome.kind is "running"; results are omitted.
 [[nodiscard]] std::string running_json(const Scene& scene, const Model& model,
                                        const std::vector<std::string>& command_line);
 
-/// Content for a run whose files could not be written: outcome.kind is "stopped", without counters.
+/// summary.json of a run whose files could not be written: outcome.kind is "stopped"; results are omitted.
 [[nodiscard]] std::string abandoned_json(const Scene& scene, const Model& model,
                                          const std::vector<std::string>& command_line, double t,
                                          const std::string& reason);
@@ -38,7 +38,7 @@ struct RunFacts {
   std::string title, outcome;
   Units units;
   double t_end = 0.0;
-  std::optional<double> certain_until;  ///< set for a certified run whose sequence is not certain to its end
+  std::optional<double> certain_until;  ///< set for a run that is certified up to this time only
   std::vector<Contact> contacts;
   struct Response {
     std::string name, unit;
@@ -46,7 +46,7 @@ struct RunFacts {
   std::vector<Response> response;  ///< columns of response.csv after t
 };
 
-/// Reads them from DIR/summary.json. Errors: FileError.
+/// Reads the facts from DIR/summary.json. Errors: FileError.
 [[nodiscard]] RunFacts read_run_facts(const std::filesystem::path& directory);
 
 }  // namespace signorini::result

@@ -12,7 +12,7 @@
 
 namespace signorini::result {
 
-/// Springs with a preload, for check and summary.json.
+/// Springs with a preload, for summary.json and `signorini check --json`.
 inline base::Json hangers_json(const Model& model) {
   base::Json list = base::Json::array();
   for (const HangerLoad& hanger : model.hangers) {
@@ -24,9 +24,9 @@ inline base::Json hangers_json(const Model& model) {
   return list;
 }
 
-/// A reduced model, for summary.json and check --json. report: of the run, or null. With a report every
-/// direction of a contact has the key `followed`, the omitted compliance times the largest force. This is the
-/// contact's displacement by the modes left out, without their inertia.
+/// A reduced model, for summary.json and `signorini check --json`. report: that of the run, or null. With a report every
+/// direction of a contact has the key `followed`: compliance of the truncated modes times the largest contact force. This
+/// is the displacement of the contact in the truncated modes, without their inertia.
 [[nodiscard]] base::Json reduction_json(const Reduction& reduction, const Report* report);
 
 // The units of a scene as JSON, with the keys of scene files.
@@ -45,7 +45,7 @@ inline base::Json hangers_json(const Model& model) {
 //
 //   "force/length", { force = "kN", length = "m" }   ->   "kN/m"        a product, "*", becomes a blank
 
-/// In `unit`, letters only occur in names of quantities; words other than the four are unchanged.
+/// Replaces the words force, mass, length and time in `unit` by the unit names; other words stay unchanged.
 [[nodiscard]] std::string unit_in_words(std::string_view unit, const Units& units);
 
 }  // namespace signorini::result

@@ -1,11 +1,11 @@
-// table.hpp: a table of results: list of columns, one writer, column numbers by name.
+// table.hpp: a table of results as a list of columns, from which rows are written and column numbers are found.
 //
 //   const CsvTable<Wave> waves = {{"t", &Wave::t}, {"height", [](const Wave& w) { return w.top - w.bottom; }}};
 //   waves.text(list)              header and rows
 //   waves.number("height")        2: number of this column for gnuplot, which counts from 1
 //
-// A column provides a number, an optional number (an empty cell if absent), or a text. A request for an
-// unknown name is an error of the program, not of a file.
+// A column provides a number, an optional number (an empty cell if absent), or a text. number(), value() and word()
+// throw std::logic_error for an unknown column.
 #pragma once
 
 #include <concepts>
@@ -24,7 +24,7 @@
 
 namespace signorini::result {
 
-/// Puts a value into a block: texts unchanged, numbers by shortest().
+/// Adds a value as a cell of a block: a text by CsvBlock::text(), a number by CsvBlock::number().
 template <class Value>
 void put_cell(CsvBlock& block, const Value& value) {
   if constexpr (std::convertible_to<Value, std::string_view>)
@@ -32,7 +32,7 @@ void put_cell(CsvBlock& block, const Value& value) {
   else
     block.number(static_cast<double>(value));
 }
-/// Puts an empty cell for nullopt.
+/// Adds a value as a cell of a block; an empty cell for nullopt.
 template <class Value>
 void put_cell(CsvBlock& block, const std::optional<Value>& value) {
   if (value)
@@ -45,7 +45,7 @@ template <class Row>
 class CsvTable {
  public:
   struct Column {
-    /// cell: a member of Row, or a function of it.
+    /// cell: a member of Row, or a function of a Row, that gives the value of the cell.
     template <class Cell>
     Column(std::string column, Cell cell)
         : name(std::move(column)), put([cell = std::move(cell)](CsvBlock& block, const Row& row) {
@@ -63,7 +63,7 @@ class CsvTable {
   void add(std::string name, Cell cell) {
     columns_.emplace_back(std::move(name), std::move(cell));
   }
-  /// Adds a column whose rows put cells of different types.
+  /// Adds a column for which `put` writes the cell of a row, because the type of the cell depends on the row.
   void add_put(std::string name, std::function<void(CsvBlock&, const Row&)> put) {
     columns_.emplace_back(std::move(name), std::move(put), nullptr);
   }
@@ -73,7 +73,7 @@ class CsvTable {
   [[nodiscard]] std::size_t number(std::string_view name) const {
     for (std::size_t i = 0; i < columns_.size(); ++i)
       if (columns_[i].name == name) return i + 1;
-    throw std::logic_error("a table without a column '" + std::string(name) + "'");
+    throw std::logic_error("the table has no column '" + std::string(name) + "'");
   }
   /// "$3": the column's value in gnuplot expressions.
   [[nodiscard]] std::string value(std::string_view name) const { return "$" + std::to_string(number(name)); }
@@ -90,7 +90,7 @@ class CsvTable {
     for (const Column& column : columns_) column.put(block, row);
     block.end_row();
   }
-  /// Text of a whole short table.
+  /// Text of a table: header and all rows. Only for short tables, because the text is kept in memory.
   template <class Rows>
   [[nodiscard]] std::string text(const Rows& rows) const {
     CsvBlock block;
@@ -112,12 +112,12 @@ class TableFile {
     table_.put_header(block_);
     flush();
   }
-  /// Buffers the row until there are enough of them, or until flush().
+  /// Buffers the row. The rows are written when the buffer exceeds flush_bytes, or by flush().
   void add(const Row& row) {
     table_.put_row(block_, row);
     if (block_.str().size() > flush_bytes) flush();
   }
-  /// Passes all rows to the system.
+  /// Writes all buffered rows to the file.
   void flush() { file_.write(block_); }
 
  private:

@@ -13,7 +13,7 @@ std::string node_name(Table& contact, const toml::node& item, const NameScope& s
   if (!item.is_string()) contact.wrong(against_key, describe_type(*find_key("contacts[]", against_key)));
   const std::string name = item.as_string()->get();
   check_known(name, space.names, "node", place_of(item), contact.path(against_key));
-  if (name == node) contact.wrong(against_key, "another node than the contact's own");
+  if (name == node) contact.wrong(against_key, "a node other than the contact's own node");
   return name;
 }
 
@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, double>> read_counterpart(Table& contact, con
     const double x = ((at.x - from.x) * dx + (at.y - from.y) * dy) / square;
     if (x < -beside || x > 1.0 + beside)
       contact.fail(against_key,
-                   fmt::format("node '{}' projects beside the segment from '{}' to '{}', at {:.4g} of "
+                   fmt::format("node '{}' projects outside the segment from '{}' to '{}', at {:.4g} of "
                                "its length, expected 0 to 1",
                                node, b, c, x));
     return {{b, 1.0 - x}, {c, x}};

@@ -1,6 +1,6 @@
 // components.hpp: names of the motion components of a node; the counterpart of a contact.
 //
-//   0  ux, vx    1  uy, vy    2  rz, wz (a rotation)      degrees of freedom of [matrices]: u, v
+//   displacement, rate:  0  ux, vx    1  uy, vy    2  rz, wz (rotation)      degrees of freedom of [matrices]: u, v
 //
 //   motion_named("A.wz")   // rate of a rotation, unit 1 / time
 #pragma once
@@ -27,7 +27,7 @@ struct PlaneComponent {
 inline constexpr std::array plane_components = {
     PlaneComponent{"ux", "vx", false}, PlaneComponent{"uy", "vy", false}, PlaneComponent{"rz", "wz", true}};
 
-/// Meaning of a component's name: index into plane_components, and whether it is the rate.
+/// Meaning of a component's name: index into plane_components; rate: the name is that of the velocity.
 struct NamedComponent {
   std::size_t index = 0;
   bool rate = false;
@@ -38,12 +38,12 @@ struct NamedComponent {
   }
 };
 
-/// Part of a name behind its last dot.
+/// Part of a name after its last dot; the whole name if it has no dot.
 [[nodiscard]] constexpr std::string_view last_part(std::string_view name) {
   return name.substr(name.rfind('.') + 1);
 }
 
-/// Component named "ux" or "A.ux"; nullopt for other names.
+/// Component for a name such as "ux" or "A.ux"; nullopt if the name ends in no component.
 [[nodiscard]] constexpr std::optional<NamedComponent> component_named(std::string_view name) {
   for (std::size_t i = 0; i < plane_components.size(); ++i)
     for (const NamedComponent named : {NamedComponent{i, false}, NamedComponent{i, true}})
@@ -70,7 +70,8 @@ struct NamedMotion {
   return named ? !named->rate : column.ends_with(".u");
 }
 
-/// Body to which a node belongs: index into Scene::bodies; nullopt: none. node: index into Scene::nodes.
+/// Index into Scene::bodies of the body to which a node belongs; nullopt if it belongs to no body. node: index into
+/// Scene::nodes.
 [[nodiscard]] inline std::optional<std::size_t> body_of_node(const Scene& scene, std::size_t node) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodySpec& body = scene.bodies[i];
@@ -86,7 +87,7 @@ struct NamedMotion {
 // P: the undeformed position of the contact's own node. Displacements are small, so x is constant.
 
 /// Nodes and weights from the key `against`. Errors: SceneError for unknown or equal nodes, a segment of length zero, a
-/// point beside the segment.
+/// point outside the segment.
 [[nodiscard]] std::vector<std::pair<std::string, double>> read_counterpart(Table& contact, const Scene& scene,
                                                                            const NameScope& space,
                                                                            const std::string& node);

@@ -60,7 +60,7 @@ bool contains_word(const std::string& line, const std::string& word) {
   return upper(line).find(word) != std::string::npos;
 }
 
-/// "... IN UNITS OF CM/SEC**2" -> "CM/S/S"; empty where the line names no unit.
+/// "... IN UNITS OF CM/SEC**2" -> "CM/S/S"; empty if the line names no unit.
 std::string unit_in(const std::string& line) {
   const std::string mark = "UNITS OF", text = upper(line);
   const std::size_t at = text.find(mark);
@@ -74,7 +74,7 @@ std::string unit_in(const std::string& line) {
   return unit.empty() ? mark : unit;
 }
 
-/// The unit in m/s^2; nullopt if it is not an acceleration.
+/// Value of the unit in m/s^2; nullopt if the text is not a known unit of acceleration.
 std::optional<double> acceleration_unit(const std::string& unit) {
   static const std::map<std::string, double> known{
       {"G", standard_gravity}, {"CM/S/S", 0.01}, {"GAL", 0.01}, {"MM/S/S", 0.001}, {"M/S/S", 1.0}};
@@ -114,8 +114,8 @@ class TableReader {
       fail(fmt::format("found {}, expected two or more",
                        base::count_text(table_.times.size(), values_only ? "value" : "row")));
     if (layout_.peer && table_.times.size() != points_)
-      fail(fmt::format("found {}, expected {} as in NPTS", base::count_text(table_.times.size(), "value"),
-                       points_));
+      fail(fmt::format("found {}, expected {}, the number given by NPTS",
+      base::count_text(table_.times.size(), "value"), points_));
     return std::move(table_);
   }
 
@@ -124,7 +124,7 @@ class TableReader {
     throw SceneError({file_, number_, 0}, key_, message);
   }
 
-  /// Advances to the next line that is not blank.
+  /// Advances to the next line that is not blank; false at the end of the file.
   bool next() {
     while (read_line(in_, line_)) {
       ++number_;
@@ -169,7 +169,9 @@ class TableReader {
     const bool whole = numbers.size() >= 2 && numbers[0] >= 2.0 &&
                        numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
     if (!contains_word(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
-      fail("found no \"NPTS= 5372, DT= .0050\", expected it in the fourth line of a PEER file");
+      fail(
+      "found no NPTS and DT, expected \"NPTS= 5372, DT= .0050\" or similar in the fourth line of a PEER "
+      "file");
     points_ = static_cast<std::size_t>(numbers[0]);
     layout_.time_step = numbers[1] * layout_.second;
     heading_allowed_ = false;

@@ -9,7 +9,7 @@
 //
 //   PEER NGA STRONG MOTION DATABASE RECORD      three lines of words, one of them with the unit:
 //   ... ACCELERATION TIME SERIES IN UNITS OF G  G, CM/S/S, M/S/S, MM/S/S, GAL, with blanks, SEC, S**2, S^2
-//   NPTS= 5372, DT= .0050 SEC                   or: 5372 0.0050 NPTS, DT; in seconds whatever the scene's unit
+//   NPTS= 5372, DT= .0050 SEC                   or: 5372 0.0050 NPTS, DT; always in seconds
 //   .1E-04  .2E-04 ...                          NPTS values
 #pragma once
 
@@ -24,16 +24,16 @@
 
 namespace signorini::scene {
 
-/// Longest allowed line of numbers.
+/// Longest allowed line of numbers, in bytes.
 inline constexpr std::size_t max_line_length = 200;
 /// Reads the next line, at most `max_line_length` + 1 bytes of it: a file without line breaks must not fill memory.
 /// Returns false at the end of the file.
 bool read_line(std::istream& in, std::string& line);
 
-/// Throws a FileError with the place of the key.
+/// Throws a FileError that names the place of the key, the file and the reason `why`.
 [[noreturn]] void refuse_file(const Table& table, std::string_view key, const std::filesystem::path& path,
                               const std::string& why);
-/// Same for an error that already names the file.
+/// Throws `error`, which already names the file, with the place of the key in front.
 [[noreturn]] void refuse_file(const Table& table, std::string_view key, const FileError& error);
 /// Opens the file that `key` names. Errors: FileError with the place of the key.
 [[nodiscard]] std::ifstream open_data_file(const Table& table, std::string_view key,
@@ -44,17 +44,17 @@ inline constexpr double standard_gravity = 9.80665;  // m/s^2
 struct TimeTable {
   std::vector<double> times, values;
   bool in_g = false;  ///< the file states that its values are multiples of the acceleration of gravity
-  /// Unit of the values in m/s^2, if the file states another one than g.
+  /// Unit of the values in m/s^2, if the file states one; 9.80665 if the file states g.
   std::optional<double> unit = {};
 };
 
-/// Layout of a table file; values of 0 are taken from the file itself.
+/// Layout of a table file, as far as the scene gives it.
 struct TableLayout {
-  int column = 0;          ///< column of the values, from 2; 0: the second of two
-  double time_step = 0.0;  ///< > 0: values only
+  int column = 0;          ///< number of the column with the values, >= 2; 0: the file has two columns
+  double time_step = 0.0;  ///< > 0: the file has values only, at this interval; 0: the file has times
   bool peer = false;
   bool unit_given = false;  ///< the scene gives the unit, so that a PEER file need not state it
-  double second = 1.0;      ///< one second in the scene's unit of time: a PEER file's step is in seconds
+  double second = 1.0;      ///< one second in the scene's unit of time, to convert the step of a PEER file
 };
 
 /// Reads a table of time and value. Errors: SceneError at the line of the file; `key` begins the message.

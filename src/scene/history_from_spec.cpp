@@ -27,7 +27,7 @@ Piece sine(double origin, double omega, double phase) {
   return p;
 }
 
-/// `inside` on [start, end), zero elsewhere.
+/// History that equals `inside` on [start, end) and is zero elsewhere.
 History window(const Piece& inside, double start, double end) {
   if (std::isinf(end)) return History({start}, {Piece{}, inside});
   return History({start, end}, {Piece{}, inside, Piece{}});
@@ -39,7 +39,7 @@ History triangle(double start, double end) {
                  {Piece{}, polynomial(start, {0.0, slope}), polynomial(end, {0.0, -slope}), Piece{}});
 }
 
-/// Steffen's slopes at the points of a part of the table without jumps.
+/// Steffen's slopes dy/dt at the n points (t, y) of a stretch of a table without jumps.
 std::vector<double> steffen_slopes(const double* t, const double* y, std::size_t n) {
   std::unique_ptr<gsl_interp, void (*)(gsl_interp*)> interp(gsl_interp_alloc(gsl_interp_steffen, n),
                                                             gsl_interp_free);
@@ -49,7 +49,7 @@ std::vector<double> steffen_slopes(const double* t, const double* y, std::size_t
   return slopes;
 }
 
-/// Appends the pieces of a part of the table with strictly ascending times.
+/// Appends the pieces of a stretch of a table; the n times of the stretch ascend strictly.
 void append_stretch(const double* t, const double* y, std::size_t n, bool steffen,
                     std::vector<double>& starts, std::vector<Piece>& pieces) {
   std::vector<double> d;
@@ -71,12 +71,12 @@ History table(const HistorySpec& spec, const std::string& key) {
   if (t.size() != y.size())
     throw SceneError(
         spec.place, key,
-        fmt::format("found {} times and {} values, expected as many of both", t.size(), y.size()));
-  if (t.size() < 2) throw SceneError(spec.place, key, "a table needs at least two points");
+        fmt::format("found {} times and {} values, expected equal numbers", t.size(), y.size()));
+  if (t.size() < 2) throw SceneError(spec.place, key, "found fewer than two points, expected at least two");
   for (std::size_t i = 1; i < t.size(); ++i)
     if (!(t[i] >= t[i - 1]))
       throw SceneError(spec.place, key,
-                       fmt::format("times must not decrease: found {} after {}", t[i], t[i - 1]));
+                       fmt::format("found time {} after {}, expected ascending times", t[i], t[i - 1]));
   std::vector<double> starts;
   std::vector<Piece> pieces{Piece{}};
   for (std::size_t from = 0; from < t.size();) {
@@ -85,15 +85,17 @@ History table(const HistorySpec& spec, const std::string& key) {
     append_stretch(&t[from], &y[from], to - from, spec.steffen, starts, pieces);
     from = to;
   }
-  if (starts.empty()) throw SceneError(spec.place, key, "all times of the table are the same");
+  if (starts.empty())
+  throw SceneError(spec.place, key, "found equal times only, expected at least two different times");
   starts.push_back(t.back());
   pieces.push_back(spec.hold ? polynomial(t.back(), {y.back()}) : Piece{});
   return History(std::move(starts), std::move(pieces));
 }
 
-/// The end of a pulse; refused unless it is after the start.
+/// End of a pulse: a rectangle, triangle or half sine. Errors: SceneError if the history has no end.
 double pulse_end(const HistorySpec& spec, const std::string& key) {
-  if (!std::isfinite(spec.end)) throw SceneError(spec.place, key, "this pulse needs an end");
+  if (!std::isfinite(spec.end))
+  throw SceneError(spec.place, key, "found no end, expected the end of the pulse");
   return spec.end;
 }
 
@@ -139,7 +141,7 @@ History make_history(const HistorySpec& spec, const std::string& key) try {
   }
   if (spec.shift != 0.0) f = f.shifted(spec.shift);
   return f.scaled(spec.amplitude, spec.offset);
-} catch (const std::invalid_argument&) {  // from History: rounding has merged starts
+} catch (const std::invalid_argument&) {  // thrown by History if rounding makes two start times equal
   throw SceneError(spec.place, key,
                    "found times of the history (start, end, shift or period) that rounding merges, or that "
                    "overflow; expected distinct, finite times");

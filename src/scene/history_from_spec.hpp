@@ -13,8 +13,8 @@
 //                zero before the first and, without `hold`, from the last time on (start and end are not
 //                used)
 //
-// With a period the shape restarts after each period, from its start (a table's first time); a shift delays the whole
-// history.
+// With a period, the shape restarts after each period. The first period begins at `start`, or at the first time of a
+// table. A shift delays the whole history.
 //
 // Steffen: Astron. Astrophys. 239 (1990) 443-450, as implemented by GSL.
 #pragma once
@@ -28,7 +28,7 @@ namespace signorini::scene {
 
 /// The history that a spec describes. Errors: SceneError at the spec's place under `key` ("loads.1.history").
 [[nodiscard]] History make_history(const HistorySpec& spec, const std::string& key);
-/// Integral of the history from 0 to t. Errors: as make_history().
+/// Integral of the history from 0 to t, as a history. Errors: as make_history(); SceneError for a user-defined function.
 [[nodiscard]] History make_integral(const HistorySpec& spec, const std::string& key);
 
 }  // namespace signorini::scene

@@ -1,8 +1,8 @@
-// keys.hpp: the one table of all keys of a scene file.
+// keys.hpp: table of all keys of a scene file.
 //
-// The reader takes types and defaults from it; `signorini keys` and the scene reference print it.
+// The reader takes types and defaults from this table; `signorini keys` and the scene reference print the table.
 // A table is identified by its path: "" (top level), "run", "sections.*" (any name), "contacts[]" (each of
-// [[contacts]]), "history" (any place that accepts a history). The key "*" stands for a user-chosen name.
+// [[contacts]]), "history" (any place that accepts a history). The key "*" means a name chosen by the user.
 //
 //   const Key* key = find_key("contacts[]", "gap");   // key->unit == "length"
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace signorini::scene {
 
-/// Type of a value. Numbers are finite; integers count as numbers.
+/// Type of a value. Numbers must be finite; an integer is accepted where a number is expected.
 enum class KeyType {
   number,
   positive,
@@ -51,22 +51,22 @@ enum class KeyType {
 struct Key {
   std::string_view table, name;
   KeyType type;
-  std::string_view unit;           ///< in units of force, mass, length, time; "" for none
-  std::string_view default_value;  ///< TOML text of the default; "required"; "" for none
-  std::string_view choices;        ///< allowed words, separated by blanks; choices_of()
-  std::string_view meaning;        ///< one sentence
+  std::string_view unit;           ///< product of force, mass, length, time; "" if dimensionless
+  std::string_view default_value;  ///< TOML text of the default; "required"; "" without default
+  std::string_view choices;        ///< allowed words, separated by blanks; choices_of() splits them
+  std::string_view meaning;        ///< description of the key, in sentences
 };
 
 [[nodiscard]] std::span<const Key> all_keys();
 
-/// The row of the key, or of "*" in the same table; null: there is none. A stop has the keys of a contact in
-/// addition to its own.
+/// Row of the key `name`, or of "*" in the same table; null if the table has neither. Stops, pendulums and seams
+/// share keys with contacts; those rows are in the table "contacts[]".
 [[nodiscard]] const Key* find_key(std::string_view table, std::string_view name);
 
 /// Names of the keys of a table, in the order of the table.
 [[nodiscard]] std::vector<std::string> key_names(std::string_view table);
 
-/// "a number > 0", "one of \"ida\", \"newmark\"".
+/// Text for messages about a wrong value: "a number > 0", "one of \"ida\", \"newmark\"".
 [[nodiscard]] std::string describe_type(const Key& key);
 
 /// The allowed words of a choice.

@@ -60,7 +60,7 @@ class Reader {
     return true;
   }
 
-  /// The next line that is neither a comment nor blank.
+  /// Advances to the next line that is neither a comment nor blank; false at the end of the file.
   bool next() {
     while (next_line()) {
       if (!words_.empty() && words_[0][0] != '%') return true;

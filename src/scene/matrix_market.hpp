@@ -5,8 +5,8 @@
 //   rows columns [entries]
 //   row column value                 (array: values only, column by column)
 //
-// https://math.nist.gov/MatrixMarket/formats.html. Entries are sorted by row, then column; symmetric ones
-// are written out in full, duplicates added, zeros dropped.
+// https://math.nist.gov/MatrixMarket/formats.html. Both halves of a symmetric matrix are stored. Entries are sorted by
+// row, then column; duplicates are added and zeros dropped.
 #pragma once
 
 #include <istream>
@@ -18,7 +18,7 @@ namespace signorini::scene {
 
 inline constexpr int max_dofs = 1'000'000;
 
-/// Sorted by row and column, duplicates added, zeros dropped.
+/// Sorts the entries by row, then column; adds duplicates and drops zeros.
 void tidy(MatrixSpec& matrix);
 
 /// Reads a matrix. Errors: SceneError at the line of the matrix file; `key` begins the message.

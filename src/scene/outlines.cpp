@@ -30,7 +30,7 @@ std::vector<int> drawn_mesh_nodes(const Scene& scene) {
 
 namespace {
 
-// Relative to a product of lengths; chosen for drawings, where smaller deviations are invisible.
+// Tolerance relative to the product of two lengths; chosen for drawings, where smaller deviations are invisible.
 constexpr double on_the_line = 1e-9;
 
 /// True if c is on the left of the line from a to b.
@@ -39,7 +39,7 @@ bool turns_left(const Node& a, const Node& b, const Node& c) {
   return ux * vy - uy * vx > on_the_line * std::hypot(ux, uy) * std::hypot(vx, vy);
 }
 
-/// One side of the hull of sorted nodes.
+/// Appends one side of the convex hull: of nodes sorted by x the lower side, of nodes in reversed order the upper side.
 template <class Iterator>
 void add_side(Iterator first, Iterator last, std::vector<Node>& hull) {
   const std::size_t begin = hull.size();
@@ -48,7 +48,7 @@ void add_side(Iterator first, Iterator last, std::vector<Node>& hull) {
       hull.pop_back();
     hull.push_back(*first);
   }
-  hull.pop_back();  // the other side begins with it
+  hull.pop_back();  // the other side of the hull begins with this node
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ inline constexpr std::size_t max_mesh_edges = 6000;
 
 /// Lines of all meshes as pairs of indices into Scene::nodes; an edge with a middle node is two lines.
 [[nodiscard]] std::vector<std::array<int, 2>> mesh_lines(const Scene& scene);
-/// Nodes of these lines, ascending.
+/// Nodes at the ends of mesh_lines(): ascending indices into Scene::nodes, each once.
 [[nodiscard]] std::vector<int> drawn_mesh_nodes(const Scene& scene);
 
 /// Outline of a rigid body: names of the nodes at both ends of each line, in order around the body.

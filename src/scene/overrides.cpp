@@ -17,18 +17,18 @@ namespace {
 
 constexpr std::size_t most_parts = 16;  // much deeper than any key of a scene
 
-/// Pairs of keys that exclude each other.
+/// Pairs of keys that exclude each other and give the same quantity: places_of() writes both by the first name.
 constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
                                                                 {"alpha", "alpha_over_omega1"},
                                                                 {"omega", "frequency"},
                                                                 {"gap", "gaps"},
                                                                 {"cutoff_omega", "cutoff_frequency"}};
-/// Keys that replace another key.
+/// Pairs of keys that exclude each other and give different quantities.
 constexpr std::pair<const char*, const char*> instead[] = {{"tolerance", "cutoff_omega"},
                                                            {"tolerance", "cutoff_frequency"}};
 
-/// The tables of an array that one part of a path selects, by index; adds the names of all named tables to
-/// `names`.
+/// Indices of the tables in `array` that `which`, one part of a path, selects by name, by number or by *. Adds the
+/// names of all named tables to `names`.
 std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& array,
                                    std::vector<std::string>& names) {
   std::vector<std::size_t> chosen;
@@ -97,7 +97,7 @@ class Change {
     throw UsageError(override_text(given_) + ": " + message);
   }
 
-  /// Puts a fresh value at its place on each call, because a copied toml++ node loses its source place.
+  /// Parses the value anew on each call and passes it to `put`, because a copied toml++ node loses its source place.
   template <typename Put>
   void give(const Put& put) {
     toml::table source = ready_ ? *std::exchange(ready_, std::nullopt) : parsed();
@@ -110,7 +110,7 @@ class Change {
     return std::find(std::begin(words), std::end(words), value) != std::end(words);
   }
 
-  /// Parses `value = VALUE`.
+  /// Parses the value as TOML; returns the table { value = VALUE }.
   toml::table parsed() const {
     const std::string file = override_mark + override_text(given_);
     const auto parse = [&](const std::string& value) {
@@ -130,7 +130,7 @@ class Change {
     fail("the value is not TOML, expected a number, a word, \"text\", [...] or { ... }");
   }
 
-  /// Default of the value that contains the omitted part of a key: a list of numbers, or an empty table.
+  /// TOML text of a value that the path enters and the file lacks: the default if that is a list, else an empty table.
   std::string left_out(Segments rest) const {
     const Key* key = rest.size() == segments_.size() ? find_key("", rest[0]) : nullptr;
     const bool numbers = key != nullptr && key->default_value.starts_with('[');
@@ -160,7 +160,7 @@ class Change {
     into(*next, rest);
   }
 
-  /// Replaces friction = 0.3 by the table { static = 0.3, kinetic = 0.3 }, for which it is short.
+  /// Replaces friction = 0.3 by the table { static = 0.3, kinetic = 0.3 }, which means the same.
   static toml::node& split_friction(toml::table& table) {
     const double value = *table.get("friction")->value<double>();
     const toml::source_path_ptr& file = table.get("friction")->source().path;
@@ -170,7 +170,7 @@ class Change {
     return table.insert_or_assign("friction", std::move(*both.get("value"))).first->second;
   }
 
-  /// Puts the value into `node`, which rest[0] names; rest[1] and later parts are inside of it.
+  /// Puts the value into `node`, which rest[0] names; rest[1] and later parts are keys inside `node`.
   void into(toml::node& node, Segments rest) {
     const std::string done = change_.path.substr(0, offset_of(rest.subspan(1)) - 1);
     if (auto* table = node.as_table()) {
@@ -212,7 +212,7 @@ class Change {
   }
 
   const Override& change_;
-  const Override& given_;  // named in messages
+  const Override& given_;  // the override as the user gave it, for messages
   std::vector<std::string> segments_;
   std::optional<toml::table> ready_;
   toml::source_region place_;
@@ -287,7 +287,8 @@ std::string tables_met(const toml::table& root, const std::string& path) {
   if (!path.starts_with(all_contacts) || tables_in(root, "stops") == 0) return text;
   text += fmt::format(", {} of [[stops]]", stops);
   if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)
-    text += fmt::format(" ({} cannot have this key as {})", others, others == 1 ? "it is" : "they are");
+    text += fmt::format(" ({} cannot have this key with {} present settings)", others,
+    others == 1 ? "its" : "their");
   return text;
 }
 
@@ -310,7 +311,7 @@ const Key* key_of(const std::string& path) {
   // [run], [sections.NAME], [[contacts]]: the table itself, a named table, or one of several.
   for (const std::string& kind : {table, table + ".*", table + "[]"})
     if (const Key* key = find_key(kind, name); key != nullptr && key->name == name) return key;
-  // A table within a named one: sections.NAME.pipe.wall.
+  // A table within a named table: sections.NAME.pipe.wall.
   if (const std::size_t second = path.find('.', first + 1); second < last)
     for (const char* named : {".*", "[]"})
       if (const Key* key = find_key(table + named + path.substr(second, last - second), name);

@@ -23,7 +23,7 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 /// Keys that the path refers to in these tables, normalised: numbers instead of names, and one spelling for equivalent
 /// keys: "contacts.1.friction.static", "contacts.2.friction.static". Keys that do not exist yet stay as written.
 [[nodiscard]] std::vector<std::string> places_of(const toml::table& root, const std::string& path);
-/// Same for a scene file. Errors: those of read_scene for invalid TOML.
+/// places_of() for the scene file with the name `scene`. Errors: those of read_scene for invalid TOML.
 [[nodiscard]] std::vector<std::string> places_in(const std::string& scene, const std::string& path);
 
 /// The path itself; for contacts.*.KEY also stops.NAME.KEY for each stop that can have the key.
@@ -31,10 +31,11 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 /// Number of tables that a path with * selects: "3 of [[contacts]], 6 of [[stops]]"; empty for a path
 /// without *.
 [[nodiscard]] std::string tables_met(const toml::table& root, const std::string& path);
-/// Same for a scene file after the overrides `before`. Errors: those of read_scene for invalid TOML.
+/// tables_met() for the scene file with the name `scene`, after the overrides `before`. Errors: those of read_scene for
+/// invalid TOML.
 [[nodiscard]] std::string tables_met_in(const std::string& scene, const std::vector<Override>& before,
                                         const std::string& path);
-/// True if a is b or lies inside of b.
+/// True if path a equals path b or continues path b: "run.atol.force" is within "run.atol".
 [[nodiscard]] bool is_within_path(const std::string& a, const std::string& b);
 
 /// "--set run.rtol=1e-10", or the override as the user typed it.
@@ -45,7 +46,7 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 //   key_of("contacts.left.normal_stiffness") == find_key("contacts[]", "normal_stiffness")
 //   range_of(*key_of("rigid.block.inertia")) == [0, infinity)
 
-/// The key that a path refers to, or null.
+/// The key that a path refers to; null if the path refers to no key of a scene.
 [[nodiscard]] const Key* key_of(const std::string& path);
 
 /// Allowed numbers, from min to max, in the key's unit. excludes_min: min itself is not allowed.

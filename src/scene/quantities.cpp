@@ -167,7 +167,7 @@ int lengths_of(LoadType type) {
   return -2;
 }
 
-/// x^n; a power of two for x a power of two, so products stay exact.
+/// x^n. If x is a power of two, so is x^n, and products with it are exact.
 double raised(double x, int n) {
   double result = 1.0;
   for (int i = 0; i < n; ++i) result *= x;

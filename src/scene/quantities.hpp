@@ -14,7 +14,7 @@
 
 namespace signorini::scene {
 
-/// Factor of a quantity of this unit.
+/// Factor by which a quantity of this unit is multiplied.
 [[nodiscard]] double factor_of(const Unit& unit, const Factors& factors);
 /// 1 / factors; exact for powers of two.
 [[nodiscard]] Factors inverse(const Factors& factors);
@@ -23,13 +23,13 @@ namespace signorini::scene {
 /// visited: coefficients of friction and restitution, unit vectors, tolerances without a unit, relaxation and counts.
 void visit_quantities(Scene& scene, const std::function<void(double&, const Unit&)>& visit);
 
-/// Same for a history whose values have the unit `of`.
+/// Calls `visit` for all numbers of a history whose values have the unit `of`.
 void visit_numbers(History& history, const Unit& of, const std::function<void(double&, const Unit&)>& visit);
 
 /// All quantities times the factors of their units; Scene::resolved stays unchanged. Exact where the factors
 /// are powers of two and nothing leaves the range of a double.
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);
-/// Same for the settings of a run.
+/// The settings of a run times the factors of their units.
 [[nodiscard]] RunSpec rescaled(RunSpec run, const Factors& factors);
 
 }  // namespace signorini::scene

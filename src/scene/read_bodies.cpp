@@ -74,7 +74,7 @@ PlaneMesh read_ring(Table& table) {
 }
 
 PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
-  const toml::node* name = table.raw("mesh");  // recorded below, since it may be a path from any directory
+  const toml::node* name = table.raw("mesh");  // recorded below with its full path
   if (!name->is_string()) table.wrong("mesh", "the name of a file");
   const std::filesystem::path path = directory_of(scene) / name->value_or(std::string());
   std::ifstream in = open_data_file(table, "mesh", path);
@@ -118,12 +118,12 @@ void read_material(Table& table, BodySpec& body, const Scene& scene) {
   body.plane_strain = table.choice("plane") == "strain";
   body.mass = table.choice("mass") == "lumped" ? MassKind::lumped : MassKind::consistent;
   if (table.has("temperature") && !table.has("thermal_expansion"))
-    table.fail("temperature", "needs thermal_expansion beside it");
+    table.fail("temperature", "needs thermal_expansion in the same table");
   body.thermal_expansion = table.number("thermal_expansion");
   body.temperature = read_number_or_history(table, "temperature", scene);
 }
 
-/// Names the nodes at given places.
+/// Gives names to the nodes at the places in [bodies.points].
 void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene) {
   if (!table.has("points")) return;
   Table points = table.child("points");
@@ -147,9 +147,10 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
                                           "expected the place of a node",
                                           nearest.name, nearest.x, nearest.y));
     if (!nearest.of_mesh)
-      points.fail(entry.name, fmt::format("the node at this place is called \"{}\" already", nearest.name));
+      points.fail(entry.name,
+      fmt::format("the node at this place already has the name \"{}\"", nearest.name));
     if (!names.add(entry.name))
-      points.fail(entry.name, fmt::format("node \"{}\" exists already", entry.name));
+      points.fail(entry.name, fmt::format("node \"{}\" exists already; expected another name", entry.name));
     nearest.name = entry.name;
     nearest.of_mesh = false;
   }
@@ -190,7 +191,7 @@ void read_bodies(Table& top, Scene& scene, ResolvedScene& record) {
     take_mesh(read_mesh(table, scene), body, scene);
     read_material(table, body, scene);
     read_points(table, body, names, scene);
-    table.finish(table.has("mesh") ? "has no meaning beside mesh" : "has no meaning without mesh");
+    table.finish(table.has("mesh") ? "has no meaning together with mesh" : "has no meaning without mesh");
     scene.bodies.push_back(std::move(body));
     record.add("bodies", "[[bodies]]", table.record());
   }

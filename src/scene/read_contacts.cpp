@@ -1,4 +1,4 @@
-// [[contacts]]: required and refused keys of each law.
+// [[contacts]], [[stops]] and [[pendulums]]: required and refused keys of each law.
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace {
 /// A law of friction that varies between two coefficients: its keys are required, keys of other laws are
 /// refused.
 struct VaryingFriction {
-  std::array<const char*, 3> keys;  // static_, kinetic, and the constant of the exponential
+  std::array<const char*, 3> keys;  // keys of Friction::static_, Friction::kinetic and *constant
   std::optional<double> Friction::*constant;
   const char* required;
   std::span<const char* const> others;
-  const char* apart;  // reason for the refusal of `others`
+  const char* apart;  // message that refuses `others`
 
   [[nodiscard]] bool is_meant(const Table& table) const {
     return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); });
@@ -103,7 +103,7 @@ Friction read_friction(Table& contact) {
     if (const auto& value = friction.*constant.value)
       record.set(std::string(constant.key), toml_number(*value));
   contact.record("friction", record.inline_table());
-  // Equal coefficients: friction is a constant.
+  // With equal coefficients friction is constant: the exponential law is not needed.
   if (law && friction.kinetic == friction.static_) (friction.*law->constant).reset();
   return friction;
 }
@@ -125,7 +125,7 @@ Direction tangent_of(const Direction& normal) {
 
 namespace {
 
-/// Normal, tangent and gap of a contact that can open.
+/// Reads normal, tangent and gap of a contact that can open.
 void read_gap(Table& table, ContactSpec& contact, const NameScope& space, const std::string& law) {
   const char* key = table.is("stops[]") ? "direction" : "normal";
   table.require(key, " (required for law = \"" + law + "\")");
@@ -139,7 +139,7 @@ void read_gap(Table& table, ContactSpec& contact, const NameScope& space, const 
       contact.tangent = read_direction(table, "tangent", space);
   } else {
     if (!table.is("stops[]") && table.has("tangent")) {
-      table.fail("tangent", "has no meaning beside normal; the tangent is (ny, -nx)");
+      table.fail("tangent", "has no meaning together with normal; the tangent is (ny, -nx)");
     }
     contact.tangent = tangent_of(*contact.normal);
   }
@@ -152,7 +152,7 @@ void read_rigid(Table& table, ContactSpec& contact, const NameScope& space) {
   contact.capture_velocity = table.optional_number("capture_velocity");
 }
 
-/// Stiffnesses of the frame-rod element of a seam: E area / thickness across it, G area / thickness along it.
+/// Stiffnesses of the material in a seam: normal E area / thickness, tangential G area / thickness.
 void read_seam(Table& table, ContactSpec& contact) {
   for (const char* key : {"normal_stiffness", "tangential_stiffness"})
     if (table.has(key)) table.fail(key, "cannot be combined with seam; give only one of them");
@@ -184,8 +184,8 @@ void read_compliant(Table& table, ContactSpec& contact, const NameScope& space) 
     table.require("tangential_stiffness", " (required for law = \"compliant\" with friction)");
 }
 
-/// Reads a law made of data. Keys that are not read here have no meaning for it, because its constants
-/// determine it.
+/// Reads a law made of data. Its constants determine the law, so Table::finish() refuses all keys that are not read
+/// here.
 void read_data_law(Table& table, ContactSpec& contact, const NameScope& space, const DataLaw& law) {
   const std::string required = fmt::format(" (required for law = \"{}\")", law.name);
   read_gap(table, contact, space, std::string(law.name));
@@ -199,7 +199,7 @@ void read_data_law(Table& table, ContactSpec& contact, const NameScope& space, c
   contact.user_law = std::make_shared<const UserContactLaw>(law.make(contact.normal_stiffness, constants));
 }
 
-/// Counterpart of the contact's node: another node or a segment instead of the ground.
+/// Reads the counterpart of the contact's node: another node, or a segment, instead of the ground.
 void read_against(Table& table, ContactSpec& contact, const Scene& scene, const NameScope& space,
                   const std::string& node) {
   const auto touched = read_counterpart(table, scene, space, node);
@@ -327,7 +327,7 @@ void read_contacts(Table& top, Scene& scene, ResolvedScene& record) {
     const std::string law = table.choice("law");
     ContactSpec contact = read_laws(table, space, scene, law);
     if (!space.matrices && table.has("against")) {
-      if (!one) table.fail("against", "has no meaning beside nodes");
+      if (!one) table.fail("against", "has no meaning together with nodes");
       read_against(table, contact, scene, space, nodes.front());
     }
     const bool stray_node =
@@ -356,10 +356,10 @@ void read_stops(Table& top, Scene& scene, ResolvedScene& record) {
     if (law == "slider") table.fail("law", "found \"slider\", expected a law with a gap for a stop");
     ContactSpec forth = read_laws(table, space, scene, law);
     if (!space.matrices && table.has("against")) {
-      if (!one) table.fail("against", "has no meaning beside nodes");
+      if (!one) table.fail("against", "has no meaning together with nodes");
       read_against(table, forth, scene, space, nodes.front());
     }
-    // `direction` was read as the normal, which points back.
+    // `direction` was read as the normal, along which contacts open. It is the normal of NAME-; NAME+ is its mirror image.
     ContactSpec back = forth;
     forth = mirrored(std::move(forth));
     if (const auto gaps = table.numbers("gaps")) {
@@ -389,7 +389,7 @@ void read_stops(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// A contact of the pendulum without its friction; node, against and name are set.
+/// A contact of the pendulum with its name and source place; the caller sets directions, law and friction.
 ContactSpec part_of(const Table& table, const std::string& name) {
   ContactSpec part;
   part.name = name;
@@ -408,8 +408,8 @@ Direction along(const Table& table, const std::string& node, const std::string& 
   return direction;
 }
 
-/// Reads N, its history or the contact that bears it. Returns the force from which the stiffness of the
-/// spring follows.
+/// Reads the normal force: a number, a history, or the stiffness of a contact that carries it. Returns the force N
+/// that defines the stiffness N / radius of the restoring spring.
 double read_force(Table& table, ContactSpec& contact, double radius, const Scene& scene) {
   const bool bears = table.has("normal_stiffness");
   if (!bears) table.require("normal_force", " (required without normal_stiffness)");
@@ -429,7 +429,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   }
   if (given && !history.is_constant())
     table.fail("normal_force",
-               "found a history beside normal_stiffness, expected a number: the load at rest");
+               "found a history together with normal_stiffness, expected a number: the load at rest");
   contact.law = Law::compliant;
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");
@@ -471,7 +471,7 @@ void read_pendulums(Table& top, Scene& scene, ResolvedScene& record) {
     ContactSpec contact = part_of(table, read_contact_name(table, "pendulum", ++number));
     const std::string node = read_node(table, "node", space);
     const std::string against = table.has("against") ? read_node(table, "against", space) : "";
-    if (against == node) table.wrong("against", "another node than the pendulum's own");
+    if (against == node) table.wrong("against", "a node other than the pendulum's own node");
     contact.normal = along(table, node, against, read_unit_vector(table, "normal"));
     contact.tangent = tangent_of(*contact.normal);
     const double radius = table.number("radius");

@@ -24,11 +24,11 @@ std::array<double, 2> read_pair(Table& table, std::string_view key, bool zero_to
   return {values[0], values[1]};
 }
 
-/// zeta(w) = alpha / (2 w) + beta w / 2 at two circular frequencies.
+/// Rayleigh factors from the ratios at two circular frequencies w: zeta(w) = alpha / (2 w) + beta w / 2.
 void read_ratios(Table& table, DampingSpec& damping) {
   const auto [z1, z2] = read_pair(table, "ratios", true);
   const auto [f1, f2] = read_pair(table, "frequencies", false);
-  if (f1 == f2) table.wrong("frequencies", "two different ones");
+  if (f1 == f2) table.wrong("frequencies", "two different frequencies");
   const double w1 = 2.0 * std::numbers::pi * f1, w2 = 2.0 * std::numbers::pi * f2;
   // A difference of rounding size is set to zero: the damping is by mass or by stiffness alone.
   const auto difference = [](double a, double b) {
@@ -63,13 +63,13 @@ void read_masses(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// A key of a table, whose place a message may have.
+/// A key of a table; a message about a contradiction may report its place.
 struct ConflictingKey {
   const Table& table;
   const char* key;
 };
 
-/// Refuses contradictory keys. The message has the place of the key given by --set, else of the first one.
+/// Refuses contradictory keys. The message reports the place of the key that --set gave, otherwise of the first key.
 [[noreturn]] void contradict(std::initializer_list<ConflictingKey> keys, const std::string& message) {
   const ConflictingKey* at = keys.begin();
   for (const ConflictingKey& one : keys)
@@ -80,7 +80,7 @@ struct ConflictingKey {
   at->table.fail(at->key, message);
 }
 
-/// A spring hanger: hot + stiffness travel = cold.
+/// Reads a spring hanger: cold = hot + stiffness travel. The cold load is the preload of the spring.
 void read_hanger(Table& table, Spring& spring) {
   Table hanger = table.child("hanger");
   if (table.has("preload"))
@@ -96,7 +96,7 @@ void read_hanger(Table& table, Spring& spring) {
   if ((cold ? 1 : 0) + (travel ? 1 : 0) + (stiff ? 1 : 0) != 2)
     contradict(
         {{table, "hanger"}, cold_key, travel_key, stiffness_key},
-        "expected two of cold, travel and the spring's stiffness beside hot: cold = hot + stiffness travel");
+        "expected hot and two of cold, travel and the spring's stiffness: cold = hot + stiffness travel");
   spring.hot_load = hot;
   spring.preload = cold ? *cold : hot + spring.stiffness * *travel;
   if (!stiff && *travel == 0.0)
@@ -128,7 +128,7 @@ void read_springs(Table& top, Scene& scene, ResolvedScene& record) {
     spring.node = read_node(table, "node", space);
     if (table.has("against")) {
       spring.against = read_node(table, "against", space);
-      if (spring.against == spring.node) table.wrong("against", "another node than the spring's own");
+      if (spring.against == spring.node) table.wrong("against", "a node other than the spring's own node");
     }
     spring.rotation_stiffness = table.number("rotation_stiffness");
     spring.rotation_damping = table.number("rotation_damping");
@@ -143,7 +143,7 @@ void read_springs(Table& top, Scene& scene, ResolvedScene& record) {
       else
         spring.preload = table.number("preload");
     }
-    table.finish("needs a direction beside it");
+    table.finish("needs a direction in the same table");
     scene.springs.push_back(spring);
     record.add("springs", "[[springs]]", table.record());
   }
@@ -182,7 +182,7 @@ void read_supports(Table& top, Scene& scene, ResolvedScene& record) {
     for (const std::string& name : held) {
       check_known(name, {"ux", "uy", "rz"}, "degree of freedom", table.place("fix"), table.path("fix"));
       bool& fixed = name == "ux" ? support.ux : name == "uy" ? support.uy : support.rz;
-      if (fixed) table.fail("fix", "found \"" + name + "\" twice");
+      if (fixed) table.fail("fix", "found \"" + name + "\" twice, expected each direction once");
       fixed = true;
     }
     read_support_motion(table, support, held.size(), scene);

@@ -1,4 +1,4 @@
-// run.initial: "static", or the state at t = 0.
+// run.initial: "static", "frictional", the state of another run, or displacements and velocities at t = 0.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -84,7 +84,7 @@ void read_stages(Table& run, InitialSpec& initial) {
   run.record("stages", toml_array(texts));
 }
 
-/// Part `model` of the summary of a run; empty if the run has no summary, as after a kill. Errors: FileError.
+/// Part `model` of the summary of a run; empty if the run was killed before it wrote a summary. Errors: FileError.
 base::Json model_of_run(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
   std::ifstream in(path);
@@ -117,7 +117,8 @@ std::optional<std::array<double, 5>> scales_of_run(const base::Json& model) {
   }
 }
 
-/// Carried loads of pendulums in that run, by name: part of its K, and thus of damping and stored energy.
+/// Vertical loads of pendulums in the run to be continued, by name. They are part of its stiffness matrix, and so of its
+/// damping and stored energy.
 std::vector<std::pair<std::string, double>> carried_in_run(const base::Json& model) {
   std::vector<std::pair<std::string, double>> found;
   const auto pendulums = model.find("pendulums");
@@ -144,7 +145,7 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   }
   std::ifstream in = open_data_file(table, "run", path);
   const std::optional<double> t = table.optional_number("t");
-  table.finish("has no meaning beside run");
+  table.finish("has no meaning together with run");
   SavedStates found = read_saved_states(in, path.string(), table.path("run"), t);
   if (!found.state && !t) table.fail("run", fmt::format("found no state in {}", path.string()));
   if (!found.state)
@@ -171,7 +172,7 @@ bool is_of_run(Table& run, const toml::node* node) {
   if (!table) return false;
   if (const toml::node* directory = table->get("run"); directory && !directory->is_table()) return true;
   if (const toml::node* t = table->get("t"); t && !t->is_table())
-    refuse(place_of(*t), run.path("initial") + ".t", "needs run beside it, the directory of a run");
+    refuse(place_of(*t), run.path("initial") + ".t", "needs run in the same table, the directory of a run");
   return false;
 }
 
@@ -202,7 +203,7 @@ void read_initial(Table& run, Scene& scene) {
     Table table = run.child("initial");
     for (const Entry& entry : entries_of(table.node())) {
       if (entry.name != "u" && entry.name != "v") {
-        refuse(entry.place(), table.path(entry.name), "unknown key; with [matrices] known: u, v");
+        refuse(entry.place(), table.path(entry.name), "unknown key; with [matrices] the keys are u and v");
       }
     }
     read_list(table, "u", space, initial.u);

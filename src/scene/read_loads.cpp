@@ -41,7 +41,7 @@ void read_distributed(Table& table, LoadSpec& load, const NameScope& space) {
   load.amplitude = table.number("distributed");
 }
 
-/// A load on a boundary of a body.
+/// Reads a traction or a pressure on a boundary of a body.
 void read_traction(Table& table, LoadSpec& load, const NameScope& space, const Scene& scene) {
   load.type = LoadType::traction;
   load.pressure = table.has("pressure");
@@ -72,7 +72,7 @@ void take_name(const Table& table, const std::string& name, Names& names) {
     if (name == kind)
       table.fail(
           "name",
-          fmt::format("found \"{}\", which stands for all loads of that kind, expected another name", name));
+          fmt::format("found \"{}\", which means all loads of that kind, expected another name", name));
   if (!names.add(name))
     table.fail("name", fmt::format("found \"{}\" twice, expected each load to have its own name", name));
 }
@@ -159,7 +159,7 @@ void read_base_motion(Table& top, Scene& scene, ResolvedScene& record) {
   }
 }
 
-// Histories: offset + amplitude * shape(t), the shape zero before start and from end on.
+// Histories: offset + amplitude * shape(t); shape(t) is zero before start and from end on.
 
 namespace {
 
@@ -179,12 +179,13 @@ void read_half_sine_end(Table& table, HistorySpec& spec) {
   }
   table.require("duration", " (half_sine: give duration or end)");
   spec.end = spec.start + table.number("duration");
-  if (!(spec.end > spec.start)) table.fail("duration", "too short to end after the start");
+  if (!(spec.end > spec.start))
+  table.fail("duration", "too short: rounding makes the end equal to the start; expected a longer one");
 }
 
 void read_span(Table& table, HistorySpec& spec) {
-  if (spec.type == HistoryType::table) return;  // its times define start and end
-  // A constant without start has always acted; writing the default of `start` would change that.
+  if (spec.type == HistoryType::table) return;  // the times of a table define its start and end
+  // A constant without start acts at all times. Recording the default start = 0 would make it act from 0 on only.
   const bool writes_start = table.has("start") || spec.type != HistoryType::constant;
   if (writes_start) spec.start = table.number("start");
   spec.start_given = writes_start;
@@ -225,10 +226,10 @@ double metric_acceleration(const Units& units) {
   return metre / (second_in(units) * second_in(units));
 }
 
-/// Use of a history. load: the amplitude is outside of it; acceleration: its values may be in g.
+/// Use of a history. load: the amplitude is a key of the load, not of the history; acceleration: values may be in g.
 enum class Role { load, standalone, acceleration };
 
-/// Layout of the values in the file. The caller records it with the file.
+/// Reads column and time_step, the layout of the file. The caller records these keys together with the file.
 TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   TableLayout layout;
   std::string extension = path.extension().string();
@@ -255,7 +256,7 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
 
 /// Reads the file's values in the scene's units, or in g if the scene has `unit`.
 void read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
-  constexpr std::size_t most_inline_rows = 10'000;  // a larger table stays in its file in run.toml
+  constexpr std::size_t most_inline_rows = 10'000;  // for a larger table run.toml refers to the file
   for (const char* other : {"times", "values"}) {
     if (table.has(other)) table.fail(other, "cannot be combined with file; give only one of them");
   }
@@ -323,7 +324,7 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   if (!period) return;
   const bool tabulated = spec.type == HistoryType::table;
   if (!tabulated && !spec.start_given)
-    table.fail("period", "needs a start, because the period counts from it");
+    table.fail("period", "needs a start, because the first period begins there");
   const double start = tabulated ? spec.times.front() : spec.start;
   const double length = (tabulated ? spec.times.back() : std::isinf(spec.end) ? start : spec.end) - start;
   if (*period < length * (1.0 - rounding::few_operations))
@@ -358,7 +359,7 @@ HistorySpec read_history(Table& parent, std::string_view key, Role role, const S
 
   HistorySpec spec;
   spec.place = table.place();
-  // An absent history is a constant.
+  // Without a history the shape is constant.
   const std::string type = node ? table.choice("type") : "constant";
   if (!node) table.record("type", toml_string(type));
   spec.type = type_of(type);

@@ -1,4 +1,4 @@
-// [matrices]: any finite element program's M, C and K, from files or rows.
+// [matrices]: mass, damping and stiffness matrices of any finite-element program, from files or rows.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace signorini::scene {
 
 namespace {
 
-constexpr int most_inline_rows = 100;  // larger matrices stay in their file in run.toml
+constexpr int most_inline_rows = 100;  // for larger matrices run.toml refers to the file
 
 MatrixSpec from_file(const Table& table, std::string_view key, const std::filesystem::path& path) {
   std::ifstream in = open_data_file(table, key, path);
@@ -77,7 +77,7 @@ double matrix_entry(const MatrixSpec& matrix, int row, int column) {
   return there ? found->value : 0.0;
 }
 
-/// Refuses matrices that are not symmetric; names the degrees of freedom.
+/// Refuses a matrix that is not symmetric; the message names the two degrees of freedom.
 void check_symmetric(const Table& table, std::string_view key, const MatrixSpec& matrix,
                      const std::vector<std::string>& dofs) {
   double greatest = 0.0;
@@ -101,9 +101,10 @@ void check_mass(const Table& table, const MatrixSpec& mass, const std::vector<st
   for (const auto& e : mass.entries) {
     const auto row = static_cast<std::size_t>(e.row);
     if (diagonal[row] < 0.0 || (diagonal[row] == 0.0 && e.row != e.column)) {
-      table.fail("mass", fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
-                                     base::format_number(diagonal[row]), dofs[row],
-                                     diagonal[row] < 0.0 ? "" : ", and > 0 where it is coupled"));
+      table.fail("mass",
+      fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
+      base::format_number(diagonal[row]), dofs[row],
+      diagonal[row] < 0.0 ? "" : ", and > 0 in a row with off-diagonal entries"));
     }
   }
 }
@@ -115,7 +116,8 @@ std::vector<std::string> read_dofs(Table& table, int size) {
     std::set<std::string> seen;
     for (const std::string& name : dofs) {
       check_name(name, table.place("dofs"), table.path("dofs"));
-      if (!seen.insert(name).second) table.fail("dofs", fmt::format("found \"{}\" twice", name));
+      if (!seen.insert(name).second)
+      table.fail("dofs", fmt::format("found \"{}\" twice, expected different names", name));
     }
     if (dofs.size() != static_cast<std::size_t>(size)) {
       table.fail("dofs", fmt::format("found {}, expected one for each of the {} rows of the mass matrix",

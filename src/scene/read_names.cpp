@@ -1,4 +1,4 @@
-// Nodes and directions, as contacts, loads and springs refer to them.
+// Reads names of nodes, and directions, for contacts, loads and springs.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -48,14 +48,14 @@ std::string read_node(Table& table, std::string_view key, const NameScope& space
 
 namespace {
 
-/// Letters and number of "P12"; -1 if the name has no number at its end.
+/// Letters and number of a name: ("P", 12) for "P12"; the number is -1 if the name does not end in a number.
 std::pair<std::string, long long> numbered(const std::string& name) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   const auto number = base::parse_integer(name.substr(digits));
   return {name.substr(0, digits), number && name.size() - digits < 9 ? *number : -1};
 }
 
-/// Adds "P0", "P3", ... of "P0..P9:3".
+/// Adds the node names that a range means: "P0", "P3", "P6", "P9" for "P0..P9:3".
 void add_range(const std::string& text, const Table& table, std::string_view key, const NameScope& space,
                std::vector<std::string>& names) {
   const std::size_t dots = text.find(".."), colon = text.find(':', dots);

@@ -13,7 +13,7 @@ namespace signorini::scene {
 
 namespace {
 
-/// The names under `at`: one or two.
+/// Reads `count` names, one or two, from the key `at`.
 std::vector<std::string> read_places(Table& table, std::size_t count, const char* expected) {
   const toml::node* node = table.raw("at");
   if (!node) table.fail("at", fmt::format("missing, expected {}", expected));
@@ -41,7 +41,7 @@ void check_nodes(const Table& table, const std::vector<std::string>& names, cons
     check_known(name, space.names, "node", table.place("at"), table.path("at"));
 }
 
-/// A direction, or a rotation.
+/// Reads the component of a motion: along a direction, or the rotation.
 void read_motion(Table& table, OutputSpec& output, const NameScope& space) {
   output.rotation = !space.matrices && table.flag("rotation");
   if (!output.rotation) {
@@ -86,7 +86,7 @@ void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {
                fmt::format("found \"gap\" of contact \"{}\", a slider, which has no gap", contact.name));
 }
 
-/// A number, or a table with a unit.
+/// Reads the factor of an output in a combination: a number, or a table with a unit.
 OutputTerm read_term(Table& terms, const Entry& entry, const Scene& scene) {
   OutputTerm term;
   term.name = entry.name;
@@ -109,7 +109,7 @@ OutputTerm read_term(Table& terms, const Entry& entry, const Scene& scene) {
   return term;
 }
 
-/// "'M' [kN m]", with its factor where that has a unit.
+/// Name and unit of a term for a message: "'M' [kN m]"; adds "with its factor" if the factor has a unit.
 std::string described(const OutputTerm& term, const Scene& scene) {
   return fmt::format("'{}' [{}]{}", term.name, unit_text(unit_of_term(term, scene.outputs), scene.units),
                      same_unit(term.unit, unit::plain) ? "" : " with its factor");
@@ -162,15 +162,15 @@ void read_spring(Table& table, OutputSpec& output, const Scene& scene) {
   output.rotation = table.flag("rotation");
 }
 
-/// A stress component at a node of a body, in axes of which x points along `direction`.
+/// Reads a stress component at a node of a body; `direction` is the axis x of the component.
 void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, const NameScope& space) {
   output.at = read_places(table, 1, "the name of a node");
   const std::size_t node =
       check_known(output.at[0], space.names, "node", table.place("at"), table.path("at"));
   if (!body_of_node(scene, node))
     table.fail("at",
-               fmt::format("node \"{}\" belongs to no body: expected a node of one, or two nodes [A, B] of a "
-                           "member",
+               fmt::format("node \"{}\" belongs to no body: expected a node of a body, or two nodes [A, B] "
+               "of a member",
                            output.at[0]));
   read_quantity(table, output, "\"xx\", \"yy\", \"xy\"");
   output.direction.vector = {1.0, 0.0};
@@ -231,7 +231,8 @@ void read_outputs(Table& top, Scene& scene, ResolvedScene& record) {
     OutputSpec output;
     output.place = table.place();
     output.name = table.text("name");
-    if (output.name == "t") table.fail("name", "found \"t\", which is the time in response.csv");
+    if (output.name == "t")
+    table.fail("name", "found \"t\", which is the column of times in response.csv; expected another name");
     if (!names.add(output.name))
       table.fail("name",
                  fmt::format("found \"{}\" twice, expected each output to have its own name", output.name));

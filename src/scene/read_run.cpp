@@ -60,7 +60,7 @@ void read_tolerances(Table& table, RunSpec& run) {
   run.atol.velocity = atol.optional_number("velocity");
   run.atol.force = atol.optional_number("force");
   atol.finish();
-  // Absent tolerances follow from the assembled scene.
+  // Default tolerances depend on the scales of the assembled structure, so they are not recorded here.
   if (table.has("atol")) table.record("atol", atol.record().inline_table());
 }
 
@@ -93,7 +93,7 @@ void read_certification(Table& table, RunSpec& run) {
                                          : Companion::automatic;
 }
 
-/// Keys of the engines with a given step.
+/// Reads the keys of engines that have a time step.
 void read_steps(Table& table, RunSpec& run) {
   const EngineInfo* engine = run.engine == Engine::automatic ? nullptr : &engine_info(run.engine);
   const bool steps = engine != nullptr && engine->accuracy == Accuracy::step;
@@ -155,8 +155,8 @@ std::vector<double> RunSpec::grid() const {
   const double dt_out = output_dt.value_or(t_end / 1000.0);
   if (!(t_end / dt_out <= scene::most_output_rows))
     throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
-  // Multiples, not sums: row k has the time k dt, correctly rounded. A multiple that equals t_end up to rounding is
-  // t_end.
+  // Row k has the time k dt, a product and not a sum, so that rounding errors do not accumulate. A product that equals
+  // t_end up to rounding is t_end.
   times.reserve(static_cast<std::size_t>(t_end / dt_out) + 2);
   for (long k = 0; static_cast<double>(k) * dt_out < t_end - 1e-6 * dt_out; ++k) {
     times.push_back(static_cast<double>(k) * dt_out);
@@ -169,7 +169,7 @@ std::vector<double> RunSpec::grid() const {
 
 namespace signorini::scene {
 
-// [reduction]: the cutoff, in cycles or in radians per time, or the tolerance from which it is found.
+// [reduction]: the cutoff in cycles or in radians per time, or the tolerance from which the program finds the cutoff.
 
 void read_reduction(Table& top, Scene& scene, ResolvedScene& record) {
   if (!top.has("reduction")) return;
@@ -194,7 +194,7 @@ void read_reduction(Table& top, Scene& scene, ResolvedScene& record) {
   record.add("reduction", "[reduction]", table.record());
 }
 
-// Units are names; the reader checks that Newton's law holds between them without a factor.
+// Units are given by name. The reader checks that unit of force = unit of mass * unit of length / (unit of time)^2.
 
 namespace {
 

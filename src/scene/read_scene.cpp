@@ -1,4 +1,4 @@
-// From a file to a Scene: parse, apply --set, read table by table.
+// Reads a Scene from a file: parses TOML, applies --set, reads table by table.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace signorini::scene {
 
 namespace {
 
-/// The end of the string that begins at i, or of the text.
+/// Index of the closing quote of the string that begins at i. A string without closing quote ends at the line break or
+/// at text.size().
 std::size_t end_of_string(const std::string& text, std::size_t i) {
   const std::string quote(1, text[i]), three(3, text[i]);
   const std::string& mark = text.compare(i, 3, three) == 0 ? three : quote;
@@ -32,10 +33,10 @@ std::size_t end_of_string(const std::string& text, std::size_t i) {
   return text.size();
 }
 
-/// The parser builds and destroys a.a.a = { a.a.a = ... } recursively; input that would overflow the stack is refused.
+/// Refuses deep nesting: the parser handles a.a.a = { a.a.a = ... } recursively, and would overflow the stack.
 void check_depth(const std::string& text, const std::string& file) {
   constexpr int deepest = 1000;
-  std::vector<int> outer;  // number of parts of each enclosing key, with its bracket
+  std::vector<int> outer;  // for each open bracket: parts of its key, plus one
   int parts = 0, depth = 0, line = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -98,8 +99,8 @@ void check_schema(const toml::table& root, const std::string& file) {
   }
 }
 
-/// Compares the scene with that of the run that it continues. Its units must be the same, because the saved
-/// numbers depend on them. A different structure is allowed, because it may be intended, but it is reported.
+/// Compares the scene with the scene of the run that it continues. The units must be equal, because the saved numbers
+/// have these units. A different structure may be intended: it is allowed, and reported.
 void compare_with_run(Scene& scene) {
   const std::filesystem::path path = std::filesystem::path(scene.initial.saved->run) / "run.toml";
   std::ifstream in(path);
@@ -114,8 +115,8 @@ void compare_with_run(Scene& scene) {
   if (froze && scene.run.geometric && !scene.initial.saved->prestress)
     throw SceneError(
         scene.initial.place, "run.initial.run",
-        fmt::format("found no {}, expected the frozen forces of that run, which had run.geometric = true "
-                    "(run.toml): its stiffness depends on them",
+        fmt::format("found no {}, expected the frozen static forces of that run, which had run.geometric = "
+        "true (run.toml): its stiffness depends on them",
                     (std::filesystem::path(scene.initial.saved->run) / prestress_file).string()));
   scene.initial.saved->structure_differences = differing_structure(run, here);
 }
@@ -143,12 +144,12 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     read_nodes(top, scene, record);
     read_lines(top, scene, record);
     if (const auto t_end = root.at_path("run.t_end").value<double>(); t_end && *t_end > 0.0)
-      scene.run.t_end = *t_end;  // the histories of bodies are read up to it; read_run checks it
+      scene.run.t_end = *t_end;  // histories of bodies are expanded up to t_end; read_run() checks it
     read_bodies(top, scene, record);
     read_rigid(top, scene, record);
     if (scene.nodes.empty())
       throw SceneError({file, 1, 1}, "nodes", "missing, expected [nodes], [[bodies]] or [matrices]");
-    read_run(top, scene, record);  // histories are read up to t_end
+    read_run(top, scene, record);  // before loads: histories are expanded up to t_end
     read_sections(top, scene, record);
     read_members(top, scene, record);
     read_masses(top, scene, record);
@@ -157,7 +158,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     read_damping(top, scene, record);
   }
   read_reduction(top, scene, record);
-  read_contacts(top, scene, record);  // compressions are checked up to t_end
+  read_contacts(top, scene, record);  // after [run]: compressions are checked up to t_end
   read_stops(top, scene, record);
   read_pendulums(top, scene, record);
   read_surfaces(top, scene, record);
@@ -194,7 +195,7 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   try {
     return scene::build(text, file, overrides);
   } catch (const SceneError& error) {
-    // An override may have made another key invalid (kinetic above static).
+    // If the file alone is valid, an override has made another key invalid (kinetic above static): name all overrides.
     if (overrides.empty() || !scene::can_be_read(text, file)) throw;
     message = error.what();
   }
@@ -217,7 +218,7 @@ std::vector<std::string> places_in(const std::string& scene, const std::string& 
 
 std::string tables_met_in(const std::string& scene, const std::vector<Override>& before,
                           const std::string& path) {
-  if (path.find('*') == std::string::npos) return {};  // most have none
+  if (path.find('*') == std::string::npos) return {};  // most paths contain no *
   toml::table root = parse_text(scene_text(scene), scene);
   apply_overrides(root, before);
   return tables_met(root, path);

@@ -16,7 +16,8 @@ namespace signorini::scene {
 
 namespace {
 
-/// Two surfaces may share a node (the tip of a crack): its degrees of freedom then must be the same.
+/// Index of the node in Scene::surface_nodes; a new node is added. Surfaces may share a node (the tip of a crack) with
+/// the same position and degrees of freedom.
 int index_of(const Table& table, const SurfaceNode& node, Scene& scene) {
   const auto same =
       std::find_if(scene.surface_nodes.begin(), scene.surface_nodes.end(), [&](const SurfaceNode& other) {
@@ -28,7 +29,7 @@ int index_of(const Table& table, const SurfaceNode& node, Scene& scene) {
   }
   if (same->ux != node.ux || same->uy != node.uy || same->x != node.x || same->y != node.y)
     table.fail(node.ux == same->ux ? "ux" : "uy",
-               fmt::format("found \"{}\" at two places, [{:.9g}, {:.9g}] and [{:.9g}, {:.9g}]",
+               fmt::format("found \"{}\" at two places, [{:.9g}, {:.9g}] and [{:.9g}, {:.9g}], expected one",
                            node.ux == same->ux ? node.ux : node.uy, same->x, same->y, node.x, node.y));
   return static_cast<int>(same - scene.surface_nodes.begin());
 }
@@ -95,7 +96,8 @@ void read_surfaces(Table& top, Scene& scene, ResolvedScene& record) {
       };
       if (at(0).x == at(1).x && at(0).y == at(1).y)
         table.fail("x",
-                   fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge", at(0).x, at(0).y));
+                   fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge, expected two places",
+                   at(0).x, at(0).y));
     }
     surface.thickness = table.number("thickness");
     table.finish();
@@ -106,7 +108,7 @@ void read_surfaces(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// Contact law of a seam, per area.
+/// Contact law of a seam; its stiffnesses and its damping are per area.
 struct SeamLaw {
   ContactSpec contact;
   double normal_stiffness = 0.0, normal_damping = 0.0;
@@ -142,7 +144,7 @@ void read_springs_of(Table& table, SeamLaw& law) {
   law.tangential_stiffness = table.number("tangential_stiffness");
   if (law.contact.friction.stribeck_velocity)
     table.fail("friction",
-               "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding point has "
+               "found a stribeck_velocity, expected none with tangential_stiffness: the sliding point has "
                "no mass, so its motion is not unique if friction decreases with its rate");
 }
 
@@ -164,7 +166,7 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
                "depends on its mesh");
   contact.normal_force = constant_history(0.0);
   if (contact.law == Law::rigid && is_word(table, "contact_mass", "none")) {
-    // Nothing to read: there is no rebound.
+    // A contact without mass does not rebound, so there is no restitution to read.
   } else if (contact.law == Law::rigid) {
     contact.restitution = table.number("restitution");
     contact.capture_velocity = table.optional_number("capture_velocity");
@@ -176,7 +178,7 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
   return law;
 }
 
-/// A boundary of a body, or a surface.
+/// A boundary of a body, or a surface of [matrices], which has no body.
 struct Boundary {
   const std::vector<PlaneMesh::Edge>* edges;
   double thickness;
@@ -197,7 +199,7 @@ Boundary find_side(const Table& table, std::string_view key, const std::string& 
                               there.empty() ? "none" : base::join_quoted(there, 8)));
 }
 
-/// All edges of the slave's body, or of its surface.
+/// Outer edges of the slave's body; for [matrices] the edges of the slave surface.
 std::vector<PlaneMesh::Edge> outline_of(const Boundary& side, const Scene& scene) {
   if (!side.body) return *side.edges;
   mesh::SharedEdges all;
@@ -226,7 +228,7 @@ std::vector<std::string> mesh_names(const std::vector<int>& nodes, const Scene& 
   return names;
 }
 
-/// A node shared by both boundaries (the tip of a crack) never opens and is not a contact.
+/// Removes contacts at nodes that both boundaries share (the tip of a crack), because they can never open.
 void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& seam) {
   std::set<int> master;
   for (const mesh::MortarNode& k : seam.nodes)
@@ -234,12 +236,13 @@ void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& 
   const std::string first = mesh_name(seam.nodes.front().node, scene);
   std::erase_if(seam.nodes, [&](const mesh::MortarNode& k) { return master.contains(k.node); });
   if (seam.nodes.empty())
-    table.fail("master", fmt::format("node {} and all others belong to both boundaries: expected meshes that "
-                                     "share no nodes there, except at the tip of a crack",
-                                     first));
+    table.fail("master",
+    fmt::format("node {} and all other slave nodes are also master nodes: expected meshes that "
+    "share no nodes there, except at the tip of a crack",
+    first));
 }
 
-/// Reads and checks the mortar of a table.
+/// Reads master or line of a seam, and computes its contacts: nodes, weights and gaps.
 mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
   const mesh::NodePosition place = [&](int n) { return place_in(scene, n); };
   if (table.has("master") == table.has("line"))
@@ -257,14 +260,15 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
   } else {
     const Boundary other = find_side(table, "master", master, scene);
     if (other.edges == slave.edges)
-      table.fail("master", "found the slave boundary itself, expected another one");
+      table.fail("master", "found the slave boundary itself, expected another boundary");
     seam = mesh::mortar_between(*slave.edges, *other.edges, place, outline_of(slave, scene));
   }
   if (!seam.negative.empty())
     table.fail(
         "slave",
         fmt::format("node {} lies at the end of a quadratic edge that the master covers only in part, so no "
-                    "length belongs to it: end the master at a node of the slave, or exchange the two",
+                    "length belongs to it: end the master at a node of the slave, or exchange slave and "
+                    "master",
                     base::join_quoted(mesh_names(seam.negative, scene), 3)));
   if (!seam.corners.empty())
     table.fail(
@@ -272,12 +276,12 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
         fmt::format(
             "the boundary has a corner of more than 45 degrees at node {}: give each side its own seam",
             base::join_quoted(mesh_names(seam.corners, scene), 3)));
-  if (seam.nodes.empty()) table.fail("master", "it faces no part of the slave boundary");
+  if (seam.nodes.empty()) table.fail("master", "the master faces no part of the slave boundary");
   leave_out_shared(table, scene, seam);
   return seam;
 }
 
-/// For [matrices]: the form n . (u_k - sum_l w_kl u_l) on degrees of freedom by name.
+/// For [matrices]: the relative displacement n . (u_k - sum_l w_kl u_l) as factors of named degrees of freedom.
 Direction surface_form(const mesh::MortarNode& k, const std::array<double, 2>& n, const Scene& scene) {
   Direction form;
   const auto add = [&](int node, double factor) {
@@ -318,11 +322,11 @@ ContactSpec contact_of(const mesh::MortarNode& k, const SeamLaw& law, double thi
   return contact;
 }
 
-/// law = "tied": nodes of the slave follow the master, at any gap.
+/// Reads a seam with law = "tied": the nodes of the slave follow the master, whatever the gap.
 void read_tied(Table& table, const std::string& name, Scene& scene) {
   static_cast<void>(table.choice("law"));
   if (scene.matrices)
-    table.fail("law", "found \"tied\", expected a law with contacts: [matrices] are not tied");
+    table.fail("law", "found \"tied\", expected compliant or rigid: with [matrices] a seam cannot be tied");
   const Boundary slave = find_side(table, "slave", table.text("slave"), scene);
   if (table.has("line") || is_word(table, "master", "ground"))
     table.fail(

@@ -1,4 +1,4 @@
-// Nodes and members.
+// Nodes, lines, members, sections and rigid bodies.
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -56,7 +56,7 @@ std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
   return elements;
 }
 
-/// The inner nodes of a chain of bars would be free to move sideways.
+/// Refuses bars of several elements: nothing would prevent their inner nodes from moving sideways.
 void check_bar(const Table& table, const Member& member) {
   if (member.type != MemberType::bar) return;
   for (const int n : member.elements) {
@@ -92,7 +92,8 @@ void read_lines(Table& top, Scene& scene, ResolvedScene& record) {
     for (int i = 0; i <= pieces; ++i) {
       const double s = static_cast<double>(i) / pieces;
       const std::string own = fmt::format("{}{}", name, i);
-      if (!names.add(own)) table.fail("name", fmt::format("node \"{}\" exists already", own));
+      if (!names.add(own))
+      table.fail("name", fmt::format("node \"{}\" exists already; expected another name", own));
       scene.nodes.push_back(
           {own, from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1]), table.place("name")});
     }
@@ -116,12 +117,12 @@ void read_release(Table& table, Member& member) {
                                       "member with two ends",
                                       member.nodes.front()));
   if (member.release.size() == 2 && member.release[0] == member.release[1])
-    table.fail("release", "found \"" + member.release[0] + "\" twice");
+    table.fail("release", "found \"" + member.release[0] + "\" twice, expected each end once");
 }
 
 void read_strains(Table& table, Member& member, const Scene& scene) {
   if (table.has("temperature") && !table.has("thermal_expansion"))
-    table.fail("temperature", "needs thermal_expansion beside it");
+    table.fail("temperature", "needs thermal_expansion in the same table");
   member.thermal_expansion = table.number("thermal_expansion");
   member.temperature = read_number_or_history(table, "temperature", scene);
   member.initial_strain = read_number_or_history(table, "initial_strain", scene);
@@ -146,7 +147,7 @@ Bend read_bend(Table& table, const Member& member, const Section& section, const
     const double half = 0.5 * std::hypot(b.x - a.x, b.y - a.y);
     if (!(std::abs(radius) >= half * (1.0 - rounding::many_operations)))
       keys.fail("radius",
-                fmt::format("found {}, expected at least half the distance of \"{}\" and \"{}\", {:.9g}",
+                fmt::format("found {}, expected at least half the distance between \"{}\" and \"{}\", {:.9g}",
                             base::format_number(radius), a.name, b.name, half));
   }
   Bend bend = section.pipe_wall > 0.0 ? factors_of_pipe(section, radius) : Bend{radius};
@@ -210,7 +211,7 @@ void read_members(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// Cross-section: area, second moment of area, distance of the outermost fibre.
+/// Cross-section: area, second moment of area, distance of the outermost fibre from the neutral axis.
 struct Shape {
   double area = 0.0, moment = 0.0, reach = 0.0;
   double more_mass = 0.0;  ///< mass per length in addition to that of the material
@@ -329,7 +330,7 @@ void read_sections(Table& top, Scene& scene, ResolvedScene& record) {
 
 namespace {
 
-/// m = density width height thickness,  J = m (width^2 + height^2)/12
+/// Reads the box of a rigid body: m = density width height thickness,  J = m (width^2 + height^2)/12
 void read_box(Table& table, PointMass& mass) {
   for (const char* key : {"mass", "inertia"})
     if (table.has(key))
@@ -344,7 +345,8 @@ void read_box(Table& table, PointMass& mass) {
   table.record("box", box.record().inline_table());
 }
 
-/// The centre is a node, or a place: then it is a new node, named after the body.
+/// Reads the centre: an existing node, or a position [x, y], which becomes a new node with the name of the body.
+/// Returns the name of the node.
 std::string read_centre(Table& table, const std::string& name, Scene& scene, Names& nodes) {
   table.require("centre", "");
   if (!table.raw("centre")->is_array()) {
@@ -370,10 +372,14 @@ void read_rigid(Table& top, Scene& scene, ResolvedScene& record) {
     Names nodes = space.names;
     RigidBody body;
     body.name = table.text("name");
-    if (!bodies.add(body.name)) table.fail("name", fmt::format("found \"{}\" twice", body.name));
+    if (!bodies.add(body.name))
+    table.fail("name",
+    fmt::format("found \"{}\" twice, expected each rigid body to have its own name", body.name));
     for (const BodySpec& other : scene.bodies)
       if (other.name == body.name)
-        table.fail("name", fmt::format("found \"{}\", which is the name of one of [[bodies]]", body.name));
+        table.fail("name",
+        fmt::format("found \"{}\", which is the name of one of [[bodies]]; expected another name",
+        body.name));
     table.require("nodes", "");
     body.place = table.place("nodes");
     body.nodes = read_node_names(table, "nodes", space);

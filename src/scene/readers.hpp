@@ -1,6 +1,6 @@
 // readers.hpp: one reader per concept; each fills its part of the scene and records the values it read.
 //
-//   read_units(top, scene.units, record);   read_run(top, scene, record);   ...
+//   read_units(top, scene, record);   read_run(top, scene, record);   ...
 //
 // Order matters: nodes, sections and matrices are read before tables that refer to them.
 #pragma once
@@ -20,10 +20,10 @@ namespace signorini::scene {
 struct NameScope {
   bool matrices = false;
   Names names;
-  std::unordered_map<std::string, std::vector<std::string>> groups;  ///< "BODY.GROUP": its nodes
+  std::unordered_map<std::string, std::vector<std::string>> groups;  ///< nodes of "BODY.GROUP" and of "BODY"
   std::filesystem::path directory;                                   ///< directory of relative file names
 };
-/// The scope of a scene as far as it has been read.
+/// Names in the part of the scene that has been read so far.
 [[nodiscard]] NameScope name_scope(const Scene& scene);
 
 /// Directory of the scene's own file, in which relative file names are looked up.
@@ -63,9 +63,9 @@ void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
 
 /// Reads a vector [x, y] and normalises it.
 [[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);
-/// The name of a node, required.
+/// Reads the name of an existing node; the key is required.
 [[nodiscard]] std::string read_node(Table& table, std::string_view key, const NameScope& space);
-/// Node names with "P0..P9", "P0..P9:3" and groups "BODY.GROUP" expanded; recorded as given.
+/// Reads node names and expands "P0..P9", "P0..P9:3" and groups "BODY.GROUP"; records the key as given.
 [[nodiscard]] std::vector<std::string> read_node_names(Table& table, std::string_view key,
                                                        const NameScope& space);
 /// Reads `node` or `nodes`; one of the two is required.
@@ -73,26 +73,25 @@ void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
 /// Reads a direction: with [nodes] a unit vector (Direction::node stays empty); with [matrices] degrees of
 /// freedom by name, or the name of a file with one column.
 [[nodiscard]] Direction read_direction(Table& table, std::string_view key, const NameScope& space);
-/// The column of numbers in the Matrix Market file that the key names, one for each degree of freedom of
-/// [matrices].
+/// Reads the Matrix Market file that the key names: one number for each degree of freedom of [matrices].
 [[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key,
                                                    const NameScope& space);
 
-/// A boundary of a body, "BODY.GROUP".
+/// A boundary "BODY.GROUP": index of the body in Scene::bodies, and the group of its mesh.
 struct BoundaryRef {
   std::size_t body = 0;
   const PlaneMesh::Group* group = nullptr;
 };
-/// The boundary with this name; it has edges. Errors: SceneError that lists the existing groups.
+/// Finds the boundary with this name, a group that has edges. Errors: SceneError that lists the existing boundaries.
 [[nodiscard]] BoundaryRef find_boundary(const Table& table, std::string_view key, const std::string& name,
                                         const Scene& scene);
 
-/// A load's history: offset 0, amplitude 1. The scene provides the directory of files, t_end and the units.
+/// Reads the history of a load, with offset 0 and amplitude 1. The scene provides the directory of files, t_end and
+/// the units.
 [[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key, const Scene& scene);
-/// A history outside a load: a number, or a table with offset and amplitude. If the key is absent: its
-/// default, or zero.
+/// Reads a history that has its own offset and amplitude, or a number. An absent key gives its default, or zero.
 [[nodiscard]] HistorySpec read_number_or_history(Table& table, std::string_view key, const Scene& scene);
-/// Same as read_number_or_history; values may be in units of g.
+/// Reads as read_number_or_history() does; the values may be in units of g.
 [[nodiscard]] HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& scene);
 [[nodiscard]] HistorySpec constant_history(double value);
 
@@ -102,18 +101,18 @@ struct BoundaryRef {
 //   read_elements(table, contact);
 //   add_contact(table, contact, names, scene);
 
-/// A number, { static, kinetic, stribeck_velocity } or { slow, fast, velocity }.
+/// Reads a number, { static, kinetic, stribeck_velocity }, { slow, fast, velocity } or { light, heavy, force }.
 [[nodiscard]] Friction read_friction(Table& table);
-/// Reads the spring and the dashpot along the tangent; to be called after the friction.
+/// Reads the spring and the dashpot along the tangent; must be called after read_friction().
 void read_elements(Table& table, ContactSpec& contact);
 /// Refuses a normal force that would be tensile at any time of the run.
 void check_applied_normal_force(const Table& table, const HistorySpec& spec, double t_end);
-/// The tangent (ny, -nx) of a normal.
+/// The tangent (ny, -nx) for the normal (nx, ny).
 [[nodiscard]] Direction tangent_of(const Direction& normal);
 
 /// Names of all contacts read so far.
 [[nodiscard]] Names contact_names(const Scene& scene);
-/// The given name, or the default name by number; records it.
+/// The given name, or the default name, kind and number ("contact3"). Records the name.
 [[nodiscard]] std::string read_contact_name(Table& table, const char* kind, std::size_t number);
 /// Adds the contact; refuses a name that another contact has.
 void add_contact(Table& table, ContactSpec contact, Names& names, Scene& scene);

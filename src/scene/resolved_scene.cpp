@@ -162,7 +162,7 @@ std::vector<std::string> differing_keys(const ResolvedKeys& kept, const Resolved
 
 namespace {
 
-/// Copy of the table without keys of excitation.
+/// Copy of the table without keys that describe excitation.
 toml::table undriven(toml::table table) {
   for (const char* key : {"motion", "acceleration", "surface_velocity", "normal_force", "initial_shear",
                           "temperature", "initial_strain"})

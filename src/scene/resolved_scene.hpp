@@ -28,7 +28,7 @@ namespace signorini::scene {
 class ResolvedTable {
  public:
   void set(std::string_view key, std::string value) { items_.emplace_back(key, std::move(value)); }
-  /// A copy with these keys first, in this order.
+  /// A copy that begins with the keys in `order`, in that order.
   [[nodiscard]] ResolvedTable arranged(const std::vector<std::string>& order) const;
   [[nodiscard]] std::string inline_table() const;  ///< { a = 1.0, b = 2.0 }
   [[nodiscard]] std::string lines() const;         ///< a = 1.0 \n b = 2.0 \n
@@ -44,7 +44,7 @@ class ResolvedScene {
 
   /// `table` is the top-level key, `header` the whole line: "[sections.pipe]".
   void add(std::string_view table, std::string header, const ResolvedTable& record);
-  /// Tables in `order` (top-level keys as in the file), then all others.
+  /// Text of the scene: tables in `order` (top-level keys as in the file), then all other tables.
   [[nodiscard]] std::string text(const std::vector<std::string>& order) const;
 
  private:
@@ -63,7 +63,7 @@ class ResolvedScene {
 
 using ResolvedKeys = std::map<std::string, std::string>;
 
-/// Keys without the title. Errors: FileError for a file that can no longer be read.
+/// All keys of the scene except the title. Errors: FileError for a file that can no longer be read.
 [[nodiscard]] ResolvedKeys resolved_keys(const Scene& scene);
 
 /// Keys with different values, by name: "contacts.stop.gap (0.3, here 0.2)".
@@ -71,14 +71,14 @@ using ResolvedKeys = std::map<std::string, std::string>;
 
 // Compares the structures of two scenes with all defaults filled in, table by table:
 //
-//   nodes, lines, sections, members, masses, springs, damping, supports, contacts, stops, reduction,
-//   matrices, gravity, run.geometric
+//   nodes, lines, sections, members, bodies, surfaces, seams, masses, rigid, springs, damping, supports, contacts,
+//   stops, pendulums, reduction, matrices, gravity, run.geometric
 //
-// Excitation is ignored, because a continued run may have another one: motions of supports and surfaces, normal forces
+// Excitation is ignored, because it may differ in a continued run: motions of supports and surfaces, normal forces
 // of sliders, temperatures and initial strains of members, and the initial shear of friction.
 
 [[nodiscard]] bool same_units(const toml::table& a, const toml::table& b);
-/// "kN, t, m, s"
+/// Names of the units for messages: "kN, t, m, s".
 [[nodiscard]] std::string units_of(const toml::table& scene);
 /// The tables of the structure with different content, in the order above.
 [[nodiscard]] std::vector<std::string> differing_structure(const toml::table& a, const toml::table& b);

@@ -21,7 +21,7 @@ std::string contact_in(const std::string& name, std::string_view end) {
   return name.substr(0, name.size() - end.size());
 }
 
-/// Reads states and memories of user laws. False: the column is something else.
+/// Reads the state or the memory of a user law from one column. False if the column is neither.
 bool take_own(const std::string& name, double value, std::vector<SavedState::UserLawMemory>& own) {
   if (!name.ends_with(of_own) && !name.ends_with(of_memory)) return false;
   const bool memory = name.ends_with(of_memory);
@@ -37,7 +37,7 @@ bool take_own(const std::string& name, double value, std::vector<SavedState::Use
   return true;
 }
 
-/// The sign of the slip in a cell of a column "x.state"; nullopt if the cell is not a state.
+/// Sign of the slip rate in a cell of a column "x.state", 0 without slip; nullopt if the cell is not a state.
 std::optional<int> slip_in(const std::string& name, const std::string& cell) {
   if (!name.ends_with(of_state)) return std::nullopt;
   if (cell == "slip+") return 1;
@@ -95,7 +95,7 @@ namespace {
 
 const std::vector<std::string> heading = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"};
 
-/// The contact in a row of contacts.csv; nullopt: a cell is not a number.
+/// The contact in a row of contacts.csv; nullopt if a cell that must be a number is not.
 std::optional<SavedState::FinalContact> row_of(const std::vector<std::string>& cells) {
   SavedState::FinalContact left;
   left.contact = cells[1];
@@ -144,7 +144,7 @@ std::optional<Prestress> read_prestress(const std::filesystem::path& path, const
   };
   std::vector<std::string> cells;
   if (!base::read_csv_row(in, cells) || cells != prestress_columns())
-    fail(fmt::format("found no heading \"{}\", expected the frozen forces of a run",
+    fail(fmt::format("found no heading \"{}\", expected the frozen static forces of a run",
                      fmt::join(prestress_columns(), ",")));
   const auto number = [&](const std::string& cell) {
     const auto value = base::parse_number(cell);

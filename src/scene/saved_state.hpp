@@ -3,11 +3,11 @@
 //   t,A.ux,A.uy,...,A.vx,A.vy,...,first.T,first.state
 //   1.2,0.0103,...
 //
-// Columns beside displacements and velocities, for a support B and a contact c:
+// Columns in addition to displacements and velocities, for a support B and a contact c:
 //   "support B.uy", "support B.vy"   moving supports      "c.T", "c.state"      contacts with friction
 //   "c.slip"                         shear elements       "c.own", "c.memory"   user laws
 //   "c.surface"                      moving surfaces
-// A column "x.state" with numbers belongs to a degree of freedom of that name.
+// A column "x.state" that contains numbers belongs to a degree of freedom named "x.state".
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ namespace signorini::scene {
 /// refers to the contacts that were closed at the start of the first run.
 inline constexpr const char* saved_alpha = "alpha";
 
-/// Value of this name in SavedState::motions.
+/// Value of `name` in SavedState::motions; nullopt if the state has no such value.
 [[nodiscard]] std::optional<double> saved_motion(const SavedState& state, const std::string& name);
 
 struct SavedStates {
@@ -32,7 +32,8 @@ struct SavedStates {
   std::vector<std::string> times;  ///< times of all states, as written in the file
 };
 
-/// The state at t, or the last one. Errors: SceneError at the line of the file; `key` begins the message.
+/// Reads the state at t, or the last state without t. Errors: SceneError at the line of the file; `key` begins the
+/// message.
 [[nodiscard]] SavedStates read_saved_states(std::istream& in, const std::string& file, const std::string& key,
                                             std::optional<double> t);
 
@@ -43,7 +44,7 @@ struct SavedStates {
 // A continued motion does not depend on these rows; the law checker compares the motion with them
 // (src/law_check).
 
-/// The rows at t. Empty: there are none, or the file is not that of a run.
+/// Rows of contacts.csv at time t; empty if there are none, or if the file is not the contacts.csv of a run.
 [[nodiscard]] std::vector<SavedState::FinalContact> read_final_contacts(const std::filesystem::path& path,
                                                                         double t);
 
@@ -60,7 +61,8 @@ inline constexpr const char* prestress_file = "geometric.csv";
 /// Heading of geometric.csv.
 [[nodiscard]] const std::vector<std::string>& prestress_columns();
 
-/// nullopt: the file does not exist. Errors: SceneError at the line of the file; `key` begins the message.
+/// Reads geometric.csv; nullopt if it does not exist. Errors: SceneError at the line of the file; `key` begins the
+/// message.
 [[nodiscard]] std::optional<Prestress> read_prestress(const std::filesystem::path& path,
                                                       const std::string& key);
 

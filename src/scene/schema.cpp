@@ -15,7 +15,7 @@ base::Json default_json(const Key& key) {
   return json_of(*parsed.get("value"));
 }
 
-/// "contacts[].friction" as the name of a definition, valid in an address: contacts.friction
+/// Name of the definition of a table, valid in a $ref: "contacts[].friction" -> "contacts.friction".
 std::string definition_name(std::string_view table) {
   std::string name;
   for (const char c : table) {
@@ -53,7 +53,7 @@ base::Json number_type(KeyType type) {
   return json;
 }
 
-/// An array [x, y].
+/// Schema of an array [x, y].
 base::Json plane_vector() {
   base::Json json = array_of(number_type(KeyType::number));
   json["minItems"] = 2;
@@ -68,7 +68,7 @@ base::Json direction_type() {
   return json;
 }
 
-/// Path of the table that a key contains.
+/// Path of the table that is the value of a key.
 std::string below(const Key& key) {
   return (key.table.empty() ? "" : std::string(key.table) + ".") + std::string(key.name);
 }
@@ -157,7 +157,7 @@ base::Json value_type(const Key& key) {
 base::Json key_schema(const Key& key) {
   base::Json json = value_type(key);
   if (key.table.empty() && key.name == "schema") json = {{"const", 1}};
-  // Draft 7 ignores all keywords beside a $ref.
+  // Draft 7 ignores all other keywords of an object with a $ref.
   if (json.contains("$ref")) json = {{"allOf", base::Json::array({json})}};
   json["description"] =
       std::string(key.meaning) + (key.unit.empty() ? "" : " Unit: " + std::string(key.unit) + ".");
@@ -171,7 +171,7 @@ base::Json table_schema(std::string_view table) {
   for (const std::string& name : key_names(table)) {
     const Key& key = *find_key(table, name);
     properties[name] = key_schema(key);
-    // A name chosen by the user may equal that of a key.
+    // A name chosen by the user may equal the name of a key.
     if (any) properties[name] = any_of(properties[name], value_type(*any));
     if (key.default_value == "required") required.push_back(name);
   }

@@ -39,7 +39,7 @@ std::optional<double> finite_value(const toml::node& node) {
   return number && std::isfinite(number->get()) ? std::optional(number->get()) : std::nullopt;
 }
 
-/// The default of a key. All defaults are parsed once, because a scene needs dozens of them and a sweep
+/// The default of a key. All defaults are parsed once, because a scene needs dozens of defaults and a sweep needs
 /// millions.
 const toml::node* default_of(const Key& key) {
   static const std::vector<toml::table> parsed = [] {
@@ -74,7 +74,7 @@ std::vector<double> number_array(const toml::node& node, const std::string& path
 
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path) {
   constexpr std::size_t longest = 255;
-  if (name.empty()) refuse(place, path, "found an empty name");
+  if (name.empty()) refuse(place, path, "found an empty name, expected a name");
   if (name.size() > longest)
     refuse(place, base::excerpt(path),
            fmt::format("found a name of {} bytes, expected at most {}", name.size(), longest));
@@ -123,7 +123,7 @@ Table::Table(const toml::table* node, std::string kind, std::string path, Source
   bool fits = true;
   for (const auto& [name, value] : *node_) fits = fits && can_stand(name);
   if (fits) return;
-  for (const Entry& entry : entries_of(*node_)) {  // the message names the first such key in the file
+  for (const Entry& entry : entries_of(*node_)) {  // the message names the first unknown key in the file
     if (!find_key(kind_, entry.name))
       refuse(entry.place(), this->path(entry.name),
              "unknown key" + base::suggestion(entry.name, key_names(kind_)));

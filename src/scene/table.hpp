@@ -24,14 +24,14 @@ namespace signorini::scene {
 
 class Table {
  public:
-  /// `kind` is the table's name in the key table, `path` its name in messages. An absent table is an empty one.
+  /// `kind` is the table's name in the key table, `path` its name in messages. A null `node` is read as an empty table.
   Table(const toml::table* node, std::string kind, std::string path, SourcePlace place);
 
   [[nodiscard]] bool has(std::string_view key) const { return node_->contains(key); }
-  /// The raw value, or null. Counts as read.
+  /// The value as parsed, or null if absent. Marks the key as read.
   [[nodiscard]] const toml::node* raw(std::string_view key);
 
-  // Keys with a default or required, according to the key table:
+  // For keys that are required or have a default in the key table:
   [[nodiscard]] double number(std::string_view key);
   [[nodiscard]] int integer(std::string_view key);
   [[nodiscard]] bool flag(std::string_view key);
@@ -39,19 +39,19 @@ class Table {
   [[nodiscard]] std::string choice(std::string_view key);
   [[nodiscard]] std::array<double, 2> vector(std::string_view key);
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);
-  // Keys without a default; nullopt if absent:
+  // For keys without a default; nullopt if the key is absent:
   [[nodiscard]] std::optional<double> optional_number(std::string_view key);
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key);
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key);
-  /// A table below this one, of kind "KIND.KEY"; empty if absent. The caller must record its values with
+  /// The table that is the value of `key`, of kind "KIND.KEY"; empty if absent. The caller must record its values with
   /// record().
   [[nodiscard]] Table child(std::string_view key);
 
-  /// Refuses the absence of a key; `why` ends the message.
+  /// Throws an error if the key is absent: "missing WHY, expected ...".
   void require(std::string_view key, const std::string& why);
-  /// Error "found X, expected Y" at a given key.
+  /// Throws the error "found X, expected Y", where X is the value of the key, or "missing, expected Y".
   [[noreturn]] void wrong(std::string_view key, const std::string& expected) const;
-  /// Error with a free message, at the key's value, or at the table if the key is absent.
+  /// Throws an error with this message at the place of the key, or of the table if the key is absent.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
   /// Refuses keys that were given but not read. `why` ends the message.
@@ -74,7 +74,7 @@ class Table {
 
  private:
   const Key& key(std::string_view name) const;
-  /// The given or the default value; null if there is neither.
+  /// The value in the file, or the default; null if the key has neither.
   const toml::node* value(const Key& key, std::string_view name);
 
   const toml::table* node_;
@@ -84,10 +84,11 @@ class Table {
   ResolvedTable record_;
 };
 
-/// The tables under [[key]] of the top level; messages call them "contacts.first" by name, or "loads.1".
+/// The tables under [[key]] of the top level. Their paths in messages have the name or the number: "contacts.first",
+/// "loads.1".
 [[nodiscard]] std::vector<Table> tables_of(Table& top, std::string_view key);
 
-/// A finite number at this place, or a refusal. `expected` ends the message.
+/// The node as a finite number. Errors: SceneError whose message ends with `expected`.
 [[nodiscard]] double finite_number(const toml::node& node, const std::string& path,
                                    const std::string& expected);
 
@@ -97,7 +98,7 @@ class Table {
 
 /// Refuses names that cannot be a column of a CSV file or part of a --set path.
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path);
-/// Same for a reference: a name, or BODY.NUMBER for a node of a mesh.
+/// Refuses what cannot be a reference: a name as in check_name(), or BODY.NUMBER for a node of a mesh.
 void check_reference(const std::string& name, const SourcePlace& place, const std::string& path);
 
 /// Names in the order of the file, with fast search.
@@ -118,7 +119,7 @@ class Names {
   std::unordered_map<std::string, std::size_t> index_;
 };
 
-/// Index of a name among the known names; throws otherwise. `what`: "node".
+/// Index of the name among the known names. Errors: SceneError "unknown WHAT NAME" with a suggestion; what: "node".
 std::size_t check_known(const std::string& name, const Names& known, const std::string& what,
                         const SourcePlace& place, const std::string& path);
 

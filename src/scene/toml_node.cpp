@@ -27,7 +27,7 @@ std::tuple<bool, toml::source_index, toml::source_index> position(const Entry& e
                              : std::tuple(false, region.begin.line, region.begin.column);
 }
 
-/// Escapes control characters, so that a message stays on one line.
+/// Replaces control characters by ?, so that a message stays on one line.
 std::string on_one_line(std::string text) {
   for (char& c : text) {
     if (is_control(c)) c = '?';

@@ -20,16 +20,16 @@ inline constexpr char override_mark = '\x1a';
 [[nodiscard]] SourcePlace place_of(const toml::source_region& region);
 [[nodiscard]] SourcePlace place_of(const toml::node& node);
 
-/// The control characters of ASCII.
+/// True for control characters of ASCII.
 [[nodiscard]] inline bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
-/// "the number -0.3", "the number 4.0" of a float, "the string \"abc\"", "an array of 3 values".
+/// Text for messages: "the number -0.3", "the number 4.0" for a float, "the string \"abc\"", "an array of 3 values".
 [[nodiscard]] std::string describe(const toml::node& node);
 
 /// Throws a SceneError, or a UsageError if the place is an Override.
 [[noreturn]] void refuse(const SourcePlace& place, const std::string& key, const std::string& message);
 
-/// An entry of a table.
+/// A key of a TOML table with its value.
 struct Entry {
   std::string name;
   const toml::node* node = nullptr;

@@ -85,7 +85,7 @@ std::optional<Unit> unit_named(std::string_view name, const Units& names) {
   return std::nullopt;
 }
 
-/// Multiplies the unit by "m^2" to the power of `sign`.
+/// Multiplies `unit` by a word such as "m^2" to the power of `sign`, 1 or -1. False if the word is not a unit.
 bool add_word(std::string_view word, int sign, const Units& names, Unit& unit) {
   int power = 1;
   if (const std::size_t at = word.find('^'); at != std::string_view::npos) {

@@ -1,7 +1,8 @@
 // units.hpp: unit of an output.
 //
 //   N, V, T: force     M: force length     stress: force/length^2     gap, slip: length     loss: force length
-//   motions: length or 1, over time once or twice     combination: unit of its terms times that of their factors
+//   displacement: length, or 1 for a rotation; velocity: divided by time; acceleration: divided by time^2
+//   combination: unit of an output times unit of its factor
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@ namespace signorini::scene {
 
 /// Unit of an output. `all`: the outputs of the scene, at least those before this one.
 [[nodiscard]] Unit unit_of_output(const OutputSpec& spec, const std::vector<OutputSpec>& all);
-/// Unit of a combination's term, with its factor. The term's name must be known.
+/// Unit of a term of a combination: unit of its output, which must be in `all`, times unit of its factor.
 [[nodiscard]] Unit unit_of_term(const OutputTerm& term, const std::vector<OutputSpec>& all);
 
 // Parses a unit as a scene writes it.
@@ -26,7 +27,7 @@ namespace signorini::scene {
 //
 // The inverse is unit_text() (signorini/output.hpp).
 
-/// nullopt: the text is not a unit. mass = force time^2 / length; "1" and "rad" are plain numbers.
+/// Unit for a text; nullopt if the text is not a unit. mass = force time^2 / length; "1" and "rad" are plain numbers.
 [[nodiscard]] std::optional<Unit> unit_of_text(std::string_view text, const Units& names);
 
 }  // namespace signorini::scene

@@ -248,7 +248,7 @@ plane = "stress"
   };
   refused("[[loads]]\ngroup = \"b.up\"\npressure = 1.0\n", "no boundary is named \"b.up\"; known:");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.right\"\nlaw = \"rigid\"\n",
-          "it faces no part of the slave boundary");
+          "the master faces no part of the slave boundary");
   refused(
       "[[bodies]]\nname = \"c\"\nrectangle = { from = [0.9, 0.0], size = [1.0, 1.0] }\nelements = [1, 1]\nE "
       "= 1.0\n"
@@ -256,12 +256,12 @@ plane = "stress"
       "[[seams]]\nname = \"s\"\nslave = \"b.right\"\nmaster = \"c.left\"\nlaw = \"rigid\"\n",
       "found a gap of -0.1 m at the start, expected a gap >= 0");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.bottom\"\nlaw = \"rigid\"\n",
-          "it faces no part of the slave boundary");
+          "the master faces no part of the slave boundary");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"ground\"\nlaw = \"compliant\"\n",
           "normal_stiffness");
   refused("[[rigid]]\nname = \"b\"\nnodes = [\"b.left\"]\ncentre = \"b.1\"\nmass = 1.0\ninertia = 1.0\n",
           "found \"b\", which is the name of one of [[bodies]]");
-  refused("points = { p = [1.0, 1.0], q = [1.0, 1.0] }\n", "the node at this place is called \"p\" already");
+  refused("points = { p = [1.0, 1.0], q = [1.0, 1.0] }\n", "the node at this place already has the name \"p\"");
   refused("[[supports]]\nnodes = [\"b.middle\"]\nfix = [\"ux\"]\n", "b.middle");
   refused("[[supports]]\nnodes = [\"b.left\"]\nfix = [\"rz\"]\nmotion = 0.1\n", "has no rotation");
 }

@@ -21,14 +21,14 @@ class Chart {
   constructor(charts, title, unit, series) {
     this.charts = charts;
     this.series = series.map((one) => ({ ...one }));
-    // Initially the curves with the largest motion.
+    // At first, the curves with the largest ranges are shown.
     const spans = this.series.map((one) => {
       let low = Infinity, high = -Infinity;
       for (const y of one.y) if (y !== null) { low = Math.min(low, y); high = Math.max(high, y); }
       return high - low;
     });
     const order = spans.map((_, k) => k).sort((a, b) => spans[b] - spans[a]), most = Math.max(...spans);
-    // If all motions are rounding, the first curves.
+    // If no curve changes by more than rounding errors, the curves with the largest values are shown.
     const sizes = this.series.map((one) => one.y.reduce((size, y) => Math.max(size, Math.abs(y ?? 0)), 0));
     const still = !(most > 1e-9 * Math.max(...sizes));
     if (still) order.sort((a, b) => sizes[b] - sizes[a] || a - b);
@@ -166,7 +166,7 @@ class Chart {
       pen.lineTo(X(t), high - below);
       pen.stroke();
     }
-    // Events, if there are only a few.
+    // Dotted lines at the events, if there are at most 80.
     const events = this.charts.player.times.filter((t) => t >= from && t <= to);
     if (events.length <= 80) {
       pen.strokeStyle = pale;
@@ -211,7 +211,7 @@ class Chart {
     pen.stroke();
     pen.setLineDash([]);
   }
-  // Values at the cursor.
+  // Moves the cursor to t; tells: also shows the values at t.
   read(t, tells = true) {
     const inside = t >= this.charts.from && t <= this.charts.to;
     this.cursor.style.display = inside ? "block" : "none";

@@ -70,7 +70,7 @@ class Player {
       byId("legend").append(entry);
     });
   }
-  // The states of the first contacts over time, one path per state and contact.
+  // The states of the first 24 contacts over time, one path per state and contact.
   bands() {
     const svg = byId("bands"), height = 16, shown = data.contacts.slice(0, 24);
     svg.replaceChildren();
@@ -187,7 +187,7 @@ class Player {
   stateOf({ motion: { t, state } }) {
     return t.length ? data.states[state[Math.max(0, rowAt(t, this.t))]]?.[0] : "open";
   }
-  // Rounding relative to the largest of its kind is shown as zero.
+  // A rounding error, compared with the greatest value of its kind, is shown as zero.
   figure(x, digits, greatest) {
     return Math.abs(x) <= 2.2e-13 * greatest ? "0" : x.toPrecision(digits);
   }

@@ -17,7 +17,7 @@ const rowAt = (times, t) => {
   }
   return low;
 };
-// Row, and fraction of the way to the next one.
+// The last row that is not later than t, and the fraction of the interval to the next row.
 const between = (times, t) => {
   const row = Math.max(0, rowAt(times, t));
   const step = row + 1 < times.length ? times[row + 1] - times[row] : 0;
@@ -29,7 +29,7 @@ const valueAt = (times, values, t) => {
   return part ? values[row] + part * (values[row + 1] - values[row]) : values[row];
 };
 
-// Displacements of all nodes at a time, as [ux, uy, rz]; fixed ones are zero. The same arrays at every call.
+// Displacements [ux, uy, rz] of all nodes at a time, zero for fixed nodes. Every call fills the same arrays.
 const moved = data ? data.nodes.map(() => [0, 0, 0]) : [];
 // Displacements of meshes: a sum of shapes times their parts at that time. A node with a curve follows its curve.
 const moveMesh = (t) => {
@@ -122,13 +122,13 @@ class Stage {
     const head = `M${tip}L${to(X - h * (c - 0.5 * s), Y - h * (s + 0.5 * c))}M${tip}L${to(X - h * (c + 0.5 * s), Y - h * (s - 0.5 * c))}`;
     return `M${to(X - c * length, Y - s * length)}L${tip}` + head;
   }
-  // Everything at rest: grounds of contacts, supports. The distance of a ground is its gap, magnified by m like the
-  // motion, and its width is the range of its node.
+  // Draws what does not move: grounds of contacts, supports. A ground is drawn at the distance of the gap, magnified by m
+  // like the motion; its width is the range of motion of the contact's node.
   fixed(parent, m) {
     const symbols = [];
     for (const support of data.supports) {
       const node = data.nodes[support.node], kind = `${support.ux}${support.uy}${support.rz}`;
-      if (node.mesh) {  // only as many boundary nodes as there is room for
+      if (node.mesh) {  // draw only as many symbols along a boundary as there is room for
         const here = this.at(node.x, node.y);
         if (symbols.some(([x, y, of]) => of === kind && Math.hypot(x - here[0], y - here[1]) < 24)) continue;
         symbols.push([...here, kind]);
@@ -153,7 +153,7 @@ class Stage {
       drawn("path", { class: "ground", d: path }, parent);
     }
   }
-  // Distance to the next contact in pixels.
+  // Distance to the nearest other contact in pixels, at most 100.
   room(contact) {
     if (!this.rooms) {
       const at = data.contacts.map((c) => c.node < 0 ? [Infinity, 0] : this.at(data.nodes[c.node].x, data.nodes[c.node].y));
@@ -162,7 +162,7 @@ class Stage {
     }
     return this.rooms.get(contact);
   }
-  // Range of a contact's node along the tangent; for a mesh from its parts at all times.
+  // Largest displacement of a contact's node along the tangent; for a node of a mesh, from the shapes and their parts.
   reach(contact) {
     const [cx, cy] = data.nodes[contact.node].u;
     if (contact.reach === undefined && data.nodes[contact.node].mesh && data.mesh_motion) {
@@ -222,7 +222,7 @@ const placeLabels = (stage, g, labels) => {
     const [x, y] = stage.at(node.x, node.y);
     taken.push([x - 5, y - 5, x + 5, y + 5]);
   }
-  for (const piece of data.pieces) {  // small boxes along members
+  for (const piece of data.pieces) {  // labels must not cover members: small boxes along them
     const [x, y] = stage.place(piece.a, still, 0), [X, Y] = stage.place(piece.b, still, 0);
     const count = Math.ceil(Math.hypot(X - x, Y - y) / 6);
     for (let i = 0; i <= count; ++i) {
@@ -230,7 +230,7 @@ const placeLabels = (stage, g, labels) => {
       taken.push([px - 2, py - 2, px + 2, py + 2]);
     }
   }
-  for (const contact of data.contacts) {  // and along grounds
+  for (const contact of data.contacts) {  // small boxes along grounds
     if (contact.node < 0 || contact.against.length) continue;
     const [x, y] = stage.place(contact.node, still, 0), nx = contact.nx, ny = -contact.ny;
     for (let s = -stage.mark; s <= stage.mark; s += 6) {
@@ -238,7 +238,7 @@ const placeLabels = (stage, g, labels) => {
       taken.push([px - 4, py - 4, px + 4, py + 4]);
     }
   }
-  for (const load of data.loads) {  // and along arrows
+  for (const load of data.loads) {  // small boxes along arrows of loads
     const [x, y] = stage.place(load.node, still, 0);
     for (let s = 0; s <= 60; s += 6) {
       const px = x - s * load.dx, py = y + s * load.dy;
@@ -265,7 +265,7 @@ const placeLabels = (stage, g, labels) => {
     label.setAttribute("x", best.left.toFixed(1));
     label.setAttribute("y", best.base.toFixed(1));
     taken.push(best.box);
-    if (best.distance > 2 * far) {  // a line connects it to its point
+    if (best.distance > 2 * far) {  // a line connects a distant label to its point
       const bx = Math.min(best.box[2], Math.max(best.box[0], x)), by = Math.min(best.box[3], Math.max(best.box[1], y));
       drawn("path", { class: "leader", d: `M${x.toFixed(1)} ${y.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}` }, g);
     }

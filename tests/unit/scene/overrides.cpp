@@ -118,11 +118,11 @@ TEST_CASE("a path with * says how many tables it met") {
   CHECK(scene::tables_met(root, "masses.*.mass") == "3 of [[masses]]");
   CHECK(scene::tables_met(root, "contacts.under-a.friction").empty());
   CHECK(scene::tables_met(root, "contacts.*.tangent") ==
-        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key as they are)");
+        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   // A guide without a tangential stiffness stays without friction, and is told.
   const std::string smooth = guided("");
   CHECK(scene::tables_met(toml::parse(smooth), "contacts.*.friction") ==
-        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key as they are)");
+        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   const Scene scene = parse_scene(smooth, "test.toml", {{"contacts.*.friction", "0.7"}});
   CHECK(scene.contacts[0].friction.static_ == 0.7);
   CHECK_FALSE(scene.contacts[3].friction.any());

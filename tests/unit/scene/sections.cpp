@@ -143,7 +143,7 @@ TEST_CASE("bends: the printed formula, given factors, and what cannot be") {
       parse_scene(member("{ radius = 1.2 }", "section = \"s\""), "test.toml").members.at(0).elements.at(0) ==
       8);
   has(refusal_of(member("{ radius = 0.7 }", "section = \"s\"")),
-      "members.1.bend.radius: found 0.7, expected at least half the distance of \"A\" and \"B\", "
+      "members.1.bend.radius: found 0.7, expected at least half the distance between \"A\" and \"B\", "
       "0.707106781");
   has(refusal_of(member("{ radius = 0.0 }", "section = \"s\"")), "found 0, expected at least half");
   has(refusal_of(member("{ radius = 1.2 }", "section = \"s\"\nelements = 1")),
@@ -171,9 +171,9 @@ TEST_CASE("hangers: two of cold load, travel and stiffness") {
   }
   is(read("preload = -3.0").preload, -3.0);
   CHECK(!read("preload = -3.0").hot_load);
-  has(refusal_of(spring("hanger = { hot = 12.0, cold = 14.0 }")), "expected two of cold, travel");
+  has(refusal_of(spring("hanger = { hot = 12.0, cold = 14.0 }")), "expected hot and two of cold, travel");
   has(refusal_of(spring("stiffness = 1.0\nhanger = { hot = 12.0, cold = 14.0, travel = 2.0 }")),
-      "expected two of");
+      "expected hot and two of");
   has(refusal_of(spring("hanger = { hot = 12.0, cold = 10.0, travel = 0.02 }")),
       "the stiffness would be -100");
   has(refusal_of(spring("preload = 1.0\nhanger = { hot = 12.0, cold = 14.0, travel = 0.1 }")),
@@ -183,7 +183,7 @@ TEST_CASE("hangers: two of cold load, travel and stiffness") {
        {std::tuple{"hanger = { hot = 12.0, cold = 14.0, travel = 0.02 }",
                    Override{"springs.1.hanger.hot", "15.0"}, "the stiffness would be -50"},
         {"hanger = { hot = 12.0, cold = 14.0, travel = 0.02 }", Override{"springs.1.stiffness", "3.0"},
-         "expected two of"},
+         "expected hot and two of"},
         {"hanger = { hot = 12.0, cold = 14.0, travel = 0.02 }", Override{"springs.1.preload", "3.0"},
          "cannot be combined with hanger"},
         {"preload = 3.0", Override{"springs.1.hanger", "{ hot = 12.0, cold = 14.0, travel = 0.02 }"},
@@ -198,7 +198,7 @@ TEST_CASE("hangers: two of cold load, travel and stiffness") {
                          doctest::Contains(("--set " + change.path).c_str()), UsageError);
   }
   has(refusal_of(scene_with("", "[[springs]]\nnode = \"A\"\nrotation_stiffness = 1.0\npreload = 2.0\n")),
-      "needs a direction beside it");
+      "needs a direction in the same table");
 }
 
 TEST_CASE("sections, bends, hangers and factors read back as they were, and change with the units") {

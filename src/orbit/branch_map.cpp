@@ -15,12 +15,14 @@
 namespace signorini::orbit {
 namespace {
 
-// Step of finite differences relative to the range. The error is the second derivative times the step, plus
-// noise/step. The residual of an orbit shows the noise, and its square root balances both terms. Chosen:
-// bounds of the step for `exact`, and the step for `ida`.
+// Steps of finite differences, relative to the range. The error is the second derivative times the step, plus
+// noise/step. The residual of an orbit estimates the noise, and its square root balances both terms. The
+// bounds of the step for the engine `exact` and the step for `ida` are chosen values.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-constexpr std::size_t max_kept = 4;  // number of maps: for a point, its finite difference, and the next point
-constexpr double max_periods = restart_periods + 4.0;  // a transient, and passes through the orbit
+// number of cached maps: for a point, its finite difference, and the next point
+constexpr std::size_t max_kept = 4;
+// length of a scene's run: a transient, and a few passes through the orbit
+constexpr double max_periods = restart_periods + 4.0;
 constexpr double same_time = 1e-9;  // relative to a period: rounding of times written as text
 
 }  // namespace

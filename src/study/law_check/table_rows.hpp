@@ -32,7 +32,8 @@ namespace signorini::directory_check {
 struct RunSpan {
   std::vector<double> grid;           ///< output times, up to t_end
   bool ended = true, stopped = true;  ///< as in the run's summary
-  double reached = 0.0;               ///< as recorded; for a run that has not ended, the last instant
+  /// time reached as recorded; for a run that has not ended, the last instant
+  double reached = 0.0;
 };
 
 class TableRowOrder {
@@ -69,13 +70,13 @@ class TableRowChecker {
  public:
   using Found = std::function<void(Violation)>;
 
-  /// All arguments must outlive the object. stopped: the run ended before t_end, by itself.
+  /// All arguments must outlive the object. stopped: true if the run stopped itself before t_end.
   TableRowChecker(const Model& model, const run::CheckedEngine& engine, const law_check::LawChecker& witness,
                   bool stopped);
-  /// Takes the states on both sides of an instant; to be called in the order of time.
+  /// Stores the states on both sides of an instant. Instants must be passed in the order of time.
   void instant(const InstantRow& row, const law_check::InstantRecord& record);
-  /// Both check all rows of a table (contacts.csv or motion.csv) and its completeness, and return the number
-  /// of rows. Errors: FileError.
+  /// Each function checks all rows and the completeness of one table, contacts.csv or motion.csv, and returns
+  /// the number of rows. Errors: FileError.
   long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   /// Compares peaks with the checked rows and instants.
@@ -89,11 +90,12 @@ class TableRowChecker {
     double t = 0.0, resolution = 0.0;
     std::vector<ContactState> before, after;
   };
-  /// Largest magnitudes of terms over the whole run.
+  /// Largest magnitudes of a contact's terms over the whole run, which determine rounding limits; gap and ut
+  /// at the start.
   struct Size {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
-  struct Order {  // position in a table
+  struct Order {  // checks of the order and of the end of a table
     void (TableRowOrder::*row)(const RecordedRow&);
     void (TableRowOrder::*end)(const RecordedRowReader&) const;
   };
@@ -118,8 +120,8 @@ class TableRowChecker {
   std::vector<States> states_;
   std::vector<Size> sizes_;
   std::vector<Peak> peaks_;
-  std::vector<RecordedSummary::Load> loads_;  // extremes over rows
-  std::vector<bool> reached_;                 // true if a row reaches the peak
+  std::vector<RecordedSummary::Load> loads_;  // extremes over the checked rows
+  std::vector<bool> reached_;                 // true if loads_ contains a row of the contact
 };
 
 }  // namespace signorini::directory_check

@@ -21,7 +21,7 @@ namespace signorini::quake {
 
 struct QuakeSpec {
   double duration = 20.0;  ///< D, s
-  double dt = 0.01;        ///< s
+  double dt = 0.01;        ///< interval of the samples, s
   double pga = 0.0;        ///< largest |a|, in the unit of a
   unsigned long seed = 1;
   double ground_frequency = 2.5, ground_damping = 0.6;  ///< wg / 2 pi in Hz, zg
@@ -33,7 +33,7 @@ struct QuakeSpec {
 inline constexpr double min_matched_period = 0.05, max_matched_period = 2.0;  // s
 inline constexpr double spectrum_damping = 0.05;
 
-/// Samples at 0, dt, ..., D, in the unit of pga or target.
+/// Samples of a at 0, dt, ..., D, in the unit of pga or target.
 [[nodiscard]] std::vector<double> quake(const QuakeSpec& spec);
 
 /// Largest |velocity| and |displacement| of the ground, and their final values. The ground starts from rest,

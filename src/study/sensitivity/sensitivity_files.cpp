@@ -296,10 +296,10 @@ void read_parameters(const fs::path& file, Sensitivities& s, Sigmas& sigmas) {
       if (row.contains("sigma")) sigmas.push_back(row.at("sigma"));
     }
   } catch (const base::Json::exception& error) {
-    throw FileError(file.string(), std::string("is not of sensitivities: ") + error.what());
+    throw FileError(file.string(), std::string("is not a file of `signorini sensitivity`: ") + error.what());
   }
   if (s.parameters.empty() || (!sigmas.empty() && sigmas.size() != s.parameters.size()))
-    throw FileError(file.string(), "expected parameters, all of them with a sigma or none");
+    throw FileError(file.string(), "expected at least one parameter, and a sigma for every parameter or for none");
 }
 
 }  // namespace

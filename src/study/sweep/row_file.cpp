@@ -26,7 +26,7 @@ void check_kind(const fs::path& file) {
   if (!why.empty()) throw FileError(file.string(), why + ", expected the rows of a sweep");
 }
 
-/// Calls take(line, number) for each complete line; returns their total size.
+/// Calls take(line, number) for each complete line; returns the total size of these lines in bytes.
 template <class Take>
 std::uintmax_t whole_lines(const fs::path& file, const Take& take) {
   check_kind(file);

@@ -13,7 +13,7 @@
 namespace signorini::sweep {
 namespace {
 
-// Relative difference up to which periods count as a ratio of integers, as in orbit/load_period.cpp.
+// Relative difference up to which two periods have a ratio of integers, as in orbit/load_period.cpp.
 constexpr double same_period = 1e-9;
 
 /// Number of complete periods in the time t.
@@ -93,7 +93,8 @@ void StroboscopicRecorder::sample(const Sample& sample) {
   // Rows are at k times the period up to rounding; the end of the run is also a row.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(sample.t);
   if (turns < 1.0 || std::abs(sample.t - turns * strobe_.period) > rounding) return;
-  if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();  // its other side
+  // the state before the same instant
+  if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();
   add(sample);
 }
 

@@ -36,7 +36,7 @@ struct SweepAxis {
 
 /// Rows with equal values of all keys except the axis.
 struct SweepCurve {
-  std::string name;  ///< the common values
+  std::string name;  ///< values of the other keys, as text
   std::vector<const SweepRow*> rows;
 };
 /// Curves of the rows that ran, in their order.

@@ -236,7 +236,7 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   if (was.sampling != is.sampling) return differ("--sample", was.sampling, is.sampling);
   if (was.vary != is.vary) {
     const std::string a = text_of(was.vary), b = text_of(is.vary);
-    return a == b ? "--together was another" : differ("--vary", a, b);
+    return a == b ? "--together was different" : differ("--vary", a, b);
   }
   if (was.responses != is.responses)
     return differ("--response", text_of(was.responses), text_of(is.responses));

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double shortest_step = 1e-7;  // lower limit for ds, in the norm of branch_newton.hpp
 constexpr int quick = 4;                // number of corrections up to which the next step may be longer
-// limit for distance / ds; a longer step has ended at another branch. Chosen value.
+// Limit for distance / ds; a longer step has ended at another branch. Chosen value.
 constexpr double longest_way = 10.0;
-// residual / amplitude up to which a shifted orbit is periodic; above the noise. Chosen value.
+// Residual / amplitude up to which a shifted orbit is periodic; above the noise. Chosen value.
 constexpr double shifted_to = 1e-3;
-constexpr double restart_step = 2e-3;   // step of the search beyond a gap, relative to the range of the key
+constexpr double restart_step = 2e-3;  // step of the search beyond a gap, relative to the range of the key
 // Relative difference of amplitudes and multipliers up to which has_passed() regards two orbits as the same.
 // Amplitudes come from sampled rows; multipliers are interpolated between two points. Chosen value.
 constexpr double same_amplitude = 0.05;
@@ -120,8 +120,7 @@ Vector BranchContinuation::direction(const std::optional<SecantPoint>& place, Co
   return (turning_ ? way : tangent) + drift;
 }
 
-/// Text of the sequence of events. It begins with the alphabetically least rotation, because the section may
-/// move.
+/// Text of the sequence of events. It begins with the alphabetically least rotation, because the section may move.
 std::string BranchContinuation::sequence_of(const OrbitPass& pass) const {
   std::vector<std::string> list;
   for (const Event& e : pass.events)
@@ -262,8 +261,7 @@ bool BranchContinuation::has_passed(const CorrectedPoint& at) {
 }
 
 /// Where two orbits merge, a step to another sequence of events may end at the second orbit; found_beyond_
-/// stores that orbit. Returns false if the continuation has reversed its direction and repeats earlier
-/// points.
+/// stores that orbit. Returns false if the continuation has reversed its direction and repeats earlier points.
 bool BranchContinuation::may_continue(const CorrectedPoint& here, const CorrectedPoint& next, double along) {
   if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
   if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
@@ -368,7 +366,7 @@ void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
 }
 
 /// Sets end_ at an end of the range. A branch that returns to its beginning after a gap is incomplete: the
-/// gap separates it from another piece.
+/// gap separates two pieces of the branch.
 void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
   end_ = fmt::format("{} {} = {:.9g}", along > 0.0 ? "reached" : "returned to", options_.path, value(here));
   if (along > 0.0 || number_ != 1) return;

@@ -3,8 +3,7 @@
 // Predictor: a step along the direction of the branch. Corrector: Newton's method orthogonal to this
 // direction (branch_newton.hpp). Test functions find special points between two points (special_points.hpp).
 //
-// If orbits form a family, the continuation follows the orbit in the middle of the family
-// (branch_newton.hpp).
+// If orbits form a family, the continuation follows the orbit in the middle of the family (branch_newton.hpp).
 //
 // If even the shortest step fails, for instance where a guard grazes, the continuation searches for an orbit
 // at a slightly further value of the key: first by Newton's method with damped steps, then by a transient
@@ -22,7 +21,7 @@ namespace signorini::orbit {
 struct Junction {
   BranchMap map;      ///< map of the other branch
   CorrectedPoint at;  ///< the junction, as a point of the first of the two branches
-  /// direction of the other branch at the junction: coordinates at the section; dT/T if T is an unknown; s
+  /// Direction of the other branch at the junction: coordinates at the section; dT/T if T is an unknown; s.
   Vector away;
   std::string kind;
   int from = 1;        ///< number of the branch on which the junction was found
@@ -145,8 +144,7 @@ class BranchContinuation {
   bool turning_ = false;  // the tangent differs from the branch's last step (direction())
   // Component along the parameter of the tangent at the last point, in the section of the step that led to
   // this point; 0: unknown.
-  double ahead_ =
-      0.0;
+  double ahead_ = 0.0;
   bool doubled_ = false;  // the branch began at a flip
   double half_section_ = 0.0;
   Vector half_;  // for a doubled branch: z(T/2) - z at the last point

@@ -19,9 +19,9 @@ namespace {
 // noise/step. The residual of an orbit estimates the noise, and its square root balances both terms. The
 // bounds of the step for the engine `exact` and the step for `ida` are chosen values.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-// number of cached maps: for a point, its finite difference, and the next point
+// Number of cached maps: for a point, its finite difference, and the next point.
 constexpr std::size_t max_kept = 4;
-// length of a scene's run: a transient, and a few passes through the orbit
+// Length of a scene's run: a transient, and a few passes through the orbit.
 constexpr double max_periods = restart_periods + 4.0;
 constexpr double same_time = 1e-9;  // relative to a period: rounding of times written as text
 

@@ -31,8 +31,7 @@ class BranchMap {
  public:
   BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first, Recorder* recorder);
 
-  /// The orbit at `state` in the form that find_orbit() returns: period, phase, and the state at the orbit's
-  /// time 0.
+  /// The orbit at `state` in the form that find_orbit() returns: period, phase, and the state at the orbit's time 0.
   [[nodiscard]] Orbit orbit_at(const BranchState& state) const;
   /// The same map over twice the period.
   [[nodiscard]] BranchMap doubled() const;

@@ -13,26 +13,24 @@ namespace signorini::orbit {
 namespace {
 
 constexpr int max_corrections = 10;
-// upper limit for a correction in the norm; steps are shorter. Chosen value.
+// Upper limit for a correction in the norm; steps are shorter. Chosen value.
 constexpr double longest_correction = 0.1;
 constexpr double slow = 0.02;  // ratio of successive residuals above which dG/ds is recomputed
-// residual / amplitude accepted if it stagnates, as in shooting.cpp
+// Residual / amplitude accepted if it stagnates, as in shooting.cpp.
 constexpr double corrected_at_last = 1e-9;
 // The residual cannot decrease below a few times the noise of the map. Chosen value.
 constexpr double of_noise = 4.0;
-// residual / amplitude up to which damped steps are tried. Chosen value.
+// Residual / amplitude up to which damped steps are tried. Chosen value.
 constexpr double worth_damping = 1e-3;
-// lower limit for a direction's part outside all families. Chosen value.
+// Lower limit for a direction's part outside all families. Chosen value.
 constexpr double least_left = 1e-6;
-constexpr double held_from = 0.7;       // |t_s| from which corrections fix the parameter. Chosen value.
-constexpr double least_size = 1e-3;     // lower limit for a coordinate in the norm; chosen value
+constexpr double held_from = 0.7;    // |t_s| from which corrections fix the parameter. Chosen value.
+constexpr double least_size = 1e-3;  // lower limit for a coordinate in the norm; chosen value
 // Relative limits below which singular values are zero, as in shooting.cpp. The finer limit applies after a
 // correction that reduced the residual by less than half.
 constexpr double singular = 1e-9, finer_singular = 1e-12;
-// Number of amplitudes: a change of the state by so many amplitudes has the same length as the range of the
-// parameter.
-constexpr double amplitudes_a_range =
-    5.0;
+// Number of amplitudes: a change of the state by so many amplitudes has the same length as the range of the parameter.
+constexpr double amplitudes_a_range = 5.0;
 // Fraction of the largest amplitude along the branch. Below it the steps no longer shrink with the amplitude,
 // so that the amplitude can reach zero. Chosen value.
 constexpr double vanishing = 0.05;
@@ -40,8 +38,7 @@ constexpr double vanishing = 0.05;
 // the caller verifies the shifted orbit.
 constexpr double shifts_by = 1e-3;
 
-/// Weights sqrt(m_i/m) of the coordinates at a section, m: largest mass, in scales; 1 for a coordinate
-/// without mass.
+/// Weights sqrt(m_i/m) of the coordinates at a section, m: largest mass, in scales; 1 for a coordinate without mass.
 Vector mass_weights(const Model& model, const OrbitSection& section) {
   const auto n = model.size();
   Vector root(n);
@@ -211,8 +208,7 @@ BranchNewton::StepDirection BranchNewton::split(CorrectedPoint& at, const Vector
   return {rest / rest.norm(), part / std::max(rest.norm(), part.norm())};
 }
 
-/// Removes from t its part along families. Phi - I is zero along families as well, but the branch must not
-/// drift there.
+/// Removes from t its part along families. Phi - I is zero along families as well, but the branch must not drift there.
 Vector BranchNewton::without_families(CorrectedPoint& at, const Vector& t) const {
   return families(at).cols() == 0 ? t : split(at, t).across;
 }
@@ -318,10 +314,8 @@ namespace {
 // limit is at least `finest` and at most `coarsest` times the amplitude of T. Chosen values.
 constexpr double balanced = 1e-3, finest = 1e-8, coarsest = 1e-5;
 constexpr double along_family = 1e-5;  // step of finite differences, in the norm; chosen value
-// Limit below which a direction changes no margin: change of margins in amplitudes of T per unit. Chosen
-// value.
-constexpr double singular_family =
-    1e-6;
+// Limit below which a direction changes no margin: change of margins in amplitudes of T per unit. Chosen value.
+constexpr double singular_family = 1e-6;
 constexpr int max_centrings = 3;
 
 std::vector<std::size_t> never_slip(const Model& model, const OrbitPass& pass) {
@@ -348,8 +342,7 @@ bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass
   return d.cwiseAbs().maxCoeff() <= std::clamp(balanced * least, finest * T, coarsest * T);
 }
 
-/// Derivatives of imbalances() along the directions of the family; empty if a run fails. here: imbalances()
-/// at `at`.
+/// Derivatives of imbalances() along the directions of the family; empty if a run fails. here: imbalances() at `at`.
 Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const CorrectedPoint& at,
                        const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& directions,
                        const Vector& here) {

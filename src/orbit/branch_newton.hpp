@@ -9,9 +9,8 @@
 // kind also has length 1. A coordinate with little mass, such as in the fast mode shapes of a fine mesh, has
 // the smaller weight sqrt(m_i/m), m: largest mass.
 //
-// Far from folds Newton's method keeps the parameter fixed and corrects only the state. A key that changes
-// the period rotates the phases of fast mode shapes by omega dT. Therefore dG/ds of the last point is not
-// valid at the next point.
+// Far from folds Newton's method keeps the parameter fixed and corrects only the state. A key that changes the period
+// rotates the phases of fast mode shapes by omega dT. Therefore dG/ds of the last point is not valid at the next point.
 #pragma once
 
 #include "orbit/branch_map.hpp"
@@ -22,8 +21,7 @@ namespace signorini::orbit {
 /// Target for residual / amplitude, unless the noise of the map is larger.
 inline constexpr double correction_tolerance = 1e-11;
 
-/// Two directions are regarded as equal if the cosine of the angle between them exceeds this value. Chosen
-/// value.
+/// Two directions are regarded as equal if the cosine of the angle between them exceeds this value. Chosen value.
 inline constexpr double same_direction_cosine = 0.9;
 
 /// Data of a point of the branch from which a secant is computed.
@@ -42,8 +40,7 @@ struct CorrectedPoint {
   int iterations = 0;
   /// B^T dG/ds at this point; the last row is the derivative of the energy if it is prescribed; empty: not
   /// computed yet.
-  Vector
-      derivative_by_s;
+  Vector derivative_by_s;
   Eigen::MatrixXd monodromy;  ///< set by examine(), like multipliers and tests
   Multipliers multipliers;
   double error = 0.0;      ///< error of the monodromy matrix, from error_of()
@@ -73,10 +70,9 @@ class BranchNewton {
   /// Corrects `guess` orthogonally to t. by_s: dG/ds at the previous point, used while Newton's method
   /// converges fast; if empty, dG/ds is computed.
   [[nodiscard]] CorrectedPoint correct(BranchState guess, const Vector& t, const Vector& by_s) const;
-  /// Returns the direction of the branch, oriented like `before`, and computes multipliers and test
-  /// functions. ones: number of structural multipliers 1 at the previous point; if absent, multipliers near 1
-  /// are counted, which requires that no special point is near. known: true if `before` already is the
-  /// direction.
+  /// Returns the direction of the branch, oriented like `before`, and computes multipliers and test functions.
+  /// ones: number of structural multipliers 1 at the previous point; if absent, multipliers near 1 are
+  /// counted, which requires that no special point is near. known: true if `before` already is the direction.
   Vector examine(CorrectedPoint& at, const Vector& before, std::optional<std::size_t> ones = {},
                  bool known = false) const;
   /// True if corrections fix the parameter for this direction.
@@ -138,7 +134,6 @@ class BranchNewton {
 // margin grazes. If the branch continued from such a member, each step would make the contact slip once and
 // end at the limit again, so every point would graze. In the middle no guard grazes until both margins are
 // zero; there the contact begins to slip in both directions.
-// begins to slip in both directions.
 //
 // Margins are linear in a if all forces are linear in a. The derivative d(margins)/da is computed as a
 // difference of two runs.

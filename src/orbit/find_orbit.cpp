@@ -1,5 +1,4 @@
-// find_orbit() in five steps: period of the loads, transient, section away from events, Newton's method,
-// multipliers.
+// find_orbit() in five steps: period of the loads, transient, section away from events, Newton's method, multipliers.
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -23,18 +22,16 @@ namespace signorini {
 namespace {
 
 constexpr int max_transients = 3;  // number of transients that are tried, one after the other
-// Distance to the neighbouring members of a family that are checked for slip, relative to the amplitude.
-// Chosen value.
+// Distance to the neighbouring members of a family that are checked for slip, relative to the amplitude. Chosen value.
 constexpr double beside = 1e-6;
 // Duration, in periods, of the run that records events: more than 1 because a run does not record an event at
 // its beginning.
 constexpr double seen_periods = 1.1;
-// largest number of periods after which a transient is checked for repetition
+// Largest number of periods after which a transient is checked for repetition.
 constexpr int max_repeats = 6;
 constexpr double comes_back = 1e-3;  // distance / amplitude of a repetition; chosen value
-// Divisors n of a period T. A search from an initial guess may find any multiple of the period, so the
-// program checks whether a self-excited motion closes after T/n already. Larger primes are not checked.
-// Chosen value.
+// Divisors n of a period T. A search from an initial guess may find any multiple of the period, so the program
+// checks whether a self-excited motion closes after T/n already. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};
 // If the residual / amplitude after T/n is at most this value, Newton's method restarts with the period T/n
 // and may change it by at most this relative value: the remaining error of an orbit that closed to 1e-9
@@ -251,8 +248,7 @@ bool Search::close(const orbit::OrbitState& state, double section, double period
   return true;
 }
 
-/// Reduces the period to the smallest one: if the period T found is a multiple of it, the orbit also closes
-/// after T/n.
+/// Reduces the period to the smallest one: if the period T found is a multiple of it, the orbit also closes after T/n.
 void Search::shorten() {
   if (!orbit_.autonomous || options_.times > 1 || !(shot_.pass.u_amplitude > 0.0)) return;
   for (const int n : shorter_by)
@@ -316,14 +312,14 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
       for (std::size_t c = 0; c < pass.never_slips.size() && other.done(); ++c)
         if (pass.never_slips[c] && !other.never_slips[c])
           orbit_.reason = fmt::format(
-              "multipliers are valid on one side of the orbit only: contact '{}' reaches its friction limit, and slips in "
-              "neighbouring orbits",
+              "multipliers are valid on one side of the orbit only: contact '{}' reaches its friction limit, "
+              "and slips in neighbouring orbits",
               map_->model().contacts[c].name);
     }
 }
 
-/// Number of samples of one period. They miss a smooth extreme by (pi / places_recorded)^2 / 2 of the
-/// amplitude, and an impact by pi / places_recorded of the amplitude.
+/// Number of samples of one period. A smooth extreme is missed by (pi / places_recorded)^2 / 2 of the amplitude,
+/// the extreme at an impact by pi / places_recorded of the amplitude.
 constexpr int places_recorded = 720;
 /// An event that precedes the orbit's time 0 by less than this fraction of the period is an event at time 0.
 /// Chosen value: the remaining error of an orbit that closed to 1e-9.
@@ -391,8 +387,7 @@ Scene orbit_scene(const SceneReader& read, const Orbit& orbit) {
   return scene;
 }
 
-// continue_branch(): the branch of the orbit that find_orbit() returns, and the branches that begin on this
-// branch.
+// continue_branch(): the branch of the orbit that find_orbit() returns, and the branches that begin on this branch.
 
 namespace {
 

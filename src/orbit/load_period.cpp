@@ -16,7 +16,7 @@ namespace {
 // with at least this accuracy. Chosen value.
 constexpr double same_period = 1e-9;
 constexpr int max_multiples = 100;
-// number of times at which a history is compared with itself one period later; chosen value
+// Number of times at which a history is compared with itself one period later; chosen value.
 constexpr int compared_places = 41;
 
 /// A history of the scene, and its key.
@@ -179,8 +179,7 @@ std::vector<Override> shifted_excitation(const Scene& scene, double time) {
 
 namespace {
 
-// The first return within this distance is used. Distances are relative to the range of the motion. Chosen
-// value.
+// The first return within this distance is used. Distances are relative to the range of the motion. Chosen value.
 constexpr double near_enough = 0.02;
 // A return at a larger distance is ignored.
 constexpr double too_far = 0.5;

@@ -25,8 +25,7 @@ struct LoadPeriod {
   bool surfaces_move = false;    ///< true if a contact has a moving surface (belt)
 };
 
-/// One entry per load: true if the load's period is used even if its amplitude is zero. Empty: false for all
-/// loads.
+/// One entry per load: true if the load's period is used even if its amplitude is zero. Empty: false for all loads.
 using CountedLoads = std::vector<bool>;
 
 /// True for each load with nonzero amplitude; true for all loads if all amplitudes are zero.

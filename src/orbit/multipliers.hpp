@@ -38,8 +38,7 @@ using Multipliers = std::vector<std::complex<double>>;
 /// the orbit's states / amplitude.
 [[nodiscard]] double error_of(const Eigen::MatrixXd& phi, double rates_error, double states);
 
-/// Error of the distance from the unit circle. error: error of the multipliers; keeps: true if energy is
-/// conserved.
+/// Error of the distance from the unit circle. error: error of the multipliers; keeps: true if energy is conserved.
 [[nodiscard]] inline double error_at_circle(double error, bool keeps) {
   return keeps ? std::sqrt(error) : error;
 }

@@ -11,7 +11,7 @@ namespace {
 // Limit for period / fastest decay time: a series needs one step per 5 decay times, thus up to 400 per
 // period. Chosen value.
 constexpr double max_decays = 2000.0;
-// error of a state relative to rtol: errors of steps accumulate over a period; chosen value
+// Error of a state relative to rtol: errors of steps accumulate over a period; chosen value.
 constexpr double of_tolerance = 100.0;
 
 }  // namespace

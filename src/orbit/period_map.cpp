@@ -11,7 +11,7 @@
 namespace signorini::orbit {
 namespace {
 
-// number of degrees of freedom from which modes are faster than the series. Chosen value.
+// Number of degrees of freedom from which modes are faster than the series. Chosen value.
 constexpr int min_in_modes = 6;
 
 /// Minimum of a sampled function, refined by the parabola through the three samples around the minimum.

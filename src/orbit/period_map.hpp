@@ -2,9 +2,8 @@
 //
 //   z -> z(T; z),     Phi B: tangent motions of all columns of B, computed along with one run
 //
-// Phi: product of the propagators between events and of the events' rank-one jumps
-// (sensitivity/tangent_run.hpp). Units: machine units of the computed model; events and energies are in the
-// scene's units.
+// Phi: product of the propagators between events and of the events' rank-one jumps (sensitivity/tangent_run.hpp).
+// Units: machine units of the computed model; events and energies are in the scene's units.
 #pragma once
 
 #include <array>
@@ -26,7 +25,7 @@ struct OrbitPass {
   /// Half the largest range of displacements, velocities and shears, in scales of the model; 0: at rest. Includes
   /// rotations.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
-  double amplitude = 0.0;     ///< half the largest range of displacements, without rotations; scene's unit
+  double amplitude = 0.0;  ///< half the largest range of displacements, without rotations; scene's unit
   /// Phi B, rows: coordinates at the section; empty: not requested, or not available
   Eigen::MatrixXd end_rates;
   /// Error of end_rates by rounding and truncation of series, relative to their largest entry.

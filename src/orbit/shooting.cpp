@@ -18,9 +18,8 @@ constexpr double reached = 1e-2;  // residual / tolerance at which Newton's meth
 // Residual / amplitude at which an orbit is accepted although the residual no longer decreases: the rounding
 // of a long or stiff period. With a larger residual the search has failed. Chosen value.
 constexpr double closed_at_last = 1e-9;
-// Singular values of Phi - I up to this limit are regarded as zero, relative to the largest one and to Phi.
-// The limit is the rounding of Phi. A disturbance that decays within 1e7 periods has a far larger singular
-// value. Chosen value.
+// Singular values of Phi - I up to this limit are regarded as zero, relative to the largest one and to Phi. The limit
+// is the rounding of Phi. A disturbance that decays within 1e7 periods has a far larger singular value. Chosen value.
 constexpr double least_singular = 1e-9;
 // Smaller limits, tried if no step reduces the residual: with fast mode shapes Phi may be 1e5 times larger
 // than its part for slow mode shapes.
@@ -32,8 +31,7 @@ constexpr double at_rest = 1e-14;
 
 double over(double value, double amplitude) { return amplitude > at_rest ? value / amplitude : value; }
 
-/// Residual of the state; if an energy is given, the larger one of this residual and the energy's relative
-/// residual.
+/// Residual of the state; if an energy is given, the larger one of this residual and the energy's relative residual.
 double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
   const double gap = orbit_residual(model, pass);
   return start.energy ? std::max(gap, std::abs(pass.energy - *start.energy) / *start.energy) : gap;

@@ -22,7 +22,7 @@ struct ShootingStart {
   OrbitState state;
   double duration;
   bool free_period = false;
-  /// residual that is accepted if it no longer decreases; 0: default 1e-9
+  /// Residual that is accepted if it no longer decreases; 0: default 1e-9.
   double closed = 0.0;
   std::optional<double> energy = {};  ///< E* of a conservative motion, in the scene's unit
 };

@@ -75,11 +75,10 @@ constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
 // different branches. Chosen value.
 constexpr double roots_apart = 10.0;
 constexpr double shortest_doubted = 1e-4;  // in the norm: too_long() accepts shorter steps. Chosen value.
-// Two points determine a direction only if their distance is at least this multiple of shortest_part. Chosen
-// value.
+// Two points determine a direction only if their distance is at least this multiple of shortest_part. Chosen value.
 constexpr double parts_apart = 1e3;
 
-// tolerance of a step in s, relative to the largest step: above rounding. Chosen value.
+// Tolerance of a step in s, relative to the largest step: above rounding. Chosen value.
 constexpr double rounded = 1e-9;
 
 constexpr const char* other_branch = "other branch";
@@ -105,7 +104,7 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::zero_of(cons
   const double a = here.tests.*kind.value, b = next.tests.*kind.value;
   if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
-  // this change of sign is due to the fold
+  // This change of sign is due to the fold.
   if (kind.value == &TestValues::branch && turns) return std::nullopt;
   LocatedPoint point{0.0, kind.name, {}, {}};
   const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
@@ -207,9 +206,8 @@ bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& ne
   if (length <= shortest_doubted) return false;
   if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
   if (sequence_of(here.pass) == sequence_of(next.pass)) {
-    // Both tangents lead in the same direction of the parameter, but the parameter has changed in the
-    // opposite direction: the next point is on another arm of the branch, for instance on the other side of a
-    // resonance.
+    // Both tangents lead in the same direction of the parameter, but the parameter has changed in the opposite
+    // direction: the next point is on another arm of the branch, for instance on the other side of a resonance.
     const double along = t[t.size() - 1];
     if (along * next.tests.fold > 0.0 && along * (next.state.s - here.state.s) < 0.0) return true;
     return chord_deviates(place_of(here), next, &t, true);
@@ -221,7 +219,7 @@ bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& ne
   if (doubted(change->part) && chord_deviates(place_of(here), change->at, &t, false)) return true;
   if (!doubted(1.0 - change->part)) return false;
   const auto folds = [](const LocatedPoint& p) { return p.kind == "fold"; };
-  // change of the parameter behind the corner; negative along t beyond a fold
+  // Change of the parameter behind the corner; negative along t beyond a fold.
   const double there = next.state.s - change->at.state.s;
   if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
   return chord_deviates(place_of(change->at), next, nullptr, true);
@@ -287,8 +285,7 @@ std::vector<BranchContinuation::LocatedPoint> BranchContinuation::between(const 
 
 /// Adds the special points between `here` and `next` in their order. A step crosses only one change of the
 /// sequence; if another change follows, `next` becomes a point between both. Returns the point for the secant
-/// at `next`: `here`, or the last point before the change. Returns nullopt if the observer interrupts the
-/// run.
+/// at `next`: `here`, or the last point before the change. Returns nullopt if the observer interrupts the run.
 std::optional<SecantPoint> BranchContinuation::cross(std::vector<LocatedPoint> points,
                                                      const CorrectedPoint& here, CorrectedPoint& next,
                                                      const Vector& t, double& length) {

@@ -29,9 +29,8 @@ inline constexpr std::array special_kinds{SpecialKind{"fold", &TestValues::fold}
                                           SpecialKind{"neimark-sacker", &TestValues::neimark_sacker},
                                           SpecialKind{"branch point", &TestValues::branch}};
 
-/// A zero of a test function is accepted if the multiplier's distance from the unit circle, or |t_s|, is at
-/// most this value. A function that jumps over zero, for instance where a complex pair becomes real, has no
-/// zero.
+/// A zero of a test function is accepted if the multiplier's distance from the unit circle, or |t_s|, is at most
+/// this value. A function that jumps over zero, for instance where a complex pair becomes real, has no zero.
 inline constexpr double location_tolerance = 1e-6;
 
 /// Values of the test functions. ones: number of structural multipliers 1; along: t_s; error: error of a

@@ -55,8 +55,7 @@ struct PreparedRun {
 //   run.toml -> the same run once more -> motion.csv, curves.csv, body_motion.csv
 //
 // Runs are bitwise reproducible, so the repeated events must equal those of events.csv. If they differ, the
-// program or a file that run.toml refers to (a record, the continued run) has changed, and no file is
-// written.
+// program or a file that run.toml refers to (a record, the continued run) has changed, and no file is written.
 
 /// True if the stored run ended by itself, was computed by this version and has neither motion.csv nor
 /// curves.csv. A table that the manifest does not list is incomplete and is regarded as absent.

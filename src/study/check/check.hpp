@@ -19,7 +19,7 @@ namespace signorini::check {
 /// Mass of the scene, including parts on fixed degrees of freedom; node scenes only.
 struct MassFacts {
   double total = 0.0;
-  double x = 0.0, y = 0.0;                ///< centre of mass
+  double x = 0.0, y = 0.0;  ///< centre of mass
   /// r M r for a unit translation of all free degrees of freedom in x or y
   double moving_x = 0.0, moving_y = 0.0;
 };
@@ -43,7 +43,7 @@ struct Discontinuity {
 /// Estimated cost of the time loop, as an order of magnitude.
 struct Cost {
   long unknowns = 0;
-  /// greatest circular frequency of the structure with sticking contacts, and of harmonic loads
+  /// Greatest circular frequency of the structure with sticking contacts, and of harmonic loads.
   double omega_max = 0.0;
   run::CostEstimate estimate;
   std::optional<double> exact;     ///< seconds that exact would take instead of ida, by the same estimate
@@ -58,8 +58,7 @@ struct CheckReport {
   double least_mass = 0.0, greatest_mass = 0.0;  ///< nonzero entries on the diagonal of M
   std::vector<ContactSample> contacts;           ///< just after t = 0
   std::vector<std::string> warnings;             ///< warnings of the run, and model warnings
-  /// Motions of the structure that its closed contacts do not restrain, or restrain only by friction; one
-  /// text each.
+  /// Motions of the structure that its closed contacts do not restrain, or restrain only by friction; one text each.
   std::vector<std::string> free_motions;
   modes::Frequencies open, closed, stuck;           ///< all contacts open, closed, or sticking
   std::optional<std::vector<double>> load_factors;  ///< only with run.geometric: Geometric::load_factors

@@ -61,8 +61,7 @@ bool same(const LoggedEvent& a, const LoggedEvent& b) {
   return a.contact == b.contact && a.type == b.type && a.from == b.from && a.to == b.to;
 }
 
-/// Position in one list of events: the events taken so far (paired or skipped), and the next event of each
-/// contact.
+/// Position in one list of events: the events taken so far (paired or skipped), and the next event of each contact.
 class Walk {
  public:
   Walk(const std::vector<LoggedEvent>& events, double t_end, double instant)

@@ -3,10 +3,9 @@
 //   reference  a1 a2 b1 a3 ...        partners have the same contact, event, from and to, and each contact's
 //   other      a1 b1 a2 a3 ...        events keep their order; the first event without a partner ends the list
 //
-// Only events of different contacts may have a different order, and only if the order is insignificant: the
-// events are within one instant, or, in one of the two lists, closer than their uncertainties (then counted
-// as `swapped`). Rows of the type `time` are ignored, because they are jumps of the loads, not changes of the
-// motion.
+// Only events of different contacts may have a different order, and only if the order is insignificant: the events
+// are within one instant, or, in one of the two lists, closer than their uncertainties (then counted as
+// `swapped`). Rows of the type `time` are ignored, because they are jumps of the loads, not changes of the motion.
 #pragma once
 
 #include <cmath>
@@ -62,8 +61,7 @@ struct Deviation {
 //   while (join.next()) use(join.t(), join.a().number(3), join.b().number(4));
 //   join.rows()                                               number of rows of each, and of common ones
 //
-// Rows at times that only one table has are counted but not compared. Times are equal if they differ by
-// rounding only.
+// Rows at times that only one table has are counted but not compared. Times are equal if they differ by rounding only.
 
 /// Number of rows of two tables, and number of compared rows.
 struct RowCount {

@@ -126,8 +126,7 @@ void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Co
   c.rows.energy = join.rows();
 }
 
-/// any(from, to): true if an event of either run lies in [from, to]. Neither time may decrease from call to
-/// call.
+/// any(from, to): true if an event of either run lies in [from, to]. Neither time may decrease from call to call.
 class EventsBetween {
  public:
   EventsBetween(const ComparedRun& a, const ComparedRun& b) {
@@ -145,8 +144,7 @@ class EventsBetween {
   std::size_t at_ = 0;
 };
 
-/// Moves the reader to its next time and counts the rows there. Returns false if there are no more rows up to
-/// `end`.
+/// Moves the reader to its next time and counts the rows there. Returns false if there are no more rows up to `end`.
 bool next_row(ContactRowReader& reader, double end, std::size_t& count) {
   if (!reader.next() || beyond(reader.t(), end)) return false;
   count += reader.forces().size();

@@ -2,9 +2,8 @@
 //
 //   Comparison c = compare_runs(read_run_figures("ida"), read_run_figures("exact"), settings);
 //
-// Events are aligned one by one (alignment.hpp). Tables are compared at the output times and in the columns
-// that both runs have. Files are read as streams, because runs may be larger than memory. Units are those of
-// the scene.
+// Events are aligned one by one (alignment.hpp). Tables are compared at the output times and in the columns that
+// both runs have. Files are read as streams, because runs may be larger than memory. Units are those of the scene.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +23,7 @@ struct ComparedRun {
   std::vector<LoggedEvent> events;
 };
 
-/// Reads a run after a check of all its files (base/run_files.hpp). name: the run's name in tables. Errors:
-/// FileError.
+/// Reads a run after a check of all its files (base/run_files.hpp). name: the run's name in tables. Errors: FileError.
 [[nodiscard]] ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name);
 
 struct ComparisonSettings {

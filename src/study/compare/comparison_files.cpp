@@ -42,7 +42,7 @@ std::string runs_csv(const ComparisonReport& report) {
   table.put_header(block);
   for (const ComparedRun& run : report.runs) table.put_row(block, run.figures);
   for (const auto& [name, reason] : report.refused) {
-    // an engine that refused the scene has only a name and a reason
+    // An engine that refused the scene has only a name and a reason.
     const std::map<std::string, std::string> cells = {
         {"run", name}, {"engine", name}, {"outcome", "refused"}, {"reason", reason}};
     for (const auto& column : table.columns()) {

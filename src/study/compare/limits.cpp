@@ -164,7 +164,8 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
   const bool whole = reference.done() && other.done();
   if (whole && comparison.ends_differ)
     list.push_back(fmt::format(
-        "{}: compared up to t = {:.9g}, but {} continues to {:.9g}, so limits cannot be checked beyond that time",
+        "{}: compared up to t = {:.9g}, but {} continues to {:.9g}, so limits cannot be checked beyond that "
+        "time",
         other.name, comparison.t_end, (reference.t > other.t ? reference : other).name,
         std::max(reference.t, other.t)));
   const auto& split = comparison.alignment.split;

@@ -37,8 +37,7 @@ void TableRowOrder::grid_row(const RecordedRow& row) {
 
 void TableRowOrder::end_of_grid(const RecordedRowReader& reader) const {
   if (model_.contacts.empty()) return;
-  // If the run ended exactly at an output time, rows of this time exist only if the instant there was
-  // completed.
+  // If the run ended exactly at an output time, rows of this time exist only if the instant there was completed.
   const std::size_t least =
       is_complete_run()
           ? run_.grid.size()
@@ -46,7 +45,7 @@ void TableRowOrder::end_of_grid(const RecordedRowReader& reader) const {
                 std::lower_bound(run_.grid.begin(), run_.grid.end(), run_.reached,
                                  [](double t, double end) { return t < end && !same(t, end); }) -
                 run_.grid.begin());
-  // rows out of order are reported as violations instead
+  // Rows out of order are reported as violations instead.
   const bool at_last = !in_order_ && place_ + 1 >= least;
   if ((place_ < least && !at_last) || (due_ > 0 && run_.ended && in_order_))
     reader.refuse_truncated(fmt::format("the row of contact \"{}\" at t = {:.9g}", model_.contacts[due_].name,
@@ -151,7 +150,7 @@ void TableRowChecker::check(const RecordedRow& row, const RecordedRowReader& rea
                             const Found& found) {
   if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
-  // smallest list, over the states at the row's time with the row's name
+  // Smallest list of violations among the states at the row's time that have the row's state name.
   std::optional<std::vector<Violation>> least;
   for (const ContactState& state : states_at(row.contact, row.t)) {
     if (row.state != to_string(state.state)) continue;
@@ -285,8 +284,7 @@ double TableRowChecker::noise_of_force(std::size_t k) const {
          (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * noise_of_length(k);
 }
 
-/// Checks that no row exceeds the recorded extremes, and that the extreme with the larger magnitude equals
-/// the peak.
+/// Checks that no row exceeds the recorded extremes, and that the extreme with the larger magnitude equals the peak.
 void TableRowChecker::check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
                                   const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
   for (std::size_t k = 0; k < recorded.size(); ++k) {

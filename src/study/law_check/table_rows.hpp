@@ -32,7 +32,7 @@ namespace signorini::directory_check {
 struct RunSpan {
   std::vector<double> grid;           ///< output times, up to t_end
   bool ended = true, stopped = true;  ///< as in the run's summary
-  /// time reached as recorded; for a run that has not ended, the last instant
+  /// Time reached as recorded; for a run that has not ended, the last instant.
   double reached = 0.0;
 };
 

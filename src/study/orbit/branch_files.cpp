@@ -280,8 +280,7 @@ class BranchTable {
 
 const std::string rows = "'branch.csv' skip 1";
 
-/// Adds a curve with solid stable and dashed unstable parts. unstable_too: true if the legend names the
-/// dashed parts.
+/// Adds a curve with solid stable and dashed unstable parts. unstable_too: true if the legend names the dashed parts.
 void add_line(const BranchTable& table, const std::string& name, const std::string& colour,
               const std::string& title, bool unstable_too, result::Panel& panel) {
   const std::string dashed = "with lines linewidth 1.4 dashtype (6,5) linecolor '" + colour + "'";

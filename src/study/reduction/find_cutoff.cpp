@@ -135,17 +135,15 @@ void TruncationError::finish() {
 namespace {
 
 constexpr Eigen::Index min_modes = 6;  // number of modes with stiffness in the first trial; chosen value
-// Phase of the cutoff frequency per sample: an oscillation at twice the cutoff exceeds its samples by at most
-// 1 %.
+// Phase of the cutoff frequency per sample: an oscillation at twice the cutoff exceeds its samples by at most 1 %.
 constexpr double radians_a_sample = 0.15;
 constexpr double max_growth = 4.0;    // growth of the cutoff from one trial to the next
 constexpr double least_growth = 2.0;  // smallest growth: the next trial then adds most of the missing part
-// limit for the phase in apart() if few instants are compared: a factor of 1.85
+// Limit for the phase in apart() if few instants are compared: a factor of 1.85.
 constexpr double max_radians = 1.0;
 // Error of a trial if the finer trial misses as much or more: the whole displacement.
-constexpr double nothing_known =
-    1.0;
-// order of `missed` in 1/cutoff, assumed until two trials show it
+constexpr double nothing_known = 1.0;
+// Order of `missed` in 1/cutoff, assumed until two trials show it.
 constexpr double usual_order = 2.0;
 constexpr int max_failures = 4;                 // limit for successive trials that cannot run
 constexpr int max_moves = 8;                    // limit for moves of a cutoff if modes cannot be counted
@@ -158,9 +156,8 @@ constexpr Eigen::Index max_compared = 1 << 22;  // displacements that a trial ke
   throw SceneError(scene.reduction->place, "reduction.tolerance", why);
 }
 
-/// Restricts a reduced model's displacements to the requested places. A run then computes the same motion,
-/// but its samples have only a few rows. Parts of the model that refer to the structure's degrees of freedom
-/// are removed.
+/// Restricts a reduced model's displacements to the requested places. A run then computes the same motion, but its
+/// samples have only a few rows. Parts of the model that refer to the structure's degrees of freedom are removed.
 void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
   const auto count = static_cast<Eigen::Index>(asked.size());
   Reduction& reduction = *model.reduction;
@@ -436,8 +433,7 @@ class Search {
     return structure_.cutoff_above(growth * cutoff_.omega, cutoff_.kept + 1);
   }
 
-  /// Returns the scene with the cutoff of the i-th trial, and records all trials; the i-th trial is recorded
-  /// last.
+  /// Returns the scene with the cutoff of the i-th trial, and records all trials; the i-th trial is recorded last.
   Scene found(std::size_t i) {
     ReductionSpec& spec = *scene_.reduction;
     for (std::size_t j = 0; j < trials_.size(); ++j)

@@ -35,8 +35,7 @@ struct RequestedPlace {
   Vector form;       ///< linear form of the structure's displacements, without motions of supports
 };
 
-/// The places: contacts along normal and tangent, and displacements of named nodes. full: result of
-/// build_structure().
+/// The places: contacts along normal and tangent, and displacements of named nodes. full: result of build_structure().
 [[nodiscard]] std::vector<RequestedPlace> requested_places(const Model& full);
 
 class TruncationError {
@@ -76,9 +75,8 @@ class TruncationError {
 [[nodiscard]] Scene find_cutoff(
     Scene scene, const std::function<bool()>& go_on = [] { return true; });
 
-/// The scene with the cutoff `found` for another scene, if both scenes have the same tolerance; otherwise a
-/// search finds the scene's own cutoff. Thus compared runs use the same model, and only the first one needs a
-/// search.
+/// The scene with the cutoff `found` for another scene, if both scenes have the same tolerance; otherwise a search
+/// finds the scene's own cutoff. Thus compared runs use the same model, and only the first one needs a search.
 [[nodiscard]] Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found);
 
 }  // namespace signorini::reduction

@@ -299,7 +299,8 @@ void read_parameters(const fs::path& file, Sensitivities& s, Sigmas& sigmas) {
     throw FileError(file.string(), std::string("is not a file of `signorini sensitivity`: ") + error.what());
   }
   if (s.parameters.empty() || (!sigmas.empty() && sigmas.size() != s.parameters.size()))
-    throw FileError(file.string(), "expected at least one parameter, and a sigma for every parameter or for none");
+    throw FileError(file.string(),
+                    "expected at least one parameter, and a sigma for every parameter or for none");
 }
 
 }  // namespace

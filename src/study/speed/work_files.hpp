@@ -23,7 +23,7 @@ struct WorkTable {
 
 /// One sentence for each Pareto front of the study.
 [[nodiscard]] std::vector<std::string> work_conclusions(const WorkReport& report);
-/// One sentence for each run that failed.
+/// One sentence for each run that was refused, ended early, or has other events than the reference.
 [[nodiscard]] std::vector<std::string> work_failures(const WorkReport& report);
 
 /// "errors against exact", and the time up to which runs are compared.

@@ -65,8 +65,7 @@ struct WorkOutcome {
   bool too_slow = false, interrupted = false;
 };
 
-/// Runs and stores the results in `directory`. Errors: SceneError for scenes that the engine refuses;
-/// FileError.
+/// Runs and stores the results in `directory`. Errors: SceneError for scenes that the engine refuses; FileError.
 [[nodiscard]] WorkOutcome record_run(const study::PreparedRun& run, const std::filesystem::path& directory,
                                      const WorkLimits& limits);
 

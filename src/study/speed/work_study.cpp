@@ -130,7 +130,7 @@ study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
   for (Override& change : changes)
-    change.shown_as = change.path + "=" + change.value;  // messages name the key: no option has set it
+    change.shown_as = change.path + "=" + change.value;  // no option has set the key
   return study::prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 
@@ -252,8 +252,7 @@ bool WorkStudy::choose_reference() {
   tight.engine = to_string(references[1]);
   const auto& rtol = request_.ranges.rtol;
   const double least = rtol.empty() ? tightest_rtol : *std::min_element(rtol.begin(), rtol.end());
-  // A tolerance below the rounding of the scene's forces cannot be met, so the next two decades are tried as
-  // well.
+  // A tolerance below the rounding of the scene's forces cannot be met, so the next two decades are tried as well.
   for (int tries = 0; tries < 3 && !report_.interrupted; ++tries) {
     tight.accuracy = rounded_decimal(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
     if (!try_reference(tight, why_not)) continue;
@@ -265,8 +264,7 @@ bool WorkStudy::choose_reference() {
   return false;
 }
 
-/// Sets the ranges of meaningful errors: from the error of the reference itself up to the size of the
-/// quantity.
+/// Sets the ranges of meaningful errors: from the error of the reference itself up to the size of the quantity.
 void WorkStudy::take_ranges() {
   compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
@@ -365,7 +363,7 @@ void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t ro
       for (int i = 0; i < most && sum < brief; ++i) {
         const WorkOutcome outcome = time_run(run, request_.limits);
         report_.interrupted = outcome.interrupted;
-        // the machine is busy: no time from this repetition
+        // The machine is busy: no time from this repetition.
         if (outcome.interrupted || outcome.too_slow) break;
         least = std::min(least, outcome.report.wall_time);
         sum += outcome.report.wall_time;

@@ -4,13 +4,12 @@
 //   for (const WorkPoint& point : work_points(request.ranges)) study.add(point);
 //   study.time_all(...);       // round by round: temporary load affects all runs equally
 //
-// The reference is `exact`. If `exact` uses modes, and its Taylor series is expected to finish within the
-// time limit, the reference is the series, which is independent of modes. If `exact` refuses the scene or
-// stops early, the reference is `ida` with a tolerance one decade below the smallest. The error of `exact` is
-// its difference from the same run with all masses changed in their last digits. If this change alters the
-// sequence of events, times after the alteration are not compared. In all runs rigid contacts without a
-// capture_velocity get the value that belongs to the scene's own tolerance; otherwise every run would solve a
-// different problem.
+// The reference is `exact`. If `exact` uses modes, and its Taylor series is expected to finish within the time
+// limit, the reference is the series, which is independent of modes. If `exact` refuses the scene or stops
+// early, the reference is `ida` with a tolerance one decade below the smallest. The error of `exact` is its
+// difference from the same run with all masses changed in their last digits. If this change alters the sequence
+// of events, times after the alteration are not compared. In all runs rigid contacts without a capture_velocity
+// get the value that belongs to the scene's own tolerance; otherwise every run would solve a different problem.
 #pragma once
 
 #include <array>
@@ -98,8 +97,7 @@ class WorkStudy {
   std::optional<ReductionSpec> reduction_;    // contains the cutoff, the same in all runs
   std::map<std::string, Recorded> recorded_;
   // perturbed_reference_: `exact` with masses changed in their last digits
-  compare::ComparedRun reference_,
-      perturbed_reference_;
+  compare::ComparedRun reference_, perturbed_reference_;
   bool reference_error_measured_ = false;
   std::optional<WorkPoint> series_;
 };

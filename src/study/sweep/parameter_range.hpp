@@ -52,9 +52,8 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
 //   random   u from the Mersenne twister of the seed, draw by draw, row by row
 //   sobol    point i of Sobol's sequence, shifted by one vector of such draws, modulo 1
 //
-// Row i depends only on the seed, i and the number of draws per row. Therefore more samples do not change
-// earlier samples; parts of a sweep, resumed sweeps and other machines draw the same values. Source of both
-// sequences: GSL.
+// Row i depends only on the seed, i and the number of draws per row. Therefore more samples do not change earlier
+// samples; parts of a sweep, resumed sweeps and other machines draw the same values. Source of both sequences: GSL.
 
 enum class Sequence { random, sobol };
 

@@ -6,8 +6,7 @@
 //   count:EVENT  count:EVENT@CONTACT  number of events of a type, at all contacts or one
 //   impulse:CONTACT  impulse:CONTACT@2     the largest impulse of its landings, or the impulse of the second landing
 //
-// A missing result is NaN, an empty cell: all results of a run that stops early, and landings that do not
-// occur.
+// A missing result is NaN, an empty cell: all results of a run that stops early, and landings that do not occur.
 #pragma once
 
 #include <cstdint>

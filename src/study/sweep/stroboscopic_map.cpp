@@ -93,7 +93,7 @@ void StroboscopicRecorder::sample(const Sample& sample) {
   // Rows are at k times the period up to rounding; the end of the run is also a row.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(sample.t);
   if (turns < 1.0 || std::abs(sample.t - turns * strobe_.period) > rounding) return;
-  // the state before the same instant
+  // The point is the state after the instant: the state before it is removed.
   if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();
   add(sample);
 }

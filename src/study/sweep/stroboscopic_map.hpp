@@ -7,8 +7,7 @@
 //
 //   point = (t, columns of history.csv, outputs),  t >= settle
 //
-// If an instant has a state before and a state after it, the point is the state after it. Units: those of the
-// scene.
+// If an instant has a state before and a state after it, the point is the state after it. Units: those of the scene.
 #pragma once
 
 #include <optional>
@@ -76,8 +75,7 @@ class StroboscopicRecorder : public run::ForwardingRecorder {
   std::vector<double> outputs_;
 };
 
-/// Copy of `run` with output rows at the points. With `loads` it ends after an integer number of load
-/// periods.
+/// Copy of `run` with output rows at the points. With `loads` it ends after an integer number of load periods.
 [[nodiscard]] RunSpec with_strobe_rows(RunSpec run, const StroboscopicMap& strobe);
 
 }  // namespace signorini::sweep

@@ -31,8 +31,7 @@ bool logarithmic(const std::vector<double>& values) {
   return values.front() > 0.0 && values.back() >= decades * values.front();
 }
 
-/// Limits of the cell around `at`: half-way to both neighbours. A cell at an end extends equally to both
-/// sides.
+/// Limits of the cell around `at`: half-way to both neighbours. A cell at an end extends equally to both sides.
 std::pair<double, double> cell(const std::vector<double>& values, double at) {
   const bool log = logarithmic(values);
   const auto scale = [&](double x) { return log ? std::log(x) : x; };

@@ -3,9 +3,8 @@
 //   map.csv      x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work,QUERY,...
 //   borders.csv  x0,y0,x1,y1: sides between cells with different sequences of events
 //
-// Peaks and friction work are the largest values of all contacts. A cell extends half-way to its neighbours.
-// An axis is logarithmic if its values are positive and span a factor of 50 or more; there a cell extends to
-// the geometric mean.
+// Peaks and friction work are the largest values of all contacts. A cell extends half-way to its neighbours. An axis is
+// logarithmic if its values are positive and span a factor of 50 or more; there a cell extends to the geometric mean.
 #pragma once
 
 #include <array>
@@ -24,8 +23,7 @@ struct MapAxes {
   std::size_t x = 0, y = 0;
 };
 
-/// The axes, if exactly two keys have several values and both have at least three different numbers;
-/// otherwise nullopt.
+/// The axes, if exactly two keys have several values and both have at least three different numbers; otherwise nullopt.
 [[nodiscard]] std::optional<MapAxes> map_axes(const SweepSpec& spec);
 
 /// Row of map.csv: a cell and the results of its run; cells without a run have no row.

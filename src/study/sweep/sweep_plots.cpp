@@ -114,8 +114,7 @@ result::CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const Sweep
   return table;
 }
 
-/// Sorts rows by x, because ranges may decrease and lists may have any order. Lines are drawn from left to
-/// right.
+/// Sorts rows by x, because ranges may decrease and lists may have any order. Lines are drawn from left to right.
 std::vector<const SweepRow*> from_left(const SweepCurve& curve, const SweepAxis& axis) {
   std::vector<const SweepRow*> rows = curve.rows;
   std::stable_sort(rows.begin(), rows.end(), [&](const SweepRow* a, const SweepRow* b) {

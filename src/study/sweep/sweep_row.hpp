@@ -25,16 +25,14 @@ struct SweepRow {
   std::string reason;               ///< empty when done
   double t = 0.0;                   ///< time reached
   std::map<std::string, long> events;
-  /// Peaks over all steps: tangential and normal motion relative to the start, |N|, |T|. friction: dissipated
-  /// work.
+  /// Peaks over all steps: tangential and normal motion relative to the start, |N|, |T|. friction: dissipated work.
   struct Contact {
     std::string name;
     double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
   };
   std::vector<Contact> contacts;
   /// One result per query of the sweep, NaN if the run has none; empty if no run began.
-  std::vector<double>
-      responses;
+  std::vector<double> responses;
   std::vector<StroboscopicPoint> points;  ///< points of a stroboscopic sweep
   std::string sequence;    ///< hash of the events: equal for equal sequences (response_query.hpp)
   double wall_time = 0.0;  ///< s

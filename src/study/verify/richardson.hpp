@@ -1,5 +1,4 @@
-// richardson.hpp: observations of runs, and Richardson extrapolation of three runs with the steps h, h/2,
-// h/4.
+// richardson.hpp: observations of runs, and Richardson extrapolation of three runs with the steps h, h/2, h/4.
 //
 //   x_h = x + C h^2 + O(h^3)
 //   order p = log2( rms(x_h - x_h/2) / rms(x_h/2 - x_h/4) )

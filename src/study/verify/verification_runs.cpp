@@ -217,9 +217,8 @@ VerifiedKind VerificationRuns::verified(const Kind& kind, Verification& result) 
   return summary;
 }
 
-/// The distance of the nearest step from an extreme is random, so extremes have no order of convergence. The
-/// bar is the largest difference between newmark's runs, each of which also has rows at the times of IDA's
-/// extremes.
+/// The distance of the nearest step from an extreme is random, so extremes have no order of convergence. The bar
+/// is the largest difference between newmark's runs, each of which also has rows at the times of IDA's extremes.
 void VerificationRuns::add_extremes(Verification& result) const {
   if (!certificate->complete || result.until < t_end_) return;
   const std::size_t first = columns_.size() - model_.outputs.size();

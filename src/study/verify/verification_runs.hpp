@@ -21,8 +21,7 @@ class VerificationRuns {
 
   /// Adds a run of newmark; only the last three runs are compared.
   void add(double dt_of_run, ObservedRun run);
-  /// True if the sequence and the orders of the last three runs have settled, up to the end of IDA's certain
-  /// sequence.
+  /// True if the sequence and the orders of the last three runs have settled, up to the end of IDA's certain sequence.
   [[nodiscard]] bool settled();
   /// Sets verdict, sentence, kinds and events of the result.
   void evaluate(Verification& result);

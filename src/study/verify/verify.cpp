@@ -61,9 +61,8 @@ class Study {
   }
 
   /// Newmark has values only at the ends of its steps, and peaks are between them. Halved steps share their
-  /// ends, so all step sizes miss the same part of a peak, up to |r''| h^2 / 8. Therefore newmark also
-  /// reports its values at the times of ida's peaks; the shift of a peak by O(h^2) changes its value by
-  /// O(h^4) only.
+  /// ends, so all step sizes miss the same part of a peak, up to |r''| h^2 / 8. Therefore newmark also reports
+  /// its values at the times of ida's peaks; the shift of a peak by O(h^2) changes its value by O(h^4) only.
   void find_peaks() {
     std::vector<double> rows = *run_.output_times;
     for (const OutputExtremes& extremes : result_.ida.report.response)
@@ -75,8 +74,7 @@ class Study {
     std::sort(peaks_.begin(), peaks_.end());
   }
 
-  /// Runs newmark with the step dt. Its rows at peaks_ are removed, so that it has the rows of the other
-  /// runs.
+  /// Runs newmark with the step dt. Its rows at peaks_ are removed, so that it has the rows of the other runs.
   [[nodiscard]] ObservedRun watch_newmark(double dt) const {
     ObservedRun run = observe(model_, newmark(dt), request_.go_on);
     const auto width = static_cast<std::ptrdiff_t>(run.rows.width);
@@ -123,8 +121,7 @@ class Study {
     note(witnesses.exact->report);
   }
 
-  /// Runs newmark with successively halved steps, until the results have settled or the next run would cost
-  /// too much.
+  /// Runs newmark with successively halved steps, until the results have settled or the next run would cost too much.
   void refine(VerificationRuns& witnesses) {
     double dt = request_.dt.value_or(run_.t_end / steps_at_first);
     while (!result_.interrupted) {

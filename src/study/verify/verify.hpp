@@ -29,10 +29,10 @@ namespace signorini::verify {
 
 struct VerifyRequest {
   RunSpec run;
-  /// largest of newmark's three steps; absent: chosen automatically
+  /// Largest of newmark's three steps; absent: chosen automatically.
   std::optional<double> dt;
-  int rows = 200;                                     ///< number of output times
-  /// limit for the expected wall time of newmark's finest run
+  int rows = 200;  ///< number of output times
+  /// Limit for the expected wall time of newmark's finest run.
   double max_seconds = 30.0;
   std::function<bool()> go_on = [] { return true; };  ///< returns false if the user interrupts
 };

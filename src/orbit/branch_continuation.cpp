@@ -16,7 +16,8 @@ namespace signorini::orbit {
 namespace {
 
 constexpr double shortest_step = 1e-7;  // lower limit for ds, in the norm of branch_newton.hpp
-constexpr int quick = 4;                // number of corrections up to which the next step may be longer
+// After at most this number of corrections the next step may be longer.
+constexpr int quick = 4;
 // Limit for distance / ds; a longer step has ended at another branch. Chosen value.
 constexpr double longest_way = 10.0;
 // Residual / amplitude up to which a shifted orbit is periodic; above the noise. Chosen value.
@@ -28,8 +29,8 @@ constexpr double same_amplitude = 0.05;
 
 }  // namespace
 
-/// Finds an orbit at a slightly further value of the key. Damped steps of Newton's method also find unstable
-/// orbits and other sequences of events; if they fail, a transient is computed.
+/// Finds an orbit at a slightly further value of the key. Damped steps of Newton's method also find unstable orbits
+/// and other sequences of events; if these steps fail, a transient run is computed. Returns false if both fail.
 bool BranchContinuation::restart(CorrectedPoint& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
   if (next.s < 0.0 || next.s > 1.0) return false;

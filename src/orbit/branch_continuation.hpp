@@ -74,7 +74,7 @@ class BranchContinuation {
   bool add(const CorrectedPoint& here, const std::string& special);
   /// A special point within a step, and its position.
   struct LocatedPoint {
-    double part = 0.0;  // fraction of the step
+    double part = 0.0;  // position of the point, as a fraction of the step
     std::string kind;
     CorrectedPoint at;
     Vector t;
@@ -141,7 +141,7 @@ class BranchContinuation {
   int points_ = 0;
   bool located_ = false;  // the last point is a special point located within a step
   bool folds_ = false;    // the parameter reverses between the last two points, without a located fold
-  bool turning_ = false;  // the tangent differs from the branch's last step (direction())
+  bool turning_ = false;  // the tangent deviates from the secant of the last step (direction())
   // Component along the parameter of the tangent at the last point, in the section of the step that led to
   // this point; 0: unknown.
   double ahead_ = 0.0;

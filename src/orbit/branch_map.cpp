@@ -23,7 +23,7 @@ constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_st
 constexpr std::size_t max_kept = 4;
 // Length of a scene's run: a transient, and a few passes through the orbit.
 constexpr double max_periods = restart_periods + 4.0;
-constexpr double same_time = 1e-9;  // relative to a period: rounding of times written as text
+constexpr double same_time = 1e-9;  // relative to a period: rounding of times that were written as text
 
 }  // namespace
 
@@ -75,7 +75,8 @@ double BranchMap::parameter(double s) const {
   return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
 }
 
-/// Periodic loads must act until the end of the run: long enough for the period at s and a transient.
+/// The scene at s. Periodic loads must act until the end of its run, which is long enough for a transient and
+/// for a few periods at s.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
     return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::format_number(t_end)}});
@@ -87,7 +88,7 @@ Scene BranchMap::scene_at(double s) const {
   return needed > t_end_ ? until(needed) : scene;
 }
 
-/// Errors: SceneError if the loads do not have the same kind of period as at the start of the branch.
+/// Period of the scene's loads. Errors: SceneError if the loads become periodic later than at the start of the branch.
 LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   const LoadPeriod loads = options_.orbit.period ? check_period(scene, *options_.orbit.period, drive_)
                                                  : load_period(scene, drive_);
@@ -106,7 +107,8 @@ double BranchMap::period_of(const Scene& scene) const {
 
 double BranchMap::period(double s) const { return autonomous_ ? start_.duration : kept(s).period; }
 
-/// A state of one model is meaningless in a model with other unknowns.
+/// Checks that the model has the unknowns of the first model; otherwise states of the branch are meaningless
+/// in it. Errors: SceneError.
 void BranchMap::check_structure(const Model& model) const {
   const bool same_basis = model.basis.has_value() == first_.basis.has_value() &&
                           model.reduction.has_value() == first_.reduction.has_value() &&
@@ -123,7 +125,7 @@ BranchMap::Kept BranchMap::make(double s) const {
   run.flow = orbit_flow(model, run);
   model = model::rescaled(std::move(model), scene::inverse(machine_));
   check_structure(model);
-  model.scales = first_.scales;  // tolerances and amplitudes are the same along the whole branch
+  model.scales = first_.scales;  // tolerances and amplitudes are comparable along the whole branch
   run = scene::rescaled(run, scene::inverse(machine_));
   const double period = autonomous_ ? 0.0 : period_of(scene);
   auto map = std::make_shared<PeriodMap>(

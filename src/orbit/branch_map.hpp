@@ -22,8 +22,8 @@ inline constexpr int restart_periods = 40;
 
 /// An orbit, or an initial guess of one.
 struct BranchState {
-  OrbitState state;       ///< at the section
-  double duration = 0.0;  ///< machine units; for a forced orbit the period of the loads
+  OrbitState state;       ///< state at the section
+  double duration = 0.0;  ///< period in machine units; for a forced orbit a multiple of the loads' period
   double s = 0.0;
 };
 
@@ -40,7 +40,7 @@ class BranchMap {
   [[nodiscard]] bool conservative() const { return options_.path == over_energy; }
   /// True for a branch over the energy, or over a key at a given energy.
   [[nodiscard]] bool keeps_energy() const { return conservative() || options_.orbit.energy.has_value(); }
-  /// E*(s) in the scene's unit, and E1; nullopt if the energy is not prescribed.
+  /// Prescribed energy E*(s), and its unit E1, both in the scene's unit; nullopt if the energy is not prescribed.
   [[nodiscard]] std::optional<double> energy(double s) const {
     return conservative() ? std::optional(parameter(s)) : options_.orbit.energy;
   }
@@ -63,7 +63,7 @@ class BranchMap {
   /// The state at s, corrected to satisfy the rigid constraints of the contact states `states`. Closed
   /// contacts: n . u = -g0 and n . v = 0. Sticking contacts: t . v = s'. The key may change n, g0, t and s'.
   [[nodiscard]] OrbitState projected(OrbitState state, const contact::ContactStates& states, double s) const;
-  /// One pass through the period from this state.
+  /// One pass through the period that begins at `state`.
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
   /// A pass that computes the margins of contacts: with more samples than other passes and without tangents.
   [[nodiscard]] OrbitPass margins(const BranchState& state) const;
@@ -84,7 +84,7 @@ class BranchMap {
   bool autonomous_;
   Factors machine_;
   double phase_;  // machine units
-  double t_end_;  // end of the scenes' runs
+  double t_end_;  // end of the runs of all scenes
   CountedLoads drive_;
   double section_ = 0.0;
   Model first_;
@@ -97,7 +97,8 @@ class BranchMap {
   [[nodiscard]] Kept make(double s) const;
   mutable std::vector<Kept> kept_;
   std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
-  mutable std::shared_ptr<sensitivity::StateFlow> flow_;  // taken from the last map that had one
+  // Closed form of the tangents, from the last map that had one.
+  mutable std::shared_ptr<sensitivity::StateFlow> flow_;
 };
 
 }  // namespace signorini::orbit

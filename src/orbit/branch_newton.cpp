@@ -102,7 +102,7 @@ Vector BranchNewton::parameter_derivative(const BranchState& state, const OrbitP
   return by_s;
 }
 
-/// Reason why a pass cannot be a step of the branch; empty: it can.
+/// Reason why a pass cannot be a step of the branch; empty if it can.
 std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) const {
   if (!pass.done()) return "the run over one period stopped: " + pass.outcome.reason;
   if (pass.end_rates.size() == 0) return "the state after one period has no derivative: " + pass.reason;
@@ -260,7 +260,7 @@ Vector BranchNewton::flip_direction(const CorrectedPoint& at) const {
 Vector BranchNewton::other_direction(CorrectedPoint at, const Vector& t) const {
   if (at.derivative_by_s.size() == 0) at.derivative_by_s = parameter_derivative(at.state, at.pass);
   const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.derivative_by_s);
-  // t is one of two null vectors of J; with t as an additional row, the other one remains.
+  // t is one of the two null vectors of J. With t as an additional row, only the other null vector remains.
   Eigen::MatrixXd A(J.rows() + 1, J.cols());
   A << J, t.transpose();
   Vector away = base::symmetric_eigen(A.transpose() * A).vectors.col(0);

@@ -29,7 +29,8 @@ constexpr double beside = 1e-6;
 constexpr double seen_periods = 1.1;
 // Largest number of periods after which a transient is checked for repetition.
 constexpr int max_repeats = 6;
-constexpr double comes_back = 1e-3;  // distance / amplitude of a repetition; chosen value
+// Distance / amplitude up to which two states repeat each other. Chosen value.
+constexpr double comes_back = 1e-3;
 // Divisors n of a period T. A search from an initial guess may find any multiple of the period, so the program
 // checks whether a self-excited motion closes after T/n already. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};

@@ -47,9 +47,9 @@ using CountedLoads = std::vector<bool>;
 //   section: the middle of the longest stretch between two instants of a period
 
 struct ReturnMapStart {
-  double period = 0.0;    ///< 0: the motion did not return
+  double period = 0.0;    ///< estimated period; 0: the motion did not return
   double section = 0.0;   ///< time of the section
-  double distance = 0.0;  ///< between the two states, relative to the range of the motion
+  double distance = 0.0;  ///< distance between the two states, relative to the range of the motion
 };
 
 /// Initial guess from the instants of one run, in order of time, just after changes of contact states.

@@ -31,7 +31,7 @@ using Multipliers = std::vector<std::complex<double>>;
 /// Number of multipliers that are 1 within the rounding of Phi.
 [[nodiscard]] std::size_t count_ones(const Multipliers& all);
 
-/// Multipliers without the `count` nearest to 1.
+/// All multipliers except the `count` multipliers nearest to 1.
 [[nodiscard]] Multipliers without_ones(Multipliers all, std::size_t count);
 
 /// Error of Phi, and thus of its simple multipliers. rates_error: OrbitPass::rates_error; states: error of

@@ -30,7 +30,7 @@ namespace signorini::orbit {
 // A reader of a scene with one key set to a value.
 //
 //   reader_at(read, path, x)(changes) = read([path = x, changes...])
-//   branch_reader: the same; for a branch over the energy of conservative motions no key is changed
+//   branch_reader: as reader_at, but for a branch over the energy of conservative motions no key is changed
 
 /// Reads the scene with this value of the key, in the unit of the key. Errors: those of `read`.
 [[nodiscard]] inline SceneReader reader_at(SceneReader read, std::string path, double value) {

@@ -47,7 +47,7 @@ struct Cost {
   double omega_max = 0.0;
   run::CostEstimate estimate;
   std::optional<double> exact;     ///< seconds that exact would take instead of ida, by the same estimate
-  std::vector<run::Trial> trials;  ///< measurements by measure_cost(); empty without it
+  std::vector<run::Trial> trials;  ///< measurements by measure_cost(); empty if it is not called
 };
 
 /// Facts about a scene. Frequencies, free motions and stiffnesses are those of the full structure, even if
@@ -56,7 +56,7 @@ struct CheckReport {
   long degrees_of_freedom = 0, massless = 0;
   std::optional<MassFacts> mass;
   double least_mass = 0.0, greatest_mass = 0.0;  ///< nonzero entries on the diagonal of M
-  std::vector<ContactSample> contacts;           ///< just after t = 0
+  std::vector<ContactSample> contacts;           ///< contacts just after t = 0
   std::vector<std::string> warnings;             ///< warnings of the run, and model warnings
   /// Motions of the structure that its closed contacts do not restrain, or restrain only by friction; one text each.
   std::vector<std::string> free_motions;

@@ -70,7 +70,7 @@ struct RowCount {
   friend bool operator==(const RowCount&, const RowCount&) = default;
 };
 
-/// Errors of all members: FileError.
+/// Reads the common rows of two tables. Errors of all members: FileError.
 class TimeJoin {
  public:
   /// Rows after `until` are ignored.
@@ -122,11 +122,11 @@ class ContactRowReader {
 struct LoggedEvent {
   double t = 0.0;
   std::string contact, type, from, to;
-  double uncertainty = 0.0;  ///< t_uncertainty; 0 if the run has none
+  double uncertainty = 0.0;  ///< t_uncertainty of events.csv; 0 if the run has none
 
   /// True for a change of state; false for a jump of a load.
   [[nodiscard]] bool is_change() const { return type != to_string(EventType::time); }
-  /// "first slip, stick -> slip+"
+  /// Text of the event: "first slip, stick -> slip+".
   [[nodiscard]] std::string name() const;
 };
 
@@ -154,7 +154,8 @@ struct AlignmentSettings {
   double instant = 0.0;  ///< events closer than this time have no order; at least the rounding of t_end
 };
 
-/// Both lists must ascend in t. Cost: proportional to the number of events times the number of events per instant.
+/// Aligns the events of two runs. Both lists must ascend in t. Cost: proportional to the number of events
+/// times the number of events per instant.
 [[nodiscard]] Alignment align(const std::vector<LoggedEvent>& reference,
                               const std::vector<LoggedEvent>& other, const AlignmentSettings& settings);
 

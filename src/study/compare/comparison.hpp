@@ -17,7 +17,7 @@
 
 namespace signorini::compare {
 
-/// A run's figures and events.
+/// Figures and events of a run.
 struct ComparedRun {
   RunFigures figures;
   std::vector<LoggedEvent> events;
@@ -53,11 +53,11 @@ struct Comparison {
   };
   std::vector<Response> response;
   std::size_t common_times = 0;
-  /// Rows up to t_end; in contacts.csv one row per time and contact.
+  /// Numbers of rows up to t_end; contacts.csv has one row per time and contact.
   struct Rows {
     RowCount history, contacts, energy, response;
   } rows;
-  bool ends_differ = false;        ///< one of the runs continues beyond t_end
+  bool ends_differ = false;        ///< true if one of the runs continues beyond t_end
   std::vector<std::string> notes;  ///< parts that could not be compared, one sentence each
 };
 

@@ -43,7 +43,7 @@ struct RecordedSummary {
 /// Message for a table that ends too early: the line of its end, and `lacks`, the missing part.
 [[nodiscard]] std::string truncation_message(const result::CsvReader& reader, const std::string& lacks);
 
-/// Index of a contact by name; an unknown name is a FileError for this file and line.
+/// Finds the index of a contact by its name. Errors: FileError with file and line if the name is unknown.
 class ContactNames {
  public:
   explicit ContactNames(const Model& model);

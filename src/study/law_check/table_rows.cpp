@@ -187,7 +187,7 @@ std::vector<Violation> TableRowChecker::violations_of(const RecordedRow& row, co
   std::vector<Violation> broken;
   law_checker_.check_contact(row.t, row.contact, state, m, false, size.force, broken);
   std::erase_if(broken, [&](const Violation& v) {
-    return c.tangential_stiffness && v.law == "slip direction";  // needs g', which tables lack
+    return c.tangential_stiffness && v.law == "slip direction";  // this law needs g', which tables lack
   });
   for (Violation& v : broken) v.event = file;
   check_forces(row, state, file, [&](Violation v) { broken.push_back(std::move(v)); });

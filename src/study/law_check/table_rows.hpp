@@ -79,9 +79,9 @@ class TableRowChecker {
   /// the number of rows. Errors: FileError.
   long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
-  /// Compares peaks with the checked rows and instants.
+  /// Checks that no checked row exceeds the recorded peaks.
   void check_peaks(const std::vector<std::optional<Peak>>& recorded, const Found& found) const;
-  /// Compares the recorded extremes of N and T with the checked rows, and with the peaks.
+  /// Checks that the recorded extremes of N and T agree with the checked rows and with the peaks.
   void check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
                    const std::vector<std::optional<Peak>>& peaks, const Found& found) const;
 

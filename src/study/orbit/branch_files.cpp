@@ -210,10 +210,10 @@ constexpr std::size_t max_outputs = 6;
 constexpr const char* low_colour = "#d95f02";
 constexpr const char* high_colour = "#1f77b4";
 
-/// Points of one curve: gnuplot breaks a line at a value that is not a number.
+/// A point of the picture's table. gnuplot breaks a curve at a value that is not a number.
 struct DrawnPoint {
-  const BranchPoint* point;  // null: a break
-  bool stable, unstable;     // curves that contain the point
+  const BranchPoint* point;  // null: a break of the curve
+  bool stable, unstable;     // true if the stable or unstable curve contains the point
 };
 
 /// A segment is unstable if one of its ends is unstable. A point of undecided stability belongs to the curves

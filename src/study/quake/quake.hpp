@@ -26,7 +26,8 @@ struct QuakeSpec {
   unsigned long seed = 1;
   double ground_frequency = 2.5, ground_damping = 0.6;  ///< wg / 2 pi in Hz, zg
   double low_frequency = 0.25, low_damping = 0.6;       ///< wf / 2 pi in Hz, zf
-  std::function<double(double T)> target = {};          ///< PSA at 5 % of critical damping; null: by filter
+  /// Target PSA at 5 % of critical damping; null: amplitudes by filter.
+  std::function<double(double T)> target = {};
 };
 
 /// Range of periods over which a spectrum is matched and reported.

@@ -145,12 +145,13 @@ constexpr double max_radians = 1.0;
 constexpr double nothing_known = 1.0;
 // Order of `missed` in 1/cutoff, assumed until two trials show it.
 constexpr double usual_order = 2.0;
-constexpr int max_failures = 4;                 // limit for successive trials that cannot run
-constexpr int max_moves = 8;                    // limit for moves of a cutoff if modes cannot be counted
-constexpr double move_by = 1.01;                // factor by which a cutoff is moved
-constexpr double raised = 1.5;                  // factor for a cutoff with too few modes below it
-constexpr Eigen::Index min_compared = 2048;     // smallest number of compared instants; chosen value
-constexpr Eigen::Index max_compared = 1 << 22;  // displacements that a trial keeps for the comparison: 32 MB
+constexpr int max_failures = 4;              // limit for successive trials that cannot run
+constexpr int max_moves = 8;                 // limit for moves of a cutoff if modes cannot be counted
+constexpr double move_by = 1.01;             // factor by which a cutoff is moved
+constexpr double raised = 1.5;               // factor for a cutoff with too few modes below it
+constexpr Eigen::Index min_compared = 2048;  // smallest number of compared instants; chosen value
+// Number of displacements that a trial stores for the comparison: 32 MB.
+constexpr Eigen::Index max_compared = 1 << 22;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction.tolerance", why);

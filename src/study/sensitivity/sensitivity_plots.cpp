@@ -100,7 +100,7 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   }
   std::stable_sort(sizes.begin(), sizes.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  // Chosen value: errors of derivatives are at most 1e-10 of the largest.
+  // Smaller elasticities, relative to the largest, are rounding. Chosen value: errors of derivatives are at most 1e-10.
   constexpr double rounding_of_derivatives = 1e-9;
   while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first)
     sizes.pop_back();

@@ -20,7 +20,7 @@
 namespace signorini::speed {
 namespace {
 
-/// Quantities in tables for readers; files have all quantities.
+/// Quantities that study.md shows; study.csv and study.json have all quantities.
 constexpr const char* shown[] = {"event_time", "displacement", "force_away", "energy"};
 
 std::string unit_of(const WorkReport& report, const std::string& quantity) {

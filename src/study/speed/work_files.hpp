@@ -26,7 +26,7 @@ struct WorkTable {
 /// One sentence for each run that was refused, ended early, or has other events than the reference.
 [[nodiscard]] std::vector<std::string> work_failures(const WorkReport& report);
 
-/// "errors against exact", and the time up to which runs are compared.
+/// Reference of the study: "errors against exact", and the time up to which runs are compared.
 [[nodiscard]] std::string work_reference(const WorkReport& report);
 
 /// Conditions of the study: "51 dofs, 2 contacts; AMD ..., 2 cores; ..."

@@ -55,7 +55,7 @@ struct WorkRanges {
 /// All combinations of engines, varied keys and accuracies, in this order and in the order of the ranges.
 [[nodiscard]] std::vector<WorkPoint> work_points(const WorkRanges& ranges);
 
-/// Five time steps, each a tenth of the one before; the first is the largest power of ten up to t_end / 50.
+/// Five time steps, each a tenth of the previous step; the first is the largest power of ten up to t_end / 50.
 [[nodiscard]] std::vector<double> usual_steps(double t_end);
 
 }  // namespace signorini::speed

@@ -18,7 +18,8 @@ namespace signorini::speed {
 /// limits.hpp).
 struct WorkError {
   std::string quantity, unit;
-  double value = 0.0, t = 0.0;  ///< up to the first difference of the sequences
+  /// Largest difference, and its time, up to the first difference of the sequences.
+  double value = 0.0, t = 0.0;
   std::string where;
   double whole = 0.0;  ///< value over the whole run
 };
@@ -27,7 +28,7 @@ struct WorkRow {
   WorkPoint point;
   std::filesystem::path directory;  ///< directory of the run; empty if refused
   std::string outcome;              ///< done, stopped, refused, "too slow"
-  /// True if the errors of all other runs are relative to this one.
+  /// True if the errors of all other runs are differences from this run.
   bool reference = false;
   std::string reason;                               ///< empty when done
   std::optional<double> t;                          ///< time reached
@@ -49,7 +50,7 @@ struct WorkRow {
   [[nodiscard]] std::optional<double> wall_time() const;  ///< the smallest of wall_times
 };
 
-/// Enters the differences of a run from the reference into its row.
+/// Sets errors and matched events of `row` from the comparison of `run` with the reference.
 void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
                      const compare::Comparison& comparison);
 

@@ -180,7 +180,7 @@ bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
   }
 }
 
-/// Measures the error of `exact` itself: the same run with all masses changed in their last digits.
+/// Measures the error of `exact` itself: the difference from the same run with all masses changed in their last digits.
 void WorkStudy::measure_reference_error(const WorkPoint& point) {
   const fs::path folder = request_.directory / "runs" / "again";
   study::PreparedRun run = prepare(point);
@@ -230,7 +230,7 @@ std::optional<WorkPoint> WorkStudy::series_of_exact() {
     report_.notes.push_back(
         fmt::format("{} is left out: it would take {} s, more than the time limit of {:g} s", series.name(),
                     run::seconds_text(seconds), request_.limits.seconds));
-  } catch (const SceneError&) {  // reported when `exact` itself runs
+  } catch (const SceneError&) {  // the error is reported when `exact` itself runs
   }
   return std::nullopt;
 }

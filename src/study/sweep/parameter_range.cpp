@@ -243,7 +243,7 @@ using Inverse = std::function<double(double u)>;
 struct Distribution {
   const char *name, *parameters;
   std::size_t count;
-  /// Null function if the parameters are invalid.
+  /// Returns a null function if the parameters are invalid.
   Inverse (*make)(const std::vector<double>& p);
 };
 
@@ -333,7 +333,7 @@ double inner(double u) { return std::min(std::max(u, 0x1p-54), 1.0 - 0x1p-53); }
 std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec) {
   std::vector<ParameterRange> varied;
   std::vector<Inverse> inverses;
-  std::vector<std::size_t> draw_of;  // per key: keys of one text share their draw
+  std::vector<std::size_t> draw_of;  // index of the draw for each key; keys of one text share a draw
   for (const std::string& text : texts) {
     const std::string option = "--sample " + text;
     if (!base::is_plain_text(text))

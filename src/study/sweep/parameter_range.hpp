@@ -17,7 +17,7 @@ namespace signorini::sweep {
 /// One `--vary path=values`.
 struct ParameterRange {
   std::string path;
-  std::string text;                 ///< as given
+  std::string text;                 ///< text of the values, as given
   std::vector<std::string> values;  ///< each in the syntax of `--set`
   int group = 0;                    ///< keys of the same group, above 0, vary together
   bool sampled = false;             ///< the values are draws from the distribution `text`

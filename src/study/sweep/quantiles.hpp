@@ -6,8 +6,8 @@
 //   exceedance of x    m/n, m the number of x_i > x;  its interval is that of Clopper and Pearson
 //
 // No distribution is assumed. If n samples cannot determine a limit of an interval, this limit is absent. The
-// intervals are valid for independent draws; Sobol points are not independent, so they have no intervals. Sources:
-// David and Nagaraja, Order Statistics (2003), section 7.1; Clopper and Pearson, Biometrika 26 (1934) 404.
+// intervals are valid for independent draws; Sobol points are not independent, so they have no intervals.
+// Sources: David and Nagaraja, Order Statistics (2003), section 7.1; Clopper and Pearson, Biometrika 26 (1934) 404.
 #pragma once
 
 #include <optional>

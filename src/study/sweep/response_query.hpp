@@ -1,7 +1,7 @@
 // response_query.hpp: results that a sweep extracts from every run: one column each.
 //
 //   max:NAME  min:NAME  abs:NAME      largest, smallest value, largest magnitude of an [[output]]
-//   tmax:NAME  tmin:NAME  end:NAME    times of these, and the final value
+//   tmax:NAME  tmin:NAME  end:NAME    times of the maximum and the minimum; final value
 //   residual:CONTACT                  slip at the end minus slip at the start
 //   count:EVENT  count:EVENT@CONTACT  number of events of a type, at all contacts or one
 //   impulse:CONTACT  impulse:CONTACT@2     the largest impulse of its landings, or the impulse of the second landing
@@ -21,7 +21,7 @@ namespace signorini::sweep {
 /// Events of one type, at all contacts or at one; in options EVENT or EVENT@CONTACT.
 struct EventQuery {
   EventType type{};
-  std::string contact;  ///< empty: all
+  std::string contact;  ///< empty: all contacts
 
   [[nodiscard]] bool matches(const Event& event, const Model& model) const {
     if (event.type != type || contact.empty()) return event.type == type;

@@ -90,7 +90,7 @@ void RowFile::append(const std::string& lines) {
     return;
   }
   const int error = errno;
-  // If truncation also fails, the next sweep truncates.
+  // If this truncation also fails, the next sweep truncates the file.
   [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(good_));
   throw FileError(path_.string(), "cannot be written" + base::system_error_text(error));
 }

@@ -64,11 +64,11 @@ struct Share {
   friend bool operator==(const Share&, const Share&) = default;
 };
 
-/// Value of an environment variable, if it is set.
+/// Returns the value of an environment variable; nullopt if it is not set.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 
 /// Parses a share. Errors: UsageError for texts other than K/N with 1 <= K <= N or "auto", and for "auto" if
-/// the environment has no such variables.
+/// no launcher or array has set its variables.
 [[nodiscard]] Share parse_share(const std::string& text, const Environment& environment);
 
 /// Number of processes of this sweep that a launcher (not an array) has started; 1 without a launcher.

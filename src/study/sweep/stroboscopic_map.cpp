@@ -61,7 +61,7 @@ std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene) {
   std::optional<double> period;
   try {
     period = orbit::load_period(scene).period;
-  } catch (const SceneError&) {  // loads without a common period have no phase
+  } catch (const SceneError&) {  // if loads have no common period, points have no phase of the loads
     return {};
   }
   if (!period) return {};

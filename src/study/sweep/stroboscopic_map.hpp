@@ -37,12 +37,12 @@ struct StroboscopicColumn {
   std::string name, unit;
   bool output = false;  ///< true for an [[output]]
 };
-/// Columns of a point: those of history.csv, then the outputs.
+/// Columns of a point: the columns of history.csv, then the outputs.
 [[nodiscard]] std::vector<StroboscopicColumn> strobe_columns(const Model& model);
 
 struct StroboscopicPoint {
   double t = 0.0;
-  std::vector<double> values;  ///< one per column
+  std::vector<double> values;  ///< one value per column
 };
 
 /// Collects the points of a run, and forwards all data to the next recorder.
@@ -70,7 +70,7 @@ class StroboscopicRecorder : public run::ForwardingRecorder {
   double settle_;
   const Model& model_;
   std::vector<StroboscopicPoint> points_;
-  std::optional<double> event_;  // time of an event without a point yet
+  std::optional<double> event_;  // time of an event whose point has not been added yet
   std::optional<double> t_outputs_;
   std::vector<double> outputs_;
 };

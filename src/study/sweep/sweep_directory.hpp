@@ -36,7 +36,7 @@ struct CarrySpec {
   friend bool operator==(const CarrySpec&, const CarrySpec&) = default;
 };
 
-/// Specification of a sweep. Two sweeps are the same if everything but scene and share is equal.
+/// Specification of a sweep. Two sweeps are the same if their specifications are equal apart from scene and share.
 struct SweepSpec {
   std::string scene;  ///< file, as given
   /// Fingerprint of the scene's content, with settings and the first valid values of the varied keys.
@@ -56,8 +56,9 @@ struct SweepSpec {
 /// Directory of a sweep. Errors of all members: FileError.
 class SweepDirectory {
  public:
-  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is removed
-  /// first. No other process can open it until the object, and processes that inherited it, are gone.
+  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is
+  /// removed first. No other process can open the directory while this object, or a process that inherited
+  /// the object, exists.
   SweepDirectory(std::filesystem::path path, SweepSpec spec, bool force);
   ~SweepDirectory() = default;
   SweepDirectory(const SweepDirectory&) = delete;

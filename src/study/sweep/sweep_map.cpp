@@ -25,7 +25,7 @@ std::vector<double> values_of(const ParameterRange& vary) {
 
 // Ratio of the largest to the smallest value from which an axis is logarithmic.
 constexpr double decades = 50.0;
-constexpr std::size_t max_ticks = 8;  // with more values, not every value has its own tick
+constexpr std::size_t max_ticks = 8;  // with more values gnuplot chooses the ticks
 
 bool logarithmic(const std::vector<double>& values) {
   return values.front() > 0.0 && values.back() >= decades * values.front();

@@ -184,7 +184,8 @@ class SweepCurves {
                             : alone                           ? ""
                                                               : contacts_[k];
         if (!combinations_[c].name.empty()) title += (title.empty() ? "" : ", ") + combinations_[c].name;
-        // The colour distinguishes contacts or, if there are several, combinations of the other keys.
+        // The colour distinguishes combinations of the other keys; if there is only one combination, it
+        // distinguishes contacts.
         const std::size_t colour = combinations_.size() > 1 ? c : k;
         // Later curves are thinner and dashed, and drawn on top, so that coinciding curves remain visible.
         const std::size_t i = list.size();

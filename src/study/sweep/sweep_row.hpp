@@ -69,7 +69,7 @@ struct RowTask {
   std::filesystem::path keep;  ///< directory in which the run is stored; empty: only the row is kept
   std::vector<std::string> command_line;
   std::vector<std::string> responses = {};  ///< queries, as given
-  std::string strobe = {};                  ///< as given; empty: no points
+  std::string strobe = {};                  ///< value of --strobe; empty: no points
   std::optional<double> settle = {};        ///< earliest time of the first point; absent: half of t_end
 };
 

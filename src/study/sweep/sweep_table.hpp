@@ -23,7 +23,7 @@ using SweepRows = std::map<std::size_t, SweepRow>;
 /// The contact with this name in a row; null if the row has no such contact.
 [[nodiscard]] const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name);
 
-/// Texts of sweep.csv and of results.json.
+/// Texts of sweep.csv and results.json.
 [[nodiscard]] std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows);
 [[nodiscard]] std::string sweep_json(const SweepSpec& spec, const SweepRows& rows);
 

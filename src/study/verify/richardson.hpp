@@ -39,7 +39,7 @@ struct ObservedRun {
 
 /// A column of ObservedRun::rows.
 struct ObservedColumn {
-  std::string name;  ///< "A.ux", "first.N", an output's
+  std::string name;  ///< "A.ux", "first.N", or the name of an output
   /// "displacement", "rotation", "velocity", "angular_velocity", "force", "output [m/s^2]"
   std::string kind;
   std::string unit;
@@ -62,13 +62,13 @@ class ObservingRecorder : public Recorder {
 /// Runs the model, and returns its observations. Errors: SceneError for scenes that the engine refuses.
 [[nodiscard]] ObservedRun observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on);
 
-/// Observations of a run that has ended.
+/// Observations of a run, from the tracker that has recorded it.
 [[nodiscard]] ObservedRun observed_run(certify::CompanionTracker&& tracker, Report report);
 
 /// Values of a quantity at one instant, computed with the steps h, h/2, h/4.
 using StepTriple = std::array<double, 3>;
 
-/// The limit of the values, and its error bound.
+/// Limits of the values for h = 0, and their error bounds.
 struct Extrapolation {
   std::vector<double> value, error_bound;
 };
@@ -78,7 +78,7 @@ class ConvergenceOrder {
  public:
   /// negligible: smaller differences are ignored, for instance differences far below IDA's own error.
   void add(const std::vector<StepTriple>& series, double negligible = 0.0);
-  /// nullopt if the differences are rounding or negligible, for instance if the method is exact.
+  /// Observed order; nullopt if the differences are rounding or negligible, for instance if the method is exact.
   [[nodiscard]] std::optional<double> value() const;
 
  private:

@@ -3,11 +3,11 @@
 //   newmark at dt, dt/2, dt/4 -> order, R, bar                 (richardson.hpp)
 //   |ida - R| <= bar + error bound in IDA's certificate
 //
-// This is checked for the times of events and, at VerifyRequest::rows output times, for displacements,
-// velocities, N and T of the contacts, and outputs. Output times that may be before an event in one run and
-// after it in another are omitted. If all runs are complete, extremes of outputs are compared with those of
-// newmark's finest step. All comparisons end at the first instant from which IDA's sequence is not certain,
-// or newmark's changes with its step.
+// This inequality is checked for the times of events and, at VerifyRequest::rows output times, for
+// displacements, velocities, N and T of the contacts, and outputs. Output times that may be before an event
+// in one run and after it in another are omitted. If all runs are complete, extremes of outputs are compared
+// with the extremes of newmark's finest step. All comparisons end at the first instant from which IDA's
+// sequence is not certain, or newmark's sequence changes with its step.
 //
 //   agree      all differences are allowed, to the end of the run
 //   differ     one difference is too large: the result names the event or quantity, the time and the difference
@@ -37,7 +37,7 @@ struct VerifyRequest {
   std::function<bool()> go_on = [] { return true; };  ///< returns false if the user interrupts
 };
 
-/// Comparison at one instant: the time of an event, or a column.
+/// Comparison of one value at one instant: the time of an event, or a column.
 struct Observation {
   double t = 0.0;
   double ida = 0.0, ida_error = 0.0;
@@ -86,8 +86,9 @@ struct Verification {
   std::vector<VerifiedKind> kinds;
   std::vector<VerifiedEvent> events;
   std::vector<StepTest> step_tests;
-  std::optional<double> paper_dt;  ///< largest dt whose doubling changes less than `paper_change`
-  std::string exact_result;        ///< result of the third engine, exact
+  /// Largest dt whose doubling changes displacements by less than `paper_change`.
+  std::optional<double> paper_dt;
+  std::string exact_result;  ///< result of the third engine, exact
   CertifiedReport ida;
   bool interrupted = false;
 };

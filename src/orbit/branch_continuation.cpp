@@ -197,7 +197,7 @@ bool BranchContinuation::begin(CorrectedPoint& here) {
   choose_new_section(here, none);
   newton_.measure(here.pass);
   here = newton_.correct(here.state, newton_.parameter_direction(here.pass, 1.0), {});
-  if (!here.done) end_ = "the first orbit could not be followed: " + here.reason;
+  if (!here.done) end_ = "the first orbit cannot be followed: " + here.reason;
   return here.done;
 }
 
@@ -297,7 +297,7 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
     turned_back_ = true;
     return true;
   }
-  end_ = fmt::format("at {} = {:.9g} no step is short enough, and {}: {}", options_.path, value(here),
+  end_ = fmt::format("at {} = {:.9g} even the shortest step fails, and {}: {}", options_.path, value(here),
                      known ? "the orbit found beyond already lies on the branch" : "no orbit is found beyond",
                      why);
   return false;

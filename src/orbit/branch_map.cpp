@@ -96,7 +96,7 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
     throw SceneError({}, options_.path,
                      fmt::format("the loads are periodic only from t = {:g} on; at the start of the branch "
-                                 "they are from t = {:g} on",
+                                 "they are periodic from t = {:g} on",
                                  loads.periodic_from, phase));
   return loads;
 }

@@ -227,7 +227,7 @@ bool Search::by_itself() {
   }
   if (!(found.period > 0.0))
     return stop(
-        fmt::format("no event of the transient, up to t = {:.6g}, returns to a state near an earlier one; "
+        fmt::format("no state at an event of the transient, up to t = {:.6g}, is near an earlier state; "
                     "use a longer t_end, so that the transient decays further",
                     length * unit_));
   const orbit::OrbitPass to_section = scene.pass({initial_, found.section, false});

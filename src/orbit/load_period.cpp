@@ -109,7 +109,7 @@ void check_drift(const Driver& d, const History& acceleration, double settled, d
       d.spec->place, d.key,
       fmt::format(
           "found an acceleration that displaces the support by {:.6g} in each period of {} (from rest at "
-          "zero displacement), expected one without drift: no motion of this scene is periodic",
+          "zero displacement), expected an acceleration without drift: with drift no motion is periodic",
           drift, base::format_number(period)));
 }
 
@@ -132,8 +132,8 @@ LoadPeriod load_period(const Scene& scene, const CountedLoads& count) {
     if (!both)
       throw SceneError(
           d.spec->place, d.key,
-          fmt::format("found a period of {} and one of {}, expected periods with a common multiple (up to {} "
-                      "of the longer one)",
+          fmt::format("found the period {}, while earlier histories have the period {}; expected periods with "
+                      "a common multiple of at most {} times the longer period",
                       base::format_number(own), base::format_number(*found.period), max_multiples));
     found.period = both;
   }
@@ -158,7 +158,7 @@ LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& c
     }
     if (differ > same_period * 2.0 * std::numbers::pi * size)
       throw SceneError(d.spec->place, d.key,
-                       fmt::format("found a history that differs by {:.2g} of its greatest value after {}, "
+                       fmt::format("found a history that changes by {:.2g} of its greatest value after {}, "
                                    "expected one with the period of the orbit",
                                    differ / size, base::format_number(period)));
     if (d.acceleration) check_drift(d, f, found.periodic_from, period);

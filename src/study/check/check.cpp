@@ -65,7 +65,7 @@ CheckReport check(const Scene& scene, const Model& model) {
   report.method = std::move(start.method);
   report.warnings = std::move(start.warnings);
   if (const auto found = checks::ambiguous_contacts(model))
-    report.warnings.push_back(found->reason + "; the run will stop when that happens");
+    report.warnings.push_back(found->reason + "; the run stops if this state of the contacts occurs");
   if (std::string found = checks::unstable_motion(scene, structure, report.contacts); !found.empty())
     report.warnings.push_back(std::move(found));
   for (std::string& loose : checks::loose_parts(scene)) report.warnings.push_back(std::move(loose));

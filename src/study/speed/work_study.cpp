@@ -285,7 +285,7 @@ void WorkStudy::find_reference() {
   const bool whole = choose_reference();
   if (report_.reference.empty()) {
     if (recorded_.empty()) throw Error(ExitCode::scene, report_.notes.back());
-    report_.notes.push_back("there is no reference, so runs have times and no errors");
+    report_.notes.push_back("there is no reference, so runs have times but no errors");
     return;
   }
   if (!whole) {

@@ -155,7 +155,7 @@ std::map<std::size_t, NumberedRow> SweepDirectory::rows_in(const fs::path& file)
       return FileError(file.string(), fmt::format("line {}: row {} is {}", found.line, index + 1, what));
     };
     if (index >= points_.size())
-      throw wrong(fmt::format("no row of this sweep, which has {}", points_.size()));
+      throw wrong(fmt::format("no row of this sweep, which has {} rows", points_.size()));
     if (!spec_.share.holds(index)) throw wrong("not of share " + spec_.share.text());
     const auto& point = points_[index];
     bool ours = found.row.values.size() == point.size();

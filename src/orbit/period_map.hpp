@@ -1,4 +1,4 @@
-// period_map.hpp: motion over a period from a state at a section, and the derivative of its end by that state.
+// period_map.hpp: motion over a period from a state at a section; derivative of the final state by the initial state.
 //
 //   z -> z(T; z),     Phi B: tangent motions of all columns of B, computed along with one run
 //

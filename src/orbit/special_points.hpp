@@ -3,7 +3,7 @@
 //   fold             t_s, the part of the branch's direction along the key
 //   flip             1 + the smallest real multiplier
 //   neimark-sacker   the largest magnitude of a pair - 1
-//   branch point     the largest real multiplier - 1, where t_s keeps its sign
+//   branch point     the largest real multiplier - 1, if t_s keeps its sign
 //
 // The multipliers 1 of families and of time are excluded.
 #pragma once

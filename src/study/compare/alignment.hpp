@@ -1,7 +1,10 @@
 // alignment.hpp: pairs the events of two runs, and the rows of their tables.
 //
-//   reference  a1 a2 b1 a3 ...        partners have the same contact, event, from and to, and each contact's
-//   other      a1 b1 a2 a3 ...        events keep their order; the first event without a partner ends the list
+//   reference  a1 a2 b1 a3 ...
+//   other      a1 b1 a2 a3 ...
+//
+// Partners have the same contact, event, from and to. The events of each contact keep their order. The first event
+// without a partner ends the list of pairs.
 //
 // Only events of different contacts may have a different order, and only if the order is insignificant: the events
 // are within one instant, or, in one of the two lists, closer than their uncertainties (then counted as

@@ -1,8 +1,9 @@
 // table_rows.hpp: checks of contacts.csv and motion.csv by the law checker.
 //
-//   state of a row = state after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
-//   ratio = |T| / |N| with friction, for a closed contact and N != 0
-//   peaks of summary.json >= rows up to the last instant of a stopped run
+//   state    the state after the last instant; the guards of this state are satisfied
+//   forces   N = kn g;  sticking: T = kt (ut - p);  slipping: T = -s fk N
+//   ratio    |T| / |N|, only for a closed contact with friction and N != 0
+//   peaks    of summary.json: at least as large as all rows; in a stopped run, as the rows up to the last instant
 //
 //   TableRowChecker rows(model, engine, checker);
 //   for each instant: rows.instant(record);

@@ -15,19 +15,22 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr double shortest_step = 1e-7;  // limit of ds, in the norm
-constexpr int quick = 4;                // number of corrections up to which the next step may be longer
-constexpr double longest_way = 10.0;    // distance / ds of a step to another branch. Chosen value.
-constexpr double shifted_to = 1e-3;     // residual / amplitude: effect of noise on a shift. Chosen value.
-constexpr double restart_step = 2e-3;   // relative to the range
-// For amplitudes from the rows of a period, and multipliers between two points: difference up to which two orbits are
-// one. Chosen value.
+constexpr double shortest_step = 1e-7;  // lower limit for ds, in the norm of branch_newton.hpp
+// After at most this number of corrections the next step may be longer.
+constexpr int quick = 4;
+// Limit for distance / ds; a longer step has ended at another branch. Chosen value.
+constexpr double longest_way = 10.0;
+// Residual / amplitude up to which a shifted orbit is periodic; above the noise. Chosen value.
+constexpr double shifted_to = 1e-3;
+constexpr double restart_step = 2e-3;  // step of the search beyond a gap, relative to the range of the key
+// Relative difference of amplitudes and multipliers up to which has_passed() regards two orbits as the same.
+// Amplitudes come from sampled rows; multipliers are interpolated between two points. Chosen value.
 constexpr double same_amplitude = 0.05;
 
 }  // namespace
 
-/// Finds an orbit at a slightly further value of the key. Damped steps of Newton's method also find unstable
-/// orbits and other sequences of events; if they fail, a transient is computed.
+/// Finds an orbit at a slightly further value of the key. Damped steps of Newton's method also find unstable orbits
+/// and other sequences of events; if these steps fail, a transient run is computed. Returns false if both fail.
 bool BranchContinuation::restart(CorrectedPoint& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
   if (next.s < 0.0 || next.s > 1.0) return false;
@@ -52,7 +55,7 @@ bool BranchContinuation::restart(CorrectedPoint& here, double sign) {
   return transient.done() && close(orbit_state(transient.end));
 }
 
-/// Moves `here` to the middle of the family that contains the orbit.
+/// Moves `here` to the middle of its family of orbits. Returns false if `here` remains unchanged.
 bool BranchContinuation::move_to_representative(CorrectedPoint& here, const Vector& t) {
   std::optional<CorrectedPoint> middle = representative_member(map_, newton_, here, t);
   if (!middle || sequence_of(middle->pass) != sequence_of(here.pass)) return false;
@@ -60,7 +63,8 @@ bool BranchContinuation::move_to_representative(CorrectedPoint& here, const Vect
   return true;
 }
 
-/// Chooses a section away from events if this one is too near. The previous point is moved as well.
+/// Moves the section away from events if an event is too near. `here` and the previous point `place` move to
+/// the new section.
 void BranchContinuation::choose_new_section(CorrectedPoint& here, std::optional<SecantPoint>& place) {
   if (map_.autonomous()) return;
   const double T = here.state.duration;
@@ -89,8 +93,8 @@ void BranchContinuation::choose_new_section(CorrectedPoint& here, std::optional<
   place = std::move(place_there);
 }
 
-/// Continuing direction of the parameter: independent of the section, whereas the branch may bend more in another
-/// section.
+/// Stores the direction in which the parameter continues. This direction is the same in every section,
+/// although the branch may bend more in another section.
 void BranchContinuation::look_ahead(const std::optional<SecantPoint>& place, CorrectedPoint& next) {
   ahead_ = 0.0;
   if (!place || map_.autonomous() || turning_) return;
@@ -100,9 +104,9 @@ void BranchContinuation::look_ahead(const std::optional<SecantPoint>& place, Cor
   if (std::abs(along) > location_tolerance) ahead_ = along;
 }
 
-/// Direction of the next step: the tangent, as long as it agrees with the branch's last step. With fast mode shapes it
-/// does not, because their phases rotate within a step; the tangent, a difference of the map, then is not computed
-/// again.
+/// Direction of the next step: the tangent if it agrees with the secant of the last step, otherwise the
+/// secant. Both differ if fast mode shapes rotate their phases within a step; then following steps use the
+/// secant and do not compute the tangent, which needs a finite difference of the map.
 Vector BranchContinuation::direction(const std::optional<SecantPoint>& place, CorrectedPoint& here,
                                      const Vector& before) {
   const std::optional<Vector> secant =
@@ -117,7 +121,7 @@ Vector BranchContinuation::direction(const std::optional<SecantPoint>& place, Co
   return (turning_ ? way : tangent) + drift;
 }
 
-/// Text of the sequence of events, rotated to the alphabetically least start, because the section may move.
+/// Text of the sequence of events. It begins with the alphabetically least rotation, because the section may move.
 std::string BranchContinuation::sequence_of(const OrbitPass& pass) const {
   std::vector<std::string> list;
   for (const Event& e : pass.events)
@@ -138,7 +142,7 @@ int BranchContinuation::number_of_sequence(const OrbitPass& pass) {
   return number;
 }
 
-/// Returns false if the caller wants to stop.
+/// Adds a point to the branch. Returns false if the observer has interrupted the run.
 bool BranchContinuation::add(const CorrectedPoint& here, const std::string& special) {
   const Model& model = map_.model();
   Orbit orbit;
@@ -185,7 +189,7 @@ bool BranchContinuation::add(const CorrectedPoint& here, const std::string& spec
   return !branch_.interrupted;
 }
 
-/// Adds the first point. Returns false if the branch ends there.
+/// Corrects the first orbit to the first point `here`. Returns false if Newton's method does not converge.
 bool BranchContinuation::begin(CorrectedPoint& here) {
   here.state = map_.start();
   here.pass = map_.pass(here.state);
@@ -193,11 +197,11 @@ bool BranchContinuation::begin(CorrectedPoint& here) {
   choose_new_section(here, none);
   newton_.measure(here.pass);
   here = newton_.correct(here.state, newton_.parameter_direction(here.pass, 1.0), {});
-  if (!here.done) end_ = "the first orbit could not be followed: " + here.reason;
+  if (!here.done) end_ = "the first orbit cannot be followed: " + here.reason;
   return here.done;
 }
 
-/// Steps to the next point, or to the end of the range if it is nearer.
+/// Steps from `here` along t by ds, or to the end of the range if `last` is true.
 CorrectedPoint BranchContinuation::step(const CorrectedPoint& here, const Vector& t, double ds,
                                         bool last) const {
   BranchState to = newton_.moved(here.state, here.pass, ds * t);
@@ -234,7 +238,7 @@ bool BranchContinuation::is_time_shift(const CorrectedPoint& here, const Vector&
   return pass.done() && orbit_residual(map_.model(), pass) <= shifted_to;
 }
 
-/// True if the branch has a point at this value of the key with this sequence, amplitude and multiplier.
+/// True if the branch already has a point with the parameter, sequence, amplitude and multiplier of `at`.
 bool BranchContinuation::has_passed(const CorrectedPoint& at) {
   const Model& model = map_.model();
   const Multipliers all = multipliers_of(monodromy(model, at.pass)),
@@ -257,8 +261,8 @@ bool BranchContinuation::has_passed(const CorrectedPoint& at) {
   return false;
 }
 
-/// A step to another sequence may have switched to the second of two merging orbits; found_beyond_ keeps this
-/// orbit. Returns false if the continuation has reversed its direction and repeats earlier points.
+/// Where two orbits merge, a step to another sequence of events may end at the second orbit; found_beyond_
+/// stores that orbit. Returns false if the continuation has reversed its direction and repeats earlier points.
 bool BranchContinuation::may_continue(const CorrectedPoint& here, const CorrectedPoint& next, double along) {
   if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
   if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
@@ -268,10 +272,10 @@ bool BranchContinuation::may_continue(const CorrectedPoint& here, const Correcte
   return false;
 }
 
-/// Searches for a next point if no step from `here` is short enough: an orbit beyond `here`. If the branch
-/// has passed this orbit already, next becomes the last orbit found beyond, and t leads back from there:
-/// where two orbits meet and vanish, the second one exists on this side only. Returns false if no orbit is
-/// found.
+/// Searches for an orbit beyond `here` if even the shortest step from `here` fails, and stores it in `next`.
+/// If the branch has already passed this orbit, or if no orbit is found, `next` becomes the orbit in
+/// found_beyond_, and t reverses: where two orbits meet and vanish, the second orbit exists on this side
+/// only. Returns false if found_beyond_ is empty, too.
 bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, CorrectedPoint& next, Vector& t) {
   const double sign = t[t.size() - 1] < 0.0 ? -1.0 : 1.0;
   const std::string why = next.reason;
@@ -293,13 +297,14 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
     turned_back_ = true;
     return true;
   }
-  end_ = fmt::format("at {} = {:.9g} no step is short enough, and {}: {}", options_.path, value(here),
+  end_ = fmt::format("at {} = {:.9g} even the shortest step fails, and {}: {}", options_.path, value(here),
                      known ? "the orbit found beyond already lies on the branch" : "no orbit is found beyond",
                      why);
   return false;
 }
 
-/// Follows the branch point by point; end_ stays empty if the caller ends it.
+/// Follows the branch point by point. end_ stays empty if the observer interrupts the run, or at the
+/// requested number of points.
 void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
   double ds = 0.25 * options_.step;
   while (points_ < options_.most_points) {
@@ -340,7 +345,7 @@ void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
     here = std::move(next);
     t = before;
     newton_.measure(here.pass, &t);
-    here.family = {};  // its directions were in the norm of the previous point
+    here.family = {};  // the stored directions refer to the norm of the previous point
     t = direction(place, here, t);
     if (move_to_representative(here, t)) t = direction(place, here, t);
     keep_mark(here, t);
@@ -361,8 +366,8 @@ void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
   }
 }
 
-/// Sets end_ at an end of the range. A branch that returns to its beginning after a gap is one of two pieces,
-/// and not complete.
+/// Sets end_ at an end of the range. A branch that returns to its beginning after a gap is incomplete: the
+/// gap separates two pieces of the branch.
 void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
   end_ = fmt::format("{} {} = {:.9g}", along > 0.0 ? "reached" : "returned to", options_.path, value(here));
   if (along > 0.0 || number_ != 1) return;
@@ -371,7 +376,7 @@ void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
     if (std::abs(p.parameter - options_.from) > std::abs(farthest - options_.from)) farthest = p.parameter;
   end_ += fmt::format("; beyond {:.9g}, up to {:.9g}, the branch has no orbit", farthest, options_.to);
   if (!crossed_gap_) return;
-  end_ += ", and it was found again beyond a gap: another branch may lead there";
+  end_ += ", and the branch was found again beyond a gap: another branch may lead across the gap";
   complete_ = false;
 }
 
@@ -415,7 +420,7 @@ void BranchContinuation::offer_mark() {
   if (number_ == 1 && options_.on_checkpoint) options_.on_checkpoint([this] { return mark().value(); });
 }
 
-/// A scene that is refused on the way ends the branch, whose points are kept.
+/// If the scene is refused for a value of the key, the branch ends there and keeps its points.
 void BranchContinuation::guarded(const std::function<void()>& walk) {
   try {
     walk();
@@ -432,7 +437,8 @@ void BranchContinuation::follow() {
   guarded([&] { walk_from_start(); });
 }
 
-/// The first point on the other branch, and its direction there.
+/// Finds the first point `here` on the other branch and the branch's direction t there. Returns false if no
+/// step finds a point.
 bool BranchContinuation::begin_from(const Junction& junction, CorrectedPoint& here, Vector& t) {
   here = junction.at;
   if (doubled_) here.state.duration *= 2.0;
@@ -443,7 +449,8 @@ bool BranchContinuation::begin_from(const Junction& junction, CorrectedPoint& he
   t = newton_.in_norm(junction.away);
   for (double ds = 0.25 * options_.step; ds >= shortest_step; ds *= 0.5) {
     CorrectedPoint next = newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, {});
-    // It must begin along t; elsewhere the orbit belongs to another branch, such as the simple one, counted twice.
+    // The other branch must begin along t. Otherwise the orbit belongs to a different branch, for instance to
+    // the branch of the simple period, passed twice.
     const SecantPoint begin{here.pass.begin, here.state.duration, here.state.s};
     if (!next.done || chord_deviates(begin, next, &t, false)) continue;
     const std::optional<SecantPoint> place{begin};
@@ -468,8 +475,8 @@ void BranchContinuation::follow_from(const Junction& junction) {
   });
 }
 
-/// True if the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z reverses, at the same
-/// section.
+/// True if the branch of doubled period has passed an orbit of the simple period: then z(T/2) - z reverses
+/// its sign between two points with the same section.
 bool BranchContinuation::returns(const CorrectedPoint& here) {
   BranchState half = here.state;
   half.duration *= 0.5;

@@ -1,12 +1,13 @@
 // branch_continuation.hpp: follows one branch of orbits, point by point.
 //
-//   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
-//   (special_points.hpp)
+// Predictor: a step along the direction of the branch. Corrector: Newton's method orthogonal to this
+// direction (branch_newton.hpp). Test functions find special points between two points (special_points.hpp).
 //
-// In a family of orbits the continuation follows the middle one (branch_newton.hpp).
+// If orbits form a family, the continuation follows the orbit in the middle of the family (branch_newton.hpp).
 //
-// If no step is short enough, for instance where a guard grazes, a transient searches for the orbit at a
-// slightly further value of the key. Where another branch begins, the continuation stores a junction:
+// If even the shortest step fails, for instance where a guard grazes, the continuation searches for an orbit
+// at a slightly further value of the key: first by Newton's method with damped steps, then by a transient
+// run. Where another branch begins, the continuation stores a junction:
 //
 //   flip            (Phi + I) v = 0: the branch of orbits with twice the period begins along v
 //   branch point    two directions t, w with dG/dy t = dG/dy w = 0: the other branch begins along w and -w
@@ -16,14 +17,15 @@
 
 namespace signorini::orbit {
 
-/// Beginning of another branch.
+/// Point of a branch at which another branch begins.
 struct Junction {
   BranchMap map;      ///< map of the other branch
-  CorrectedPoint at;  ///< point of the branch that it leaves
-  Vector away;        ///< direction of the other branch: coordinates at the section, dT/T if T is unknown, s
+  CorrectedPoint at;  ///< the junction, as a point of the first of the two branches
+  /// Direction of the other branch at the junction: coordinates at the section; dT/T if T is an unknown; s.
+  Vector away;
   std::string kind;
-  int from = 1;        ///< number of the branch that it leaves
-  int generation = 1;  ///< number of switches that led there
+  int from = 1;        ///< number of the branch on which the junction was found
+  int generation = 1;  ///< number of branch switches between the first branch and the other branch
 };
 
 class BranchContinuation {
@@ -70,13 +72,13 @@ class BranchContinuation {
   [[nodiscard]] Vector direction(const std::optional<SecantPoint>& place, CorrectedPoint& here,
                                  const Vector& before);
   bool add(const CorrectedPoint& here, const std::string& special);
-  /// A special point between two others, and its position.
+  /// A special point within a step, and its position.
   struct LocatedPoint {
-    double part = 0.0;  // fraction of the step
+    double part = 0.0;  // position of the point, as a fraction of the step
     std::string kind;
     CorrectedPoint at;
     Vector t;
-    /// For a change of the sequence, if another one follows within the step: the farthest place found before that.
+    /// If another change of the sequence follows within the step: a point between both changes, and its fraction.
     std::optional<CorrectedPoint> behind = {};
     double behind_part = 1.0;
   };
@@ -86,7 +88,8 @@ class BranchContinuation {
                                                   const Vector& t, double& length);
   [[nodiscard]] bool changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
                                     const std::vector<LocatedPoint>& points) const;
-  /// True if the chord from -> to deviates from the branch's direction at from (direction), or, if at_to, at to.
+  /// True if the chord between the points `from` and `to` deviates from the branch's direction at `from`,
+  /// given as `direction`, or, if at_to is true, from the direction at `to`.
   [[nodiscard]] bool chord_deviates(const SecantPoint& from, CorrectedPoint& to, const Vector* direction,
                                     bool at_to) const;
   [[nodiscard]] bool too_long(const CorrectedPoint& here, CorrectedPoint& next, const Vector& t,
@@ -105,7 +108,7 @@ class BranchContinuation {
   [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
   [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
   [[nodiscard]] double value(const CorrectedPoint& at) const { return map_.parameter(at.state.s); }
-  /// Runs the continuation; a refused scene ends it.
+  /// Runs `walk`. If the scene is refused for a value of the key, the branch ends there.
   void guarded(const std::function<void()>& walk);
 
   const BranchOptions& options_;
@@ -117,16 +120,16 @@ class BranchContinuation {
   std::vector<Junction> junctions_;
   std::string end_;
   bool complete_ = false;
-  /// The last orbit found beyond a gap or a change of the sequence. section: of the map there; sign: of the
-  /// direction along the key in which it was found.
+  /// The last orbit found beyond a gap or a change of the sequence. section: section of the map at this
+  /// orbit; sign: 1 or -1, the direction along the key in which this orbit was found.
   struct FoundBeyond {
     CorrectedPoint at;
     double section, sign;
   };
   std::optional<FoundBeyond> found_beyond_;
-  // Limit of successive steps that ended at another branch, as near a graze, where an unbounded multiplier
-  // prevents convergence of Newton's method. Beyond the limit the branch is searched at further values.
-  // Chosen value.
+  // Limit for the number of successive steps that end at another branch. Such steps occur near a graze, where
+  // an unbounded multiplier prevents convergence of Newton's method. Beyond the limit, the branch is searched
+  // at a further value of the key. Chosen value.
   static constexpr int max_jumps = 4;
   int jumps_ = 0;
   bool crossed_gap_ = false;  // the branch was found again beyond a gap at least once
@@ -136,11 +139,12 @@ class BranchContinuation {
   std::size_t last_points_ = 0;
   bool towards_to_ = true;
   int points_ = 0;
-  bool located_ = false;  // the last point is a located one
+  bool located_ = false;  // the last point is a special point located within a step
   bool folds_ = false;    // the parameter reverses between the last two points, without a located fold
-  bool turning_ = false;  // the tangent differs from the branch's last step (direction())
-  double ahead_ =
-      0.0;  // t_s of the tangent at the last point, in the section of the step that led there; 0: unknown
+  bool turning_ = false;  // the tangent deviates from the secant of the last step (direction())
+  // Component along the parameter of the tangent at the last point, in the section of the step that led to
+  // this point; 0: unknown.
+  double ahead_ = 0.0;
   bool doubled_ = false;  // the branch began at a flip
   double half_section_ = 0.0;
   Vector half_;  // for a doubled branch: z(T/2) - z at the last point

@@ -15,13 +15,15 @@
 namespace signorini::orbit {
 namespace {
 
-// Step of finite differences relative to the range. The error is the second derivative times the step, plus
-// noise/step. The residual of an orbit shows the noise, and its square root balances both terms. Chosen:
-// bounds of the step for `exact`, and the step for `ida`.
+// Steps of finite differences, relative to the range. The error is the second derivative times the step, plus
+// noise/step. The residual of an orbit estimates the noise, and its square root balances both terms. The
+// bounds of the step for the engine `exact` and the step for `ida` are chosen values.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-constexpr std::size_t max_kept = 4;  // number of maps: for a point, its finite difference, and the next point
-constexpr double max_periods = restart_periods + 4.0;  // a transient, and passes through the orbit
-constexpr double same_time = 1e-9;  // relative to a period: rounding of times written as text
+// Number of cached maps: for a point, its finite difference, and the next point.
+constexpr std::size_t max_kept = 4;
+// Length of a scene's run: a transient, and a few passes through the orbit.
+constexpr double max_periods = restart_periods + 4.0;
+constexpr double same_time = 1e-9;  // relative to a period: rounding of times that were written as text
 
 }  // namespace
 
@@ -73,7 +75,8 @@ double BranchMap::parameter(double s) const {
   return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
 }
 
-/// Periodic loads must act until the end of the run: long enough for the period at s and a transient.
+/// The scene at s. Periodic loads must act until the end of its run, which is long enough for a transient and
+/// for a few periods at s.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
     return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::format_number(t_end)}});
@@ -85,7 +88,7 @@ Scene BranchMap::scene_at(double s) const {
   return needed > t_end_ ? until(needed) : scene;
 }
 
-/// Errors: SceneError if the loads do not have the same kind of period as at the start of the branch.
+/// Period of the scene's loads. Errors: SceneError if the loads become periodic later than at the start of the branch.
 LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   const LoadPeriod loads = options_.orbit.period ? check_period(scene, *options_.orbit.period, drive_)
                                                  : load_period(scene, drive_);
@@ -93,7 +96,7 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
     throw SceneError({}, options_.path,
                      fmt::format("the loads are periodic only from t = {:g} on; at the start of the branch "
-                                 "they are from t = {:g} on",
+                                 "they are periodic from t = {:g} on",
                                  loads.periodic_from, phase));
   return loads;
 }
@@ -104,7 +107,8 @@ double BranchMap::period_of(const Scene& scene) const {
 
 double BranchMap::period(double s) const { return autonomous_ ? start_.duration : kept(s).period; }
 
-/// A state of one model is meaningless in a model with other unknowns.
+/// Checks that the model has the unknowns of the first model; otherwise states of the branch are meaningless
+/// in it. Errors: SceneError.
 void BranchMap::check_structure(const Model& model) const {
   const bool same_basis = model.basis.has_value() == first_.basis.has_value() &&
                           model.reduction.has_value() == first_.reduction.has_value() &&
@@ -121,7 +125,7 @@ BranchMap::Kept BranchMap::make(double s) const {
   run.flow = orbit_flow(model, run);
   model = model::rescaled(std::move(model), scene::inverse(machine_));
   check_structure(model);
-  model.scales = first_.scales;  // tolerances and amplitudes are the same along the whole branch
+  model.scales = first_.scales;  // tolerances and amplitudes are comparable along the whole branch
   run = scene::rescaled(run, scene::inverse(machine_));
   const double period = autonomous_ ? 0.0 : period_of(scene);
   auto map = std::make_shared<PeriodMap>(

@@ -1,7 +1,7 @@
 // branch_map.hpp: the period map of a scene for any value of one of its keys.
 //
-//   y = (x, dT, s)       x: coordinates at the section; dT: for self-excited motions
-//                        s = (p - from)/(to - from)
+//   y = (x, dT, s)       x: coordinates at the section; dT: change of the period, if self-excited
+//                        s = (p - from)/(to - from),  p: value of the key
 //   G(y) = B^T (z(T; z, s) - z),    dG/ds by a finite difference of the map, dG/dx from Phi
 //   conservative motions have one more row: (E(x, s) - E*(s))/E1 = 0
 //     over the energy:            E*(s) = from + s (to - from), E1 = to - from, and dG/ds = 0
@@ -22,8 +22,8 @@ inline constexpr int restart_periods = 40;
 
 /// An orbit, or an initial guess of one.
 struct BranchState {
-  OrbitState state;       ///< at the section
-  double duration = 0.0;  ///< machine units; for a forced orbit the period of the loads
+  OrbitState state;       ///< state at the section
+  double duration = 0.0;  ///< period in machine units; for a forced orbit a multiple of the loads' period
   double s = 0.0;
 };
 
@@ -31,7 +31,7 @@ class BranchMap {
  public:
   BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first, Recorder* recorder);
 
-  /// The orbit in the form of find_orbit(): period, phase, the state at its time 0.
+  /// The orbit at `state` in the form that find_orbit() returns: period, phase, and the state at the orbit's time 0.
   [[nodiscard]] Orbit orbit_at(const BranchState& state) const;
   /// The same map over twice the period.
   [[nodiscard]] BranchMap doubled() const;
@@ -40,7 +40,7 @@ class BranchMap {
   [[nodiscard]] bool conservative() const { return options_.path == over_energy; }
   /// True for a branch over the energy, or over a key at a given energy.
   [[nodiscard]] bool keeps_energy() const { return conservative() || options_.orbit.energy.has_value(); }
-  /// E*(s) in the scene's unit, and E1; nullopt if the energy is not prescribed.
+  /// Prescribed energy E*(s), and its unit E1, both in the scene's unit; nullopt if the energy is not prescribed.
   [[nodiscard]] std::optional<double> energy(double s) const {
     return conservative() ? std::optional(parameter(s)) : options_.orbit.energy;
   }
@@ -50,25 +50,26 @@ class BranchMap {
   [[nodiscard]] double range() const { return options_.to - options_.from; }
   [[nodiscard]] double parameter(double s) const;
   /// Period of an orbit at s, in machine units: a multiple of the loads' period, or for self-excited motions
-  /// that of the first orbit.
+  /// the period of the first orbit.
   [[nodiscard]] double period(double s) const;
   [[nodiscard]] const BranchState& start() const { return start_; }
   [[nodiscard]] const Model& model() const { return first_; }
-  /// Section as a fraction of the period.
+  /// Time of the section as a fraction of the period.
   [[nodiscard]] double section() const { return section_; }
   void set_section(double fraction) { section_ = fraction; }
 
-  /// The map at s; maps for the last values of s are kept.
+  /// The map at s. The maps of the last few values of s are cached.
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
-  /// The state at s, corrected to satisfy the rigid constraints of these contact states: n . u = -g0 and n .
-  /// v = 0 for closed contacts, t . v = s' for sticking ones. A key may change all three.
+  /// The state at s, corrected to satisfy the rigid constraints of the contact states `states`. Closed
+  /// contacts: n . u = -g0 and n . v = 0. Sticking contacts: t . v = s'. The key may change n, g0, t and s'.
   [[nodiscard]] OrbitState projected(OrbitState state, const contact::ContactStates& states, double s) const;
-  /// One pass through the period from this state.
+  /// One pass through the period that begins at `state`.
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
-  /// A pass for its margins, with more rows and without tangents.
+  /// A pass that computes the margins of contacts: with more samples than other passes and without tangents.
   [[nodiscard]] OrbitPass margins(const BranchState& state) const;
-  /// dG/ds by a one-sided difference, in coordinates at the section, not yet times B^T, and the row of the energy if
-  /// there is one. Its accuracy is sufficient for a matrix of Newton's method and a direction.
+  /// dG/ds by a one-sided difference, in coordinates at the section, not multiplied by B^T. If the energy is
+  /// prescribed, the last row is the derivative of the energy. The accuracy suffices for the matrix of
+  /// Newton's method and for the direction of the branch.
   [[nodiscard]] Vector parameter_derivative(const BranchState& state, const OrbitPass& pass) const;
 
  private:
@@ -83,7 +84,7 @@ class BranchMap {
   bool autonomous_;
   Factors machine_;
   double phase_;  // machine units
-  double t_end_;  // end of the scenes' runs
+  double t_end_;  // end of the runs of all scenes
   CountedLoads drive_;
   double section_ = 0.0;
   Model first_;
@@ -96,7 +97,8 @@ class BranchMap {
   [[nodiscard]] Kept make(double s) const;
   mutable std::vector<Kept> kept_;
   std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
-  mutable std::shared_ptr<sensitivity::StateFlow> flow_;  // taken from the last map that had one
+  // Closed form of the tangents, from the last map that had one.
+  mutable std::shared_ptr<sensitivity::StateFlow> flow_;
 };
 
 }  // namespace signorini::orbit

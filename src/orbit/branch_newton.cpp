@@ -13,28 +13,32 @@ namespace signorini::orbit {
 namespace {
 
 constexpr int max_corrections = 10;
-constexpr double longest_correction = 0.1;  // limit in the norm; steps are shorter. Chosen value.
-constexpr double slow = 0.02;  // reduction of the residual; beyond it dG/ds is recomputed at this point
-constexpr double corrected_at_last = 1e-9;  // residual / amplitude, as in shooting.cpp
+// Upper limit for a correction in the norm; steps are shorter. Chosen value.
+constexpr double longest_correction = 0.1;
+constexpr double slow = 0.02;  // ratio of successive residuals above which dG/ds is recomputed
+// Residual / amplitude accepted if it stagnates, as in shooting.cpp.
+constexpr double corrected_at_last = 1e-9;
 // The residual cannot decrease below a few times the noise of the map. Chosen value.
 constexpr double of_noise = 4.0;
-constexpr double worth_damping = 1e-3;  // residual / amplitude: an orbit is near. Chosen value.
-constexpr double least_left = 1e-6;     // remainder of a direction outside all families. Chosen value.
-constexpr double held_from = 0.7;       // |t_s| from which corrections hold the parameter. Chosen value.
-constexpr double least_size = 1e-3;     // lower limit for a coordinate in the norm; chosen value
-// Limits of zero singular values, as in shooting.cpp; the finer one is used if a correction left most of the
-// residual.
+// Residual / amplitude up to which damped steps are tried. Chosen value.
+constexpr double worth_damping = 1e-3;
+// Lower limit for a direction's part outside all families. Chosen value.
+constexpr double least_left = 1e-6;
+constexpr double held_from = 0.7;    // |t_s| from which corrections fix the parameter. Chosen value.
+constexpr double least_size = 1e-3;  // lower limit for a coordinate in the norm; chosen value
+// Relative limits below which singular values are zero, as in shooting.cpp. The finer limit applies after a
+// correction that reduced the residual by less than half.
 constexpr double singular = 1e-9, finer_singular = 1e-12;
-constexpr double amplitudes_a_range =
-    5.0;  // weight of a change of the state relative to that of the parameter in its range
-// Relative to the largest amplitude of the branch: below it steps no longer shrink with the amplitude, so that it can
-// reach zero. Chosen value.
+// Number of amplitudes: a change of the state by so many amplitudes has the same length as the range of the parameter.
+constexpr double amplitudes_a_range = 5.0;
+// Fraction of the largest amplitude along the branch. Below it the steps no longer shrink with the amplitude,
+// so that the amplitude can reach zero. Chosen value.
 constexpr double vanishing = 0.05;
-// Limit for the part of dz/ds that is not along the motion: above the noise of dG/ds. Chosen value; the
-// caller verifies the result.
+// Relative limit for the part of dz/ds that is not along the motion; above the noise of dG/ds. Chosen value;
+// the caller verifies the shifted orbit.
 constexpr double shifts_by = 1e-3;
 
-/// sqrt(m_i/m) for coordinates at a section, in scales; 1 where there is no mass.
+/// Weights sqrt(m_i/m) of the coordinates at a section, m: largest mass, in scales; 1 for a coordinate without mass.
 Vector mass_weights(const Model& model, const OrbitSection& section) {
   const auto n = model.size();
   Vector root(n);
@@ -61,7 +65,8 @@ BranchState BranchNewton::moved(const BranchState& from, const OrbitPass& pass, 
   return to;
 }
 
-/// dG/dy, rows and columns in the norm: x by its sizes, T by itself; with the phase condition if T is unknown.
+/// dG/dy with rows and columns in the norm: x relative to sizes_, dT relative to T. If T is unknown, one row
+/// is the phase condition.
 Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass& pass,
                                        const Vector& by_s) const {
   const OrbitSection section(map_.model(), pass.begin);
@@ -97,7 +102,7 @@ Vector BranchNewton::parameter_derivative(const BranchState& state, const OrbitP
   return by_s;
 }
 
-/// Reason why a pass cannot be a step of the branch; empty: it can.
+/// Reason why a pass cannot be a step of the branch; empty if it can.
 std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) const {
   if (!pass.done()) return "the run over one period stopped: " + pass.outcome.reason;
   if (pass.end_rates.size() == 0) return "the state after one period has no derivative: " + pass.reason;
@@ -161,8 +166,8 @@ CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction,
   return c;
 }
 
-/// Corrects by damped steps. Near a graze events appear and vanish between steps, so Phi jumps, and full
-/// steps alternate.
+/// Corrects by damped steps of Newton's method. Near a graze events appear and vanish between steps, so Phi
+/// jumps, and undamped steps oscillate.
 void BranchNewton::close_damped(CorrectedPoint& c, Eigen::Index unknowns) const {
   const ShootingStart start{c.state.state, c.state.duration, false, accepted_residual(), {}};
   ShootingResult shot = shoot(*map_.at(c.state.s), start, correction_tolerance);
@@ -203,7 +208,7 @@ BranchNewton::StepDirection BranchNewton::split(CorrectedPoint& at, const Vector
   return {rest / rest.norm(), part / std::max(rest.norm(), part.norm())};
 }
 
-/// Removes from t its part along families, where Phi - I is also zero: t must not drift along them.
+/// Removes from t its part along families. Phi - I is zero along families as well, but the branch must not drift there.
 Vector BranchNewton::without_families(CorrectedPoint& at, const Vector& t) const {
   return families(at).cols() == 0 ? t : split(at, t).across;
 }
@@ -255,7 +260,7 @@ Vector BranchNewton::flip_direction(const CorrectedPoint& at) const {
 Vector BranchNewton::other_direction(CorrectedPoint at, const Vector& t) const {
   if (at.derivative_by_s.size() == 0) at.derivative_by_s = parameter_derivative(at.state, at.pass);
   const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.derivative_by_s);
-  // t is one of two null vectors of J; with t as an additional row, the other one remains.
+  // t is one of the two null vectors of J. With t as an additional row, only the other null vector remains.
   Eigen::MatrixXd A(J.rows() + 1, J.cols());
   A << J, t.transpose();
   Vector away = base::symmetric_eigen(A.transpose() * A).vectors.col(0);
@@ -305,12 +310,12 @@ std::optional<double> BranchNewton::shift(const CorrectedPoint& at, const Vector
 
 namespace {
 
-// Difference up to which margins count as equal: relative to the smaller one, between these fractions of the
-// amplitude of T. Chosen values.
+// Two margins are regarded as equal if they differ by at most `balanced` times the smallest margin. This
+// limit is at least `finest` and at most `coarsest` times the amplitude of T. Chosen values.
 constexpr double balanced = 1e-3, finest = 1e-8, coarsest = 1e-5;
 constexpr double along_family = 1e-5;  // step of finite differences, in the norm; chosen value
-constexpr double singular_family =
-    1e-6;  // limit for a direction that changes no margin, in amplitudes of T per unit. Chosen value.
+// Limit below which a direction changes no margin: change of margins in amplitudes of T per unit. Chosen value.
+constexpr double singular_family = 1e-6;
 constexpr int max_centrings = 3;
 
 std::vector<std::size_t> never_slip(const Model& model, const OrbitPass& pass) {
@@ -321,7 +326,7 @@ std::vector<std::size_t> never_slip(const Model& model, const OrbitPass& pass) {
   return list;
 }
 
-/// (m+ - m-)/2
+/// Differences (m+ - m-)/2 of the margins of `contacts`.
 Vector imbalances(const std::vector<std::size_t>& contacts, const OrbitPass& pass) {
   Vector d(static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -329,7 +334,7 @@ Vector imbalances(const std::vector<std::size_t>& contacts, const OrbitPass& pas
   return d;
 }
 
-/// True if all differences of margins count as zero.
+/// True if the margins of each contact are equal within the limits above. d: imbalances().
 bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass, const Vector& d) {
   double least = pass.T_amplitude;
   for (const std::size_t c : contacts) least = std::min({least, pass.margins[c][0], pass.margins[c][1]});
@@ -337,8 +342,7 @@ bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass
   return d.cwiseAbs().maxCoeff() <= std::clamp(balanced * least, finest * T, coarsest * T);
 }
 
-/// Derivatives of these differences along directions of the family; empty if unknown. here: differences at
-/// the point.
+/// Derivatives of imbalances() along the directions of the family; empty if a run fails. here: imbalances() at `at`.
 Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const CorrectedPoint& at,
                        const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& directions,
                        const Vector& here) {
@@ -366,7 +370,8 @@ std::optional<CorrectedPoint> representative_member(const BranchMap& map, const 
     if (is_balanced(contacts, fine, d)) break;
     const Eigen::MatrixXd D = slopes(map, newton, at, contacts, directions, d);
     if (D.size() == 0) break;
-    // If everything else slips, the structure moves with the anchor, and no force changes.
+    // If all other contacts slip, the structure moves together with the contact that never slips, and no
+    // force changes: D is zero along this direction.
     const Vector part = base::min_norm_solution(D, -d, singular_family, at.pass.T_amplitude);
     if (!(part.norm() > 0.0)) break;
     CorrectedPoint next = newton.correct(newton.moved(at.state, at.pass, directions * part),

@@ -5,13 +5,12 @@
 //   [ dG/dy ]        [ -G ]
 //   [  t^T  ] dy  =  [  0 ]         regular at folds
 //
-// Norm: the range of the parameter counts as 1, and so does a change of a state by a few amplitudes of each
-// kind. A coordinate with little mass, such as in the fast mode shapes of a fine mesh, counts less, by
-// sqrt(m_i/m).
+// Norm: the full range of the parameter has length 1, and a change of the state by a few amplitudes of each
+// kind also has length 1. A coordinate with little mass, such as in the fast mode shapes of a fine mesh, has
+// the smaller weight sqrt(m_i/m), m: largest mass.
 //
-// Far from folds the parameter is fixed while Newton's method corrects the state. A key that changes the
-// period rotates the phases of fast mode shapes by omega dT, so dG/ds of the last point is no longer valid at
-// the next one.
+// Far from folds Newton's method keeps the parameter fixed and corrects only the state. A key that changes the period
+// rotates the phases of fast mode shapes by omega dT. Therefore dG/ds of the last point is not valid at the next point.
 #pragma once
 
 #include "orbit/branch_map.hpp"
@@ -22,10 +21,10 @@ namespace signorini::orbit {
 /// Target for residual / amplitude, unless the noise of the map is larger.
 inline constexpr double correction_tolerance = 1e-11;
 
-/// Cosine of two directions that count as equal. Chosen value.
+/// Two directions are regarded as equal if the cosine of the angle between them exceeds this value. Chosen value.
 inline constexpr double same_direction_cosine = 0.9;
 
-/// A point of the branch, as needed for a secant.
+/// Data of a point of the branch from which a secant is computed.
 struct SecantPoint {
   OrbitPoint begin;
   double duration = 0.0, s = 0.0;
@@ -39,11 +38,12 @@ struct CorrectedPoint {
   OrbitPass pass;
   double residual = 0.0;
   int iterations = 0;
-  Vector
-      derivative_by_s;  ///< B^T dG/ds at this point, and the row of the energy if there is one; empty: not computed yet
-  Eigen::MatrixXd monodromy;  ///< with multipliers and tests: from examine()
+  /// B^T dG/ds at this point; the last row is the derivative of the energy if it is prescribed; empty: not
+  /// computed yet.
+  Vector derivative_by_s;
+  Eigen::MatrixXd monodromy;  ///< set by examine(), like multipliers and tests
   Multipliers multipliers;
-  double error = 0.0;      ///< error_of() the monodromy matrix
+  double error = 0.0;      ///< error of the monodromy matrix, from error_of()
   std::size_t ones = 0;    ///< number of multipliers that are structurally 1
   Eigen::MatrixXd family;  ///< result of families(), computed on request
   TestValues tests;
@@ -60,42 +60,43 @@ class BranchNewton {
   [[nodiscard]] Eigen::Index size(const OrbitPass& pass) const {
     return OrbitSection(map_.model(), pass.begin).size() + (map_.autonomous() ? 2 : 1);
   }
-  /// The direction of the parameter alone.
+  /// Direction in which only the parameter changes. sign: 1 or -1.
   [[nodiscard]] Vector parameter_direction(const OrbitPass& pass, double sign) const {
     Vector t = Vector::Zero(size(pass));
     t[t.size() - 1] = sign;
     return t;
   }
   [[nodiscard]] BranchState moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const;
-  /// Corrects `guess` across t. by_s: dG/ds at the previous point, used as long as Newton's method converges;
-  /// empty: it is computed.
+  /// Corrects `guess` orthogonally to t. by_s: dG/ds at the previous point, used while Newton's method
+  /// converges fast; if empty, dG/ds is computed.
   [[nodiscard]] CorrectedPoint correct(BranchState guess, const Vector& t, const Vector& by_s) const;
-  /// Returns the direction of the branch, oriented like `before`, and computes multipliers and test
-  /// functions. ones: number of structural multipliers 1 at the previous point; absent: they are counted,
-  /// which requires that no special point is near. known: `before` is the direction.
+  /// Returns the direction of the branch, oriented like `before`, and computes multipliers and test functions.
+  /// ones: number of structural multipliers 1 at the previous point; if absent, multipliers near 1 are
+  /// counted, which requires that no special point is near. known: true if `before` already is the direction.
   Vector examine(CorrectedPoint& at, const Vector& before, std::optional<std::size_t> ones = {},
                  bool known = false) const;
   /// True if corrections fix the parameter for this direction.
   [[nodiscard]] static bool fixes_parameter(const Vector& t);
-  /// Directions of families: one column for each structural multiplier 1, in y, of length 1.
+  /// Directions along families: for each structural multiplier 1 a column in the coordinates y, of length 1.
   [[nodiscard]] const Eigen::MatrixXd& families(CorrectedPoint& at) const;
-  /// A direction along the branch; its part along families does not count in the length of a step.
+  /// A direction along the branch, split into two parts. The part along families does not contribute to a
+  /// step's length.
   struct StepDirection {
-    Vector across;  ///< without families, length 1
-    Vector drift;   ///< along families, per unit of `across`; at most 1
+    Vector across;  ///< part without families, scaled to length 1
+    Vector drift;   ///< part along families, per unit of `across`; length at most 1
   };
   [[nodiscard]] StepDirection split(CorrectedPoint& at, const Vector& way) const;
   /// Direction of the orbit of twice the period at a flip: coordinates at the section, dT/T, s.
   [[nodiscard]] Vector flip_direction(const CorrectedPoint& at) const;
-  /// Direction of the branch that crosses the one along t at a branch point.
+  /// Direction, at a branch point, of the branch that crosses the branch with direction t.
   [[nodiscard]] Vector other_direction(CorrectedPoint at, const Vector& t) const;
-  /// Coordinates as in flip_direction(), scaled to length 1 in the norm.
+  /// Converts a direction in the coordinates of flip_direction() to the norm, with length 1.
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
-  /// Component of v along t, as corrections preserve it: 1 for t itself.
+  /// Component of v along t that corrections leave unchanged; 1 for v = t.
   [[nodiscard]] static double along(const Vector& v, const Vector& t) {
     return fixes_parameter(t) ? v[v.size() - 1] / t[t.size() - 1] : v.dot(t);
   }
-  /// Difference from one point to another; nullopt if the state at the section has other unknowns.
+  /// Difference between two points in the norm; nullopt if the states at the section have different unknowns.
   [[nodiscard]] std::optional<Vector> difference(const SecantPoint& from, const CorrectedPoint& to) const;
   /// The normalised difference; nullopt if both points coincide.
   [[nodiscard]] std::optional<Vector> secant(const SecantPoint& from, const CorrectedPoint& to) const;
@@ -104,7 +105,7 @@ class BranchNewton {
   [[nodiscard]] double noise() const { return noise_; }
   /// Residual up to which a stagnating correction is accepted.
   [[nodiscard]] double accepted_residual() const;
-  /// If dz/ds is along the motion: the time shift of the orbit at the section per unit of s.
+  /// Time shift of the orbit at the section per unit of s, if dz/ds is along the motion; otherwise nullopt.
   [[nodiscard]] std::optional<double> shift(const CorrectedPoint& at, const Vector& t) const;
 
  private:
@@ -118,8 +119,8 @@ class BranchNewton {
   [[nodiscard]] Vector parameter_derivative(const BranchState& state, const OrbitPass& pass) const;
 
   BranchMap& map_;
-  Vector sizes_;           // units of x in the norm, in scales
-  double greatest_ = 0.0;  // amplitude of the state along the branch, in scales
+  Vector sizes_;           // changes of x that have length 1 in the norm, in the model's scales
+  double greatest_ = 0.0;  // amplitude of the state, largest along the branch, in scales
   double noise_ = 0.0;     // noise of the map, relative to the amplitude
 };
 
@@ -130,14 +131,15 @@ class BranchNewton {
 //   m+ = m-                                               its middle
 //
 // A contact that never slips may have any mean force between its limits. A member of the family with a zero
-// margin grazes. A step of the branch from there makes the contact slip once; the orbit settles at the limit
-// again, and each point grazes. In the middle no guard grazes until both margins are zero; there the contact
-// begins to slip in both directions.
+// margin grazes. If the branch continued from such a member, each step would make the contact slip once and
+// end at the limit again, so every point would graze. In the middle no guard grazes until both margins are
+// zero; there the contact begins to slip in both directions.
 //
-// Margins are linear in a if all forces are; d(margins)/da is a difference of runs.
+// Margins are linear in a if all forces are linear in a. The derivative d(margins)/da is computed as a
+// difference of two runs.
 
-/// The orbit in the middle of the family of `here`, examined along t. nullopt if `here` is in the middle or
-/// in no such family, or if Newton's method finds no better orbit.
+/// The orbit in the middle of the family of `here`, examined along t. nullopt if `here` is already in the
+/// middle or belongs to no such family, or if Newton's method finds no better orbit.
 [[nodiscard]] std::optional<CorrectedPoint> representative_member(const BranchMap& map,
                                                                   const BranchNewton& newton,
                                                                   const CorrectedPoint& here,

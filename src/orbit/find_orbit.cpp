@@ -1,4 +1,4 @@
-// find_orbit(): the period, a transient, a section away from events, Newton's method, multipliers.
+// find_orbit() in five steps: period of the loads, transient, section away from events, Newton's method, multipliers.
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -21,18 +21,22 @@
 namespace signorini {
 namespace {
 
-constexpr int max_transients = 3;  // each twice as long as the previous one
-// Distance of neighbouring members of a family, relative to the amplitude. Chosen value.
+constexpr int max_transients = 3;  // number of transients that are tried, one after the other
+// Distance to the neighbouring members of a family that are checked for slip, relative to the amplitude. Chosen value.
 constexpr double beside = 1e-6;
-// Recorded duration in periods: an event at the beginning of a run is not recorded.
+// Duration, in periods, of the run that records events: more than 1 because a run does not record an event at
+// its beginning.
 constexpr double seen_periods = 1.1;
-constexpr int max_repeats = 6;       // number of periods after which a transient is checked for repetition
-constexpr double comes_back = 1e-3;  // distance / amplitude of a repetition; chosen value
-// Divisors of a period for which a self-excited motion may have closed already, because a search with an initial guess
-// finds any multiple. Larger primes are not checked. Chosen value.
+// Largest number of periods after which a transient is checked for repetition.
+constexpr int max_repeats = 6;
+// Distance / amplitude up to which two states repeat each other. Chosen value.
+constexpr double comes_back = 1e-3;
+// Divisors n of a period T. A search from an initial guess may find any multiple of the period, so the program
+// checks whether a self-excited motion closes after T/n already. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};
-// Residual / amplitude after a fraction of the period up to which Newton's method restarts with that fraction, and
-// limit of its change: the remaining error of an orbit that closed to 1e-9 (shooting.cpp). Chosen value.
+// If the residual / amplitude after T/n is at most this value, Newton's method restarts with the period T/n
+// and may change it by at most this relative value: the remaining error of an orbit that closed to 1e-9
+// (shooting.cpp). Chosen value.
 constexpr double nearly_closed = 1e-7;
 
 /// One search for an orbit.
@@ -64,10 +68,10 @@ class Search {
   const SceneReader& read_;
   OrbitOptions options_;
   Recorder* recorder_;
-  Model given_;  // in the scene's units, with loads as at `phase`
+  Model given_;  // in the scene's units
   std::optional<orbit::PeriodMap> map_;
-  double unit_ = 1.0;    // unit of time
-  double before_ = 0.0;  // machine time of the scene from which the loads are periodic
+  double unit_ = 1.0;    // machine's unit of time, in the scene's unit
+  double before_ = 0.0;  // time from which the loads are periodic, rounded up to whole periods; machine units
   double period_ = 0.0;  // period of the loads times OrbitOptions::times, machine units
   double tolerance_, closed_ = 0.0;
   Orbit orbit_;
@@ -78,7 +82,7 @@ class Search {
   std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
 };
 
-/// Time over which periodic histories must be known.
+/// Length of a run, in the scene's unit of time, up to which periodic histories must be defined.
 double long_enough(const orbit::LoadPeriod& loads, const OrbitOptions& options) {
   const double T = loads.period.value_or(0.0) * options.times;
   return loads.periodic_from + T * (4.0 * options.transient + 4.0);
@@ -100,7 +104,7 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
   set_period(scene);
 }
 
-/// True if energy is conserved: there is no excitation, no damping and no friction.
+/// Checks that the scene has no excitation, which a search at a given energy requires. Errors: UsageError.
 void check_conservative(const Scene& scene, const orbit::LoadPeriod& loads) {
   if (!scene.loads.empty() || loads.period || loads.surfaces_move)
     throw UsageError("--energy: expected a scene without loads and belts");
@@ -111,7 +115,8 @@ void Search::set_period(const Scene& scene) {
   const bool conservative = options_.energy.has_value();
   orbit::LoadPeriod loads = options_.period && !conservative ? orbit::check_period(scene, *options_.period)
                                                              : orbit::load_period(scene);
-  // Rest under loads of amplitude zero: the beginning or end of a branch over that amplitude.
+  // If all loads have amplitude zero, as at an end of a branch over the amplitude, the orbit is the state of
+  // rest with the period of these loads.
   if (!loads.period && !loads.surfaces_move && !conservative)
     loads = orbit::load_period(scene, orbit::driving_loads(scene));
   orbit_.autonomous =
@@ -189,7 +194,8 @@ bool Search::forced() {
   return false;
 }
 
-/// Number of periods after which the transient repeats itself, as behind a flip; as a text.
+/// Text that completes the reason of a failure: the number of periods after which the transient repeats
+/// itself, for instance 2 beyond a flip. Empty if no repetition is found.
 std::string Search::repeated(const orbit::OrbitState& state) const {
   orbit::OrbitState now = state;
   std::optional<orbit::OrbitPass> first;
@@ -203,7 +209,7 @@ std::string Search::repeated(const orbit::OrbitState& state) const {
     const orbit::OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
     if (k > 1 && orbit::residual_of(section, *first, gap) <= comes_back)
-      return fmt::format("; the transient repeats itself after {} of these periods: --times {}", k,
+      return fmt::format("; the transient repeats itself after {} of these periods: use --times {}", k,
                          k * options_.times);
   }
   return {};
@@ -221,7 +227,7 @@ bool Search::by_itself() {
   }
   if (!(found.period > 0.0))
     return stop(
-        fmt::format("no event of the transient, up to t = {:.6g}, returns to a state near an earlier one; "
+        fmt::format("no state at an event of the transient, up to t = {:.6g}, is near an earlier state; "
                     "use a longer t_end, so that the transient decays further",
                     length * unit_));
   const orbit::OrbitPass to_section = scene.pass({initial_, found.section, false});
@@ -243,7 +249,7 @@ bool Search::close(const orbit::OrbitState& state, double section, double period
   return true;
 }
 
-/// The period found may be a multiple of the smallest one: the same orbit then also closes after T/n.
+/// Reduces the period to the smallest one: if the period T found is a multiple of it, the orbit also closes after T/n.
 void Search::shorten() {
   if (!orbit_.autonomous || options_.times > 1 || !(shot_.pass.u_amplitude > 0.0)) return;
   for (const int n : shorter_by)
@@ -272,7 +278,8 @@ void Search::stability() {
                                     ? orbit::monodromy(model, next)
                                     : Eigen::MatrixXd();
   const orbit::Multipliers all = orbit::multipliers_of(phi);
-  // Along the motion, and for conservative orbits also from energy to energy.
+  // One multiplier is 1 along the motion; for conservative orbits a second one is 1 because orbits exist at
+  // neighbouring energies.
   const std::size_t ones = orbit::count_ones(all), of_time = options_.energy ? 2 : orbit_.autonomous ? 1 : 0;
   std::size_t families = ones > of_time ? ones - of_time : 0;
   for (std::size_t c = 0; c < pass.never_slips.size(); ++c) {
@@ -290,7 +297,8 @@ void Search::stability() {
   if (!orbit_.families.empty()) see_edge(phi);
 }
 
-/// Detects a neighbouring member of the family in which a contact slips that never slips here: Phi is then one-sided.
+/// Sets orbit_.reason if a contact that never slips in this orbit slips in a neighbouring member of the
+/// family: Phi then is valid on one side only.
 void Search::see_edge(const Eigen::MatrixXd& phi) {
   const orbit::OrbitPass& pass = shot_.pass;
   const orbit::OrbitSection section(map_->model(), pass.begin);
@@ -305,20 +313,21 @@ void Search::see_edge(const Eigen::MatrixXd& phi) {
       for (std::size_t c = 0; c < pass.never_slips.size() && other.done(); ++c)
         if (pass.never_slips[c] && !other.never_slips[c])
           orbit_.reason = fmt::format(
-              "multipliers hold on one side of the orbit only: contact '{}' reaches its limit, and slips in "
-              "neighbouring orbits",
+              "multipliers are valid on one side of the orbit only: contact '{}' reaches its friction limit, "
+              "and slips in neighbouring orbits",
               map_->model().contacts[c].name);
     }
 }
 
-/// With these intervals an extreme is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.
+/// Number of samples of one period. A smooth extreme is missed by (pi / places_recorded)^2 / 2 of the amplitude,
+/// the extreme at an impact by pi / places_recorded of the amplitude.
 constexpr int places_recorded = 720;
-/// Fraction of the period within which an event is at the orbit's time 0. Chosen: the remaining error of an
-/// orbit that closed to 1e-9.
+/// An event that precedes the orbit's time 0 by less than this fraction of the period is an event at time 0.
+/// Chosen value: the remaining error of an orbit that closed to 1e-9.
 constexpr double same_instant = 1e-9;
 
-/// Events of a period from the section on, reordered to start at the orbit's time 0. A run that begins there does not
-/// record an event at its beginning, and rounding decides whether it records one at its end.
+/// Converts times since the section to times since the orbit's time 0, and sorts the events. A run from time
+/// 0 would not record an event at its beginning, and rounding would decide whether it records one at its end.
 std::vector<Event> since_time_0(std::vector<Event> events, double section, double period) {
   for (Event& event : events) {
     event.t += section;
@@ -328,7 +337,7 @@ std::vector<Event> since_time_0(std::vector<Event> events, double section, doubl
   return events;
 }
 
-/// Records the start, and the results of a period.
+/// Stores in orbit_ the state at the orbit's time 0, and the events, energies and amplitude of one period.
 void Search::report(const orbit::OrbitState& at_section, double section) {
   const Model base = orbit_.autonomous ? map_->model() : orbit::with_shifted_excitation(first_, before_);
   const orbit::PeriodMap map = map_of(base, false), from_section = map_of(map_->model(), false);
@@ -379,7 +388,7 @@ Scene orbit_scene(const SceneReader& read, const Orbit& orbit) {
   return scene;
 }
 
-// follow(): the branch of the orbit that find_orbit() finds, and branches that leave it.
+// continue_branch(): the branch of the orbit that find_orbit() returns, and the branches that begin on this branch.
 
 namespace {
 

@@ -12,18 +12,19 @@
 namespace signorini::orbit {
 namespace {
 
-// Relative difference up to which periods are equal, or in a ratio of integers. Periods are given with at least this
-// number of digits. Chosen value.
+// Relative difference up to which two periods are equal, or have a ratio of integers. Scenes give periods
+// with at least this accuracy. Chosen value.
 constexpr double same_period = 1e-9;
 constexpr int max_multiples = 100;
-constexpr int compared_places = 41;  // comparison of a history with itself one period later; chosen value
+// Number of times at which a history is compared with itself one period later; chosen value.
+constexpr int compared_places = 41;
 
 /// A history of the scene, and its key.
 struct Driver {
   const HistorySpec* spec;
   std::string key;
   bool surface = false;
-  bool acceleration = false;  // of a support, which starts at rest at zero
+  bool acceleration = false;  // acceleration of a support, which starts at rest at zero displacement
 };
 
 bool drives(const LoadSpec& load) { return load.amplitude != 0.0; }
@@ -92,8 +93,8 @@ std::optional<double> common(double a, double b) {
   return std::nullopt;
 }
 
-/// An accelerated support starts at rest at zero: it only returns if the velocity and the displacement of a period
-/// vanish.
+/// An accelerated support starts at rest at zero displacement. Its motion is periodic only if the
+/// acceleration changes neither its velocity nor its displacement over one period.
 void check_drift(const Driver& d, const History& acceleration, double settled, double period) {
   const History moved = acceleration.integrated().integrated();
   double size = 0.0, drift = 0.0;
@@ -108,7 +109,7 @@ void check_drift(const Driver& d, const History& acceleration, double settled, d
       d.spec->place, d.key,
       fmt::format(
           "found an acceleration that displaces the support by {:.6g} in each period of {} (from rest at "
-          "zero displacement), expected one without drift: no motion of this scene is periodic",
+          "zero displacement), expected an acceleration without drift: with drift no motion is periodic",
           drift, base::format_number(period)));
 }
 
@@ -131,8 +132,8 @@ LoadPeriod load_period(const Scene& scene, const CountedLoads& count) {
     if (!both)
       throw SceneError(
           d.spec->place, d.key,
-          fmt::format("found a period of {} and one of {}, expected periods with a common multiple (up to {} "
-                      "of the longer one)",
+          fmt::format("found the period {}, while earlier histories have the period {}; expected periods with "
+                      "a common multiple of at most {} times the longer period",
                       base::format_number(own), base::format_number(*found.period), max_multiples));
     found.period = both;
   }
@@ -157,7 +158,7 @@ LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& c
     }
     if (differ > same_period * 2.0 * std::numbers::pi * size)
       throw SceneError(d.spec->place, d.key,
-                       fmt::format("found a history that differs by {:.2g} of its greatest value after {}, "
+                       fmt::format("found a history that changes by {:.2g} of its greatest value after {}, "
                                    "expected one with the period of the orbit",
                                    differ / size, base::format_number(period)));
     if (d.acceleration) check_drift(d, f, found.periodic_from, period);
@@ -178,8 +179,9 @@ std::vector<Override> shifted_excitation(const Scene& scene, double time) {
 
 namespace {
 
-// The first return within this distance is used; relative to the range. Chosen value.
+// The first return within this distance is used. Distances are relative to the range of the motion. Chosen value.
 constexpr double near_enough = 0.02;
+// A return at a larger distance is ignored.
 constexpr double too_far = 0.5;
 // Smallest distance from the section to an event, relative to the period. Chosen value.
 constexpr double least_distance = 0.02;

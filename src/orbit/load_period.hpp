@@ -4,10 +4,10 @@
 //
 // f: loads, motions of supports and of the base, normal forces, surface motions.
 //
-// A load of amplitude zero is ignored unless `count` includes it: a branch over the amplitude keeps its
-// period where the load vanishes.
+// A load of amplitude zero is ignored unless `count` includes it. A branch over the amplitude includes it,
+// and so keeps its period where the load vanishes.
 //
-// Several periods have a smallest common multiple if there is one up to a hundred times the longest.
+// The common period is the smallest common multiple of all periods, up to a hundred times the longest period.
 #pragma once
 
 #include <optional>
@@ -20,42 +20,42 @@
 namespace signorini::orbit {
 
 struct LoadPeriod {
-  std::optional<double> period;  ///< nullopt: everything is constant from periodic_from on
+  std::optional<double> period;  ///< nullopt: all excitations are constant from periodic_from on
   double periodic_from = 0.0;    ///< end of the part that is not periodic
-  bool surfaces_move = false;    ///< there is a belt
+  bool surfaces_move = false;    ///< true if a contact has a moving surface (belt)
 };
 
-/// Loads that count even with amplitude zero, one entry per load; empty: none.
+/// One entry per load: true if the load's period is used even if its amplitude is zero. Empty: false for all loads.
 using CountedLoads = std::vector<bool>;
 
-/// Loads with nonzero amplitude; all of them if there are none.
+/// True for each load with nonzero amplitude; true for all loads if all amplitudes are zero.
 [[nodiscard]] CountedLoads driving_loads(const Scene& scene);
 
-/// Common period of the excitations. Errors: SceneError at a history that has no period in common with the
-/// others.
+/// Common period of the excitations. Errors: SceneError at a history whose period has no common multiple with
+/// the periods of earlier histories.
 [[nodiscard]] LoadPeriod load_period(const Scene& scene, const CountedLoads& count = {});
 
-/// Same with a given period. Errors: SceneError at a history without this period.
+/// Checks that all excitations have the given period. Errors: SceneError at a history without this period.
 [[nodiscard]] LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& count = {});
 
-/// Overrides by which all excitations act earlier by `time`. Histories made in code are ignored.
+/// Overrides that make all excitations act earlier by `time`. Histories defined in C++ code are not shifted.
 [[nodiscard]] std::vector<Override> shifted_excitation(const Scene& scene, double time);
 
 // Initial guess of the period of a self-excited motion, and a section away from events.
 //
-//   T = t_b - t_a       instants a < b with equal states, for which the motion is closest to repeating itself
+//   T = t_b - t_a       instants a < b with equal contact states and the most similar displacements and velocities
 //   section: the middle of the longest stretch between two instants of a period
 
 struct ReturnMapStart {
-  double period = 0.0;    ///< 0: the motion did not return
+  double period = 0.0;    ///< estimated period; 0: the motion did not return
   double section = 0.0;   ///< time of the section
-  double distance = 0.0;  ///< between the two states, relative to the range of the motion
+  double distance = 0.0;  ///< distance between the two states, relative to the range of the motion
 };
 
-/// instants: of a run, in order of time.
+/// Initial guess from the instants of one run, in order of time, just after changes of contact states.
 [[nodiscard]] ReturnMapStart return_map_start(const Model& model, const std::vector<OrbitPoint>& instants);
 
-/// Best position of the section in [0, T): 0, unless an instant is within a fiftieth of T.
+/// Best time of the section in [0, T): 0 unless an instant is nearer to 0 or T than T/50.
 [[nodiscard]] double section_away_from(const std::vector<OrbitPoint>& instants, double T);
 
 }  // namespace signorini::orbit

@@ -9,8 +9,8 @@
 namespace signorini::orbit {
 namespace {
 
-// Distance of a multiplier from 1 up to which it counts as 1, given the rounding of Phi and of a double eigenvalue.
-// Chosen value: a disturbance that needs 1e7 periods to die out counts as permanent.
+// A multiplier at this distance or less from 1 is regarded as 1, because of the rounding of Phi and of a
+// double eigenvalue. Chosen value: a disturbance that needs 1e7 periods to decay is regarded as permanent.
 constexpr double one = 1e-7;
 
 /// The largest distance from a multiplier of one set to the nearest of the other.

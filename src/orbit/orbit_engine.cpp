@@ -8,9 +8,11 @@
 namespace signorini::orbit {
 namespace {
 
-// Chosen: a series takes a step for every 5 decay times, so some hundred steps per period.
+// Limit for period / fastest decay time: a series needs one step per 5 decay times, thus up to 400 per
+// period. Chosen value.
 constexpr double max_decays = 2000.0;
-constexpr double of_tolerance = 100.0;  // chosen value: errors of steps accumulate over a period
+// Error of a state relative to rtol: errors of steps accumulate over a period; chosen value.
+constexpr double of_tolerance = 100.0;
 
 }  // namespace
 

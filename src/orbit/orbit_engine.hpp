@@ -1,11 +1,11 @@
 // orbit_engine.hpp: choice of the engine for orbits, its accuracy, and readers of a scene with a varied key.
 //
 //   auto:   exact, unless it refuses the scene or a period has more than 2000 decay times of the fastest decay
-//   flow:   auto uses complex modes if they can follow the scene: modes of contact states are kept over all periods
-//   error:  exact 0, ida 100 rtol: error of a state / amplitude, the limit for closing an orbit
+//   flow:   auto uses complex modes if the scene permits them: all periods reuse the modes of contact states
+//   error:  error of a state / amplitude, at which an orbit is closed: exact 0, ida 100 rtol
 //
-// Runs of one period are short, and many of them are compared: the closed form pays at a higher cost than in
-// one long run (run/choose_engine.hpp).
+// An orbit search compares many short runs of one period. Therefore `auto` accepts the closed form up to a
+// higher cost than for one long run (run/choose_engine.hpp).
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ namespace signorini::orbit {
 // A reader of a scene with one key set to a value.
 //
 //   reader_at(read, path, x)(changes) = read([path = x, changes...])
-//   branch_reader: the same; for a branch over the energy of conservative motions no key is changed
+//   branch_reader: as reader_at, but for a branch over the energy of conservative motions no key is changed
 
 /// Reads the scene with this value of the key, in the unit of the key. Errors: those of `read`.
 [[nodiscard]] inline SceneReader reader_at(SceneReader read, std::string path, double value) {
@@ -41,7 +41,7 @@ namespace signorini::orbit {
   };
 }
 
-/// Path that stands for the energy of conservative motions instead of a key.
+/// Path that denotes the energy of conservative motions instead of a key.
 inline constexpr const char* over_energy = "energy";
 
 /// Reads the scene at a value of the branch's parameter.

@@ -1,13 +1,13 @@
 // orbit_state.hpp: state of a motion at an instant, and its coordinates at a section.
 //
-//   z = (u, v, T)      u and v with mass, u with a damper only, T = kt (ut - p) of sticking contacts
+//   z = (u, v, T)      u, v of dofs with mass, u of dofs with a damper only, T = kt (ut - p) of sticking contacts
 //   z_i / scale_i      model scales: displacement, velocity, force
 //   z = z0 + B x       tangent space of the contact state, B orthonormal:
 //     n . du = 0, n . dv = 0        closed rigid contacts
 //     t . dv = 0                    rigidly sticking contacts
 //
-// Degrees of freedom with neither mass nor damper follow from the rest. Units: those of the computed model, the
-// machine's.
+// Degrees of freedom with neither mass nor damper follow from z by equilibrium. Units: machine units of the
+// computed model.
 #pragma once
 
 #include "decide/decision.hpp"
@@ -27,10 +27,10 @@ struct OrbitPoint {
   double t = 0.0;
   contact::ContactStates states;
   Vector u, v, a, forces, force_rates;  ///< forces: in the order of `layout`
-  std::vector<linear::DofKind> kinds;   ///< in these contact states
+  std::vector<linear::DofKind> kinds;   ///< kinds of the degrees of freedom
   ForceLayout layout;
 };
-/// The motion just after a decision.
+/// The motion at time t just after the solver has decided the contact states.
 [[nodiscard]] OrbitPoint orbit_point(double t, const decide::Decision& after);
 /// The state at a point: its u and v, and shears and slips of all contacts.
 [[nodiscard]] OrbitState orbit_state(const OrbitPoint& point);
@@ -41,7 +41,7 @@ struct OrbitPoint {
 /// The model with loads, normal forces and surfaces shifted by `time`: their values at t = time act at t = 0.
 [[nodiscard]] Model with_shifted_excitation(Model model, double time);
 
-/// Coordinates at a section.
+/// Coordinates of states at a section, in the tangent space of the contact state there.
 class OrbitSection {
  public:
   OrbitSection(const Model& model, const OrbitPoint& at);
@@ -52,15 +52,15 @@ class OrbitSection {
   [[nodiscard]] Vector coordinates(const OrbitPoint& point) const;
   /// Time derivatives of the coordinates.
   [[nodiscard]] Vector rates(const OrbitPoint& point) const;
-  /// Coordinates from derivatives of u, v and forces.
+  /// Coordinates from u, v and forces, or from derivatives of all three.
   [[nodiscard]] Vector coordinates(const Vector& u, const Vector& v, const Vector& forces) const;
-  /// Vector with the given value per degree of freedom for u and v, and 1 for shears.
+  /// Vector in the coordinates z: the given value per degree of freedom for u and v, and 1 for shears.
   [[nodiscard]] Vector spread(const Vector& of_dofs) const;
   /// state + B x
   [[nodiscard]] OrbitState moved(OrbitState state, const Vector& x) const;
-  /// Converts dz, in scales, to displacements, velocities and shears.
+  /// Converts dz, relative to the model's scales, to displacements, velocities and shears.
   [[nodiscard]] OrbitState unscaled(const Vector& dz) const;
-  /// Coordinates are ordered: [0, u), [u, u + v), the rest are shears.
+  /// Coordinates z are ordered: displacements() displacements, velocities() velocities, then shears.
   [[nodiscard]] std::size_t displacements() const { return u_.size(); }
   [[nodiscard]] std::size_t velocities() const { return v_.size(); }
 

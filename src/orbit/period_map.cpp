@@ -11,9 +11,10 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr int min_in_modes = 6;  // below this the series is as fast. Chosen value.
+// Number of degrees of freedom from which modes are faster than the series. Chosen value.
+constexpr int min_in_modes = 6;
 
-/// Minimum of a sampled function: of the parabola through three samples around it.
+/// Minimum of a sampled function, refined by the parabola through the three samples around the minimum.
 class Least {
  public:
   void see(double t, double value) {
@@ -38,7 +39,7 @@ class Least {
   double least_ = std::numeric_limits<double>::infinity(), vertex_ = least_;
 };
 
-/// Records amplitudes and events.
+/// Records amplitudes, margins and events of one pass.
 class CycleRecorder final : public Recorder {
  public:
   CycleRecorder(const Model& model, Recorder* outer, OrbitPass& pass)
@@ -111,7 +112,7 @@ class NoRows final : public sensitivity::TangentListener {
   }
 };
 
-/// A zero derivative of the model.
+/// A derivative of the model in which all entries are zero.
 sensitivity::ModelDerivative still(const Model& model) {
   sensitivity::ModelDerivative d;
   d.mass = d.damping = d.stiffness = SparseMatrix(model.size(), model.size());
@@ -124,7 +125,7 @@ sensitivity::ModelDerivative still(const Model& model) {
 /// Tangents of all columns of a section's basis.
 class Bundle {
  public:
-  /// flow: null, or the closed form with which the columns cross stretches.
+  /// flow: closed form that advances the columns between events, or null.
   Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, sensitivity::StateFlow* flow)
       : section_(model, begin) {
     for (Eigen::Index k = 0; k < section_.size(); ++k) {

@@ -1,9 +1,9 @@
-// period_map.hpp: motion over a period from a state at a section, and the derivative of its end by that state.
+// period_map.hpp: motion over a period from a state at a section; derivative of the final state by the initial state.
 //
-//   z -> z(T; z),     Phi B = the tangent motions of all columns of B, beside one run
+//   z -> z(T; z),     Phi B: tangent motions of all columns of B, computed along with one run
 //
-// Phi: product of the stretches' propagators and of the events' rank-one jumps (sensitivity/tangent_run.hpp). Units:
-// those of the computed model, the machine's; events and energies in units of the scene.
+// Phi: product of the propagators between events and of the events' rank-one jumps (sensitivity/tangent_run.hpp).
+// Units: machine units of the computed model; events and energies are in the scene's units.
 #pragma once
 
 #include <array>
@@ -18,29 +18,30 @@ namespace signorini::orbit {
 struct OrbitPass {
   Outcome outcome;
   OrbitPoint begin, end;
-  std::vector<OrbitPoint> instants;  ///< just after each change of a state in between
-  std::vector<Event> events;         ///< without jumps of loads
+  std::vector<OrbitPoint> instants;  ///< just after each impact and each change of a contact state
+  std::vector<Event> events;         ///< events of contacts, without jumps of loads
   Energy cycle_energy;
-  double energy = 0.0;  ///< stored at the beginning; the scene's units
+  double energy = 0.0;  ///< stored energy at the beginning, in the scene's unit
   /// Half the largest range of displacements, velocities and shears, in scales of the model; 0: at rest. Includes
   /// rotations.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
-  double amplitude = 0.0;     ///< of displacements alone, without rotations; the scene's unit
-  Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not requested, or unknown
+  double amplitude = 0.0;  ///< half the largest range of displacements, without rotations; scene's unit
+  /// Phi B, rows: coordinates at the section; empty: not requested, or not available
+  Eigen::MatrixXd end_rates;
   /// Error of end_rates by rounding and truncation of series, relative to their largest entry.
   double rates_error = 0.0;
-  std::string reason;  ///< reason why end_rates are unknown
+  std::string reason;  ///< reason why end_rates are not available
   std::vector<OutputExtremes> response;
   /// Minimum over the rows of f_s |N| - T and of f_s |N| + T, one per contact, in scales of the model.
   std::vector<std::array<double, 2>> margins;
-  std::vector<bool> never_slips;  ///< contacts that stayed closed without slip all the time
+  std::vector<bool> never_slips;  ///< contacts that stay closed without slip during the whole pass
   bool interrupted = false;
 
   [[nodiscard]] bool done() const { return outcome.kind == Outcome::Kind::done; }
 };
 
-/// Number of samples of a pass for margins; chosen value: a parabola through three of them has an error of 1e-7 of the
-/// range.
+/// Number of samples of a pass that computes margins. Chosen value: a parabola through three samples then has
+/// an error of 1e-7 of the range.
 inline constexpr int margin_samples = 192;
 
 /// Options of one pass.
@@ -54,17 +55,17 @@ struct PassOptions {
 
 class PeriodMap {
  public:
-  /// model, run: in the machine's units; recorder: for progress, or null.
+  /// model, run: in machine units; recorder: receives the progress, may be null.
   PeriodMap(Model model, const RunSpec& run, Recorder* recorder);
 
   [[nodiscard]] const Model& model() const { return model_; }
   /// One pass through the period.
   [[nodiscard]] OrbitPass pass(const PassOptions& leg) const;
-  /// Rows of a run from this state; the last one is at the end, for last_state().
+  /// Result of a run from `start`. Its last row is at the end of the run, so that last_state() can read it.
   [[nodiscard]] Result rows(const OrbitState& start, double duration) const;
   [[nodiscard]] const RunSpec& run() const { return run_; }
-  /// Closed form with which tangents cross stretches. It belongs to the structure, and is passed from map to
-  /// map. Null: not created yet, or modes cannot follow the motion.
+  /// Closed form that advances tangents between events. It depends on the structure only, so one map passes
+  /// it to the next. Null: not created yet, or the motion cannot be written in modes.
   [[nodiscard]] const std::shared_ptr<sensitivity::StateFlow>& flow() const { return flow_; }
   void take_flow(std::shared_ptr<sensitivity::StateFlow> flow) { flow_ = std::move(flow); }
   /// Shares the mode shapes of contact states among all maps of one search.

@@ -4,9 +4,9 @@
 //   d^2 = c (x* - x) + ...      near x*, where d vanishes because a guard grazes
 //   d   = c (x* - x) + ...      where two events exchange their order
 //
-// A polynomial x(d^2), or x(d), through the last three places with one sequence gives x* = x(0). The next
-// place is beyond x* or before it by the error of this guess, so that the interval shrinks from both sides.
-// Without a guess the interval is halved.
+// A polynomial x(d^2), or x(d), through the last three positions with the same sequence gives the guess x* =
+// x(0). The next position is tried before or beyond x*, at a distance equal to the estimated error of this
+// guess, so that the interval shrinks from both sides. Without a guess the interval is halved.
 //
 //   SequenceSearch search(stretches_of(a, T), stretches_of(b, T), enough);
 //   while (!search.done()) { x = search.next(); ...; search.update(x, same, stretches_of(at_x, T)); }
@@ -32,9 +32,10 @@ class SequenceSearch {
 
   [[nodiscard]] bool done() const { return !(bounds_[1] - bounds_[0] > enough_); }
 
-  /// The place to try next.
+  /// The position to try next, between 0 and 1.
   [[nodiscard]] double next();
-  /// Enters the result at x. as_at_begin: the sequence is that of the beginning; stretches: empty if unknown.
+  /// Enters the result at position x. as_at_begin: true if the sequence is that of the step's beginning;
+  /// stretches: empty if unknown.
   void update(double x, bool as_at_begin, std::vector<double> stretches);
   [[nodiscard]] double low() const { return bounds_[0]; }
   [[nodiscard]] double high() const { return bounds_[1]; }
@@ -45,15 +46,16 @@ class SequenceSearch {
     std::vector<double> stretches;
   };
   struct Guess {
-    double x, from;  // from: the nearest place that it is based on
+    double x, from;  // from: the nearest position from which the guess is computed
   };
   [[nodiscard]] std::optional<Guess> guess_from(const std::vector<Place>& places) const;
 
   std::array<double, 2> bounds_{0.0, 1.0};
-  // Places with the sequence of the beginning, and of the end; the nearest place is last.
+  // Positions with the sequence of the step's beginning, and with that of its end. The position nearest to
+  // the change is last.
   std::array<std::vector<Place>, 2> sides_;
-  std::optional<Guess> guess_;   // the last guess
-  double enough_, guess_error_;  // guess_error_: of a guess, relative to its distance from the nearest place
+  std::optional<Guess> guess_;
+  double enough_, guess_error_;  // guess_error_: relative to the guess's distance from the nearest position
 };
 
 }  // namespace signorini::orbit

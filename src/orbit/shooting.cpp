@@ -12,31 +12,32 @@ namespace signorini::orbit {
 namespace {
 
 constexpr int max_steps = 30, max_halvings = 6;
-// Number of successive steps that do not halve the residual after which Newton's method stagnates. Chosen value.
+// Newton's method stagnates if this number of successive steps does not halve the residual. Chosen value.
 constexpr std::size_t patience = 8;
-constexpr double reached = 1e-2;  // residual / tolerance below which there is no further step
-// Residual / amplitude at which an orbit is accepted although the residual no longer decreases: rounding of a long
-// or stiff period. Chosen value; above it a search has failed.
+constexpr double reached = 1e-2;  // residual / tolerance at which Newton's method stops
+// Residual / amplitude at which an orbit is accepted although the residual no longer decreases: the rounding
+// of a long or stiff period. With a larger residual the search has failed. Chosen value.
 constexpr double closed_at_last = 1e-9;
-// Limit of singular values of Phi - I that count as zero, relative to the largest one and to Phi: the rounding of Phi,
-// well below the value for a disturbance that dies out in 1e7 periods. Chosen value.
+// Singular values of Phi - I up to this limit are regarded as zero, relative to the largest one and to Phi. The limit
+// is the rounding of Phi. A disturbance that decays within 1e7 periods has a far larger singular value. Chosen value.
 constexpr double least_singular = 1e-9;
-// Used if no step reduces the residual: fast mode shapes may make Phi 1e5 times larger than its effect on slow ones.
+// Smaller limits, tried if no step reduces the residual: with fast mode shapes Phi may be 1e5 times larger
+// than its part for slow mode shapes.
 constexpr std::array finer_steps{1e-11, 1e-13};
 
-// Amplitude, in scales, below which the structure is at rest, with a state of rounding size. Chosen: fifty
-// roundings.
+// Amplitude, in scales, below which the structure is at rest and its state consists of rounding errors.
+// Chosen value: fifty times the rounding of doubles.
 constexpr double at_rest = 1e-14;
 
 double over(double value, double amplitude) { return amplitude > at_rest ? value / amplitude : value; }
 
-/// Residual of the state, and of the energy if it is given.
+/// Residual of the state; if an energy is given, the larger one of this residual and the energy's relative residual.
 double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
   const double gap = orbit_residual(model, pass);
   return start.energy ? std::max(gap, std::abs(pass.energy - *start.energy) / *start.energy) : gap;
 }
 
-/// (x, dT)
+/// Solution (x, dT) of the equations in shooting.hpp. least: limit below which singular values are zero.
 Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStart& start, double least) {
   const bool free_period = start.free_period;
   const OrbitSection section(model, pass.begin);
@@ -63,8 +64,8 @@ Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStar
   return base::min_norm_solution(A, b, least, phi.norm());
 }
 
-/// One step, halved until the residual decreases; trials are computed without tangents, which cost far more than a run.
-/// Returns false if the residual does not decrease, or has reached rounding.
+/// One step, halved until the residual decreases. Trial passes omit tangents, which cost far more than the
+/// run. Returns false if the residual does not decrease or is at rounding level.
 bool damped_step(const PeriodMap& map, const ShootingStart& start, ShootingResult& shot, double least) {
   const Model& model = map.model();
   const OrbitSection section(model, shot.pass.begin);
@@ -89,7 +90,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, ShootingResul
       shot.residual = residual;
       return true;
     }
-    if (shot.residual <= closed_at_last) return false;  // rounding level: shorter steps would end there, too
+    if (shot.residual <= closed_at_last) return false;  // at rounding level shorter steps do not help either
   }
   return false;
 }
@@ -123,8 +124,8 @@ double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vec
 
 namespace {
 
-/// Size of shears that are coordinates at the end, but not at the beginning: a contact slips there, and sticks when the
-/// period ends.
+/// Largest change of the shear of a contact that sticks at the end of the period, relative to the amplitude
+/// of T. The section's coordinates omit this shear if the contact slips at the beginning of the period.
 double shears_left_out(const Model& model, const OrbitPass& pass) {
   double worst = 0.0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
@@ -145,7 +146,8 @@ double orbit_residual(const Model& model, const OrbitPass& pass) {
 
 namespace {
 
-/// A difference in the sequence of events is no noise: Phi is not comparable.
+/// True if both passes have the same sequence of events. Otherwise their difference is not noise, because Phi
+/// differs, too.
 bool same_sequence(const OrbitPass& a, const OrbitPass& b) {
   return std::equal(
       a.events.begin(), a.events.end(), b.events.begin(), b.events.end(),

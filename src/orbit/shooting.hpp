@@ -6,8 +6,9 @@
 //
 // For a conservative motion one more row: dE/dz B x = E* - E, E: stored energy, dE/dz = (-M a, M v, T/kt).
 //
-// x is the least-norm solution: directions with a multiplier of 1 are unchanged. A step is halved until the residual
-// decreases. The residual is relative to the amplitude of the motion, separately for u, v and T.
+// x: change of the coordinates at the section, as least-norm solution; directions with a multiplier of 1 are
+// unchanged. A step is halved until the residual decreases. The residual is relative to the amplitude of the
+// motion, separately for u, v and T.
 #pragma once
 
 #include <optional>
@@ -21,8 +22,9 @@ struct ShootingStart {
   OrbitState state;
   double duration;
   bool free_period = false;
-  double closed = 0.0;                ///< residual that is accepted if it no longer decreases; 0: 1e-9
-  std::optional<double> energy = {};  ///< E* of a conservative motion; the scene's units
+  /// Residual that is accepted if it no longer decreases; 0: default 1e-9.
+  double closed = 0.0;
+  std::optional<double> energy = {};  ///< E* of a conservative motion, in the scene's unit
 };
 
 /// Result of the iteration.
@@ -30,17 +32,18 @@ struct ShootingResult {
   bool closed = false;
   std::string reason;  ///< reason for a failure
   bool interrupted = false;
-  OrbitState state;  ///< at the section
+  OrbitState state;  ///< state at the section
   double duration = 0.0;
   double residual = 0.0;
-  OrbitPass pass;  ///< pass from that state
+  OrbitPass pass;  ///< pass that begins at `state`
   std::vector<OrbitStep> steps;
 };
 
 /// max |z(T) - z| / amplitude of each kind (u, v, T); at rest the scales replace the amplitudes.
 [[nodiscard]] double orbit_residual(const Model& model, const OrbitPass& pass);
 
-/// Same for `gap`, another difference of states in coordinates at the pass's section.
+/// Residual of another difference of states, `gap`, in coordinates at the pass's section; otherwise as
+/// orbit_residual().
 [[nodiscard]] double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
 
 /// Noise of the map: |z2 - z1 - Phi (z1 - z0)| / amplitude, where z1 and z2 are the images of z0 and z1.
@@ -51,7 +54,7 @@ struct ShootingResult {
 /// a difference of two states. A noise above max_noise is not accepted. Chosen values.
 inline constexpr double accepted_noise_factor = 10.0, max_noise = 1e-6;
 
-/// dE/dz B, in the scene's units.
+/// dE/dz B: derivative of the stored energy by the coordinates at the section, in the scene's unit of energy.
 [[nodiscard]] Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section);
 
 /// B^T Phi B of a pass with tangents.

@@ -9,9 +9,9 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr int max_places = 20;          // limit for a search
-constexpr double sharp_enough = 1e-10;  // limit for a test function; chosen value
-constexpr double real_enough = 1e-12;   // imaginary part of a real multiplier: rounding
+constexpr int max_places = 20;          // limit for the evaluations of one search
+constexpr double sharp_enough = 1e-10;  // |f| at which a search for a zero ends; chosen value
+constexpr double real_enough = 1e-12;   // imaginary part up to which a multiplier is real: rounding
 
 }  // namespace
 
@@ -27,7 +27,7 @@ TestValues test_values(const Multipliers& all, std::size_t ones, double along, d
     least = std::min(least, mu.real());
     greatest = std::max(greatest, mu.real());
   }
-  // Within the error the value counts as zero, from inside.
+  // A value within the error is regarded as just inside the unit circle.
   const auto inside = [error](double beyond) {
     return std::abs(beyond) <= error ? -std::min(error, sharp_enough) : beyond;
   };
@@ -65,25 +65,27 @@ std::optional<double> root_between(double a, double b,
 
 namespace {
 
-// Distance from an event to the section, relative to the period. Chosen value.
+// An event is at the section if it is nearer to the section than this, relative to the period. Chosen value.
 constexpr double beside_section = 1e-4;
-// Resolution of changes of the sequence, in the norm, and its smallest ratio to the noise of the map.
+// Width of the interval in which a change of the sequence is located, in the norm, and smallest ratio of this
+// width to the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
-// An orbit at a graze is as continuous as a square root of the key. If the other orbit differs by more than ten times
-// the root of the width, it belongs to another branch. Chosen value.
+// Near a graze an orbit changes as the square root of the key. If the orbits at both ends of the interval
+// differ by more than this factor times the square root of the interval's relative width, they belong to
+// different branches. Chosen value.
 constexpr double roots_apart = 10.0;
-constexpr double shortest_doubted = 1e-4;  // in the norm: shorter steps are not checked. Chosen value.
-// Smallest distance of two places that determine a direction, in resolutions of changes of the sequence.
-// Chosen value.
+constexpr double shortest_doubted = 1e-4;  // in the norm: too_long() accepts shorter steps. Chosen value.
+// Two points determine a direction only if their distance is at least this multiple of shortest_part. Chosen value.
 constexpr double parts_apart = 1e3;
 
-constexpr double rounded = 1e-9;  // fraction of the largest step, above the rounding of s. Chosen value.
+// Tolerance of a step in s, relative to the largest step: above rounding. Chosen value.
+constexpr double rounded = 1e-9;
 
 constexpr const char* other_branch = "other branch";
 
 SecantPoint place_of(const CorrectedPoint& at) { return {at.pass.begin, at.state.duration, at.state.s}; }
 
-/// An event at the section may be counted twice, or not at all.
+/// True if an event is at the section. Such an event may be recorded twice, or not at all.
 bool event_at_section(const CorrectedPoint& at) {
   const double T = at.state.duration;
   return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
@@ -93,7 +95,7 @@ bool event_at_section(const CorrectedPoint& at) {
 
 }  // namespace
 
-/// Place where a test function is zero on the step from here to next.
+/// Point where a test function is zero on the step from `here` to `next`; nullopt if no zero is located.
 std::optional<BranchContinuation::LocatedPoint> BranchContinuation::zero_of(const SpecialKind& kind,
                                                                             const CorrectedPoint& here,
                                                                             const CorrectedPoint& next,
@@ -102,7 +104,8 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::zero_of(cons
   const double a = here.tests.*kind.value, b = next.tests.*kind.value;
   if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
-  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // a fold causes this
+  // This change of sign is due to the fold.
+  if (kind.value == &TestValues::branch && turns) return std::nullopt;
   LocatedPoint point{0.0, kind.name, {}, {}};
   const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
     CorrectedPoint c =
@@ -114,26 +117,27 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::zero_of(cons
   });
   if (!part || !(std::abs(point.at.tests.*kind.value) <= location_tolerance)) return std::nullopt;
   point.part = *part;
-  // Where two branches cross, every direction in their plane is a tangent; the chord from here to next
-  // follows this one.
+  // Where two branches cross, every direction in their plane satisfies the equations of the tangent. The
+  // chord from `here` to `next` gives the direction of this branch.
   if (kind.value == &TestValues::branch)
     if (const auto way = newton_.secant(place_of(here), next)) point.t = newton_.split(point.at, *way).across;
   return point;
 }
 
-/// The last point with the sequence of `here`; kind: other_branch if the next one is not connected to it.
+/// The last point of the step with the sequence of `here`. Its kind is other_branch if the orbit beyond the
+/// change is not connected with this point.
 std::optional<BranchContinuation::LocatedPoint> BranchContinuation::end_of_sequence(
     const CorrectedPoint& here, const CorrectedPoint& next, const Vector& t, double ds) const {
   const std::string sequence = sequence_of(here.pass);
   if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
   LocatedPoint point{0.0, "sequence", {}, {}};
-  bool seen = true;  // a different sequence at the end of the interval, not a failure
+  bool seen = true;  // at the interval's upper end: true: the sequence differs; false: Newton's method failed
   const auto stretches = [&](const CorrectedPoint& c) {
     return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
   };
   const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
   SequenceSearch search(stretches(here), stretches(next), enough / ds);
-  Vector way = ds * t;  // a step in x along the last direction found
+  Vector way = ds * t;  // change of y per unit of x, along the last direction found
   std::string beyond = sequence_of(next.pass);
   SecantPoint other = place_of(next);  // the nearest orbit with a different sequence
   while (!search.done()) {
@@ -171,9 +175,9 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::end_of_seque
   return point;
 }
 
-/// True if the parameter reverses on a step without a located fold, or if a multiplier passes 1 without a
-/// fold and without a place where it is 1. Both are continuous as long as the sequence of events does not
-/// change. So the next orbit then belongs to another branch, as beyond a fold.
+/// True if the parameter reverses on the step without a located fold, or if a multiplier passes 1 without a
+/// fold and without a located branch point. Direction and multipliers are continuous as long as the sequence
+/// of events does not change. Therefore the next orbit then belongs to another branch.
 bool BranchContinuation::changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
                                         const std::vector<LocatedPoint>& points) const {
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
@@ -182,8 +186,8 @@ bool BranchContinuation::changes_unseen(const CorrectedPoint& here, const Correc
   return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
 }
 
-/// If fast mode shapes rotate the tangent at `to`, the chord is not compared with it: it is no direction of
-/// the branch.
+/// If fast mode shapes rotate the tangent at `to` (turning_), this tangent is not the direction of the
+/// branch, and the chord is not compared with it.
 bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint& to, const Vector* direction,
                                         bool at_to) const {
   const std::optional<Vector> secant = newton_.secant(from, to);
@@ -195,15 +199,15 @@ bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint&
   return at_to && !turning_ && differs(newton_.examine(to, *secant));
 }
 
-/// True if the branch bends on the step by more than its points show: another part of it, or another branch,
-/// could lie between. At a change of the sequence the branch may have a corner.
+/// True if the branch bends so much on the step that another part of the branch, or another branch, could lie
+/// between its points. At a change of the sequence the branch may have a corner.
 bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& next, const Vector& t,
                                   double length, std::vector<LocatedPoint>& points) const {
   if (length <= shortest_doubted) return false;
   if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
   if (sequence_of(here.pass) == sequence_of(next.pass)) {
-    // If the branch continues at both ends it has not returned: the next point is on another arm, as across a
-    // resonance.
+    // Both tangents lead in the same direction of the parameter, but the parameter has changed in the opposite
+    // direction: the next point is on another arm of the branch, for instance on the other side of a resonance.
     const double along = t[t.size() - 1];
     if (along * next.tests.fold > 0.0 && along * (next.state.s - here.state.s) < 0.0) return true;
     return chord_deviates(place_of(here), next, &t, true);
@@ -215,13 +219,14 @@ bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& ne
   if (doubted(change->part) && chord_deviates(place_of(here), change->at, &t, false)) return true;
   if (!doubted(1.0 - change->part)) return false;
   const auto folds = [](const LocatedPoint& p) { return p.kind == "fold"; };
-  const double there = next.state.s - change->at.state.s;  // a fold just behind the corner, or at it?
+  // Change of the parameter behind the corner; negative along t beyond a fold.
+  const double there = next.state.s - change->at.state.s;
   if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
   return chord_deviates(place_of(change->at), next, nullptr, true);
 }
 
-/// Special points of the step. If Newton's method has changed to another branch on the way, next becomes the last orbit
-/// of this one, and length is reduced.
+/// Special points of the step. If Newton's method has switched to another branch within the step, `next`
+/// becomes the last orbit on the present branch, and `length` is reduced.
 std::vector<BranchContinuation::LocatedPoint> BranchContinuation::located(const CorrectedPoint& here,
                                                                           CorrectedPoint& next,
                                                                           const Vector& t, double& length) {
@@ -245,7 +250,8 @@ std::vector<BranchContinuation::LocatedPoint> BranchContinuation::located(const 
     if (point) all.push_back(std::move(*point));
   };
   for (const SpecialKind& kind : special_kinds) {
-    // Just before a graze a test function may pass zero and jump at the graze: the part before is searched separately.
+    // A test function may pass zero just before a graze and jump at the graze. Therefore the part of the step
+    // before the graze is searched separately.
     std::optional<LocatedPoint> zero =
         change ? zero_of(kind, here, change->at, t, change->part * length) : std::nullopt;
     if (zero) zero->part *= change->part;
@@ -263,8 +269,8 @@ std::vector<BranchContinuation::LocatedPoint> BranchContinuation::located(const 
   return all;
 }
 
-/// Special points of the step, as between() finds them; next is rejected if the step is too long to know
-/// them.
+/// Special points of the step, as located() finds them. `next` is rejected if the step is too long for a
+/// reliable search.
 std::vector<BranchContinuation::LocatedPoint> BranchContinuation::between(const CorrectedPoint& here,
                                                                           CorrectedPoint& next,
                                                                           const Vector& t, double& length) {
@@ -277,9 +283,9 @@ std::vector<BranchContinuation::LocatedPoint> BranchContinuation::between(const 
   return points;
 }
 
-/// Adds the special points between here and next, in their order. A step crosses one change of the sequence; if more
-/// follow, next becomes a place before the second one. Returns the place that determines the direction at next, with
-/// the same sequence; nullopt: the caller wants to stop.
+/// Adds the special points between `here` and `next` in their order. A step crosses only one change of the
+/// sequence; if another change follows, `next` becomes a point between both. Returns the point for the secant
+/// at `next`: `here`, or the last point before the change. Returns nullopt if the observer interrupts the run.
 std::optional<SecantPoint> BranchContinuation::cross(std::vector<LocatedPoint> points,
                                                      const CorrectedPoint& here, CorrectedPoint& next,
                                                      const Vector& t, double& length) {

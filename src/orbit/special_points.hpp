@@ -3,7 +3,7 @@
 //   fold             t_s, the part of the branch's direction along the key
 //   flip             1 + the smallest real multiplier
 //   neimark-sacker   the largest magnitude of a pair - 1
-//   branch point     the largest real multiplier - 1, where t_s keeps its sign
+//   branch point     the largest real multiplier - 1, if t_s keeps its sign
 //
 // The multipliers 1 of families and of time are excluded.
 #pragma once
@@ -29,17 +29,17 @@ inline constexpr std::array special_kinds{SpecialKind{"fold", &TestValues::fold}
                                           SpecialKind{"neimark-sacker", &TestValues::neimark_sacker},
                                           SpecialKind{"branch point", &TestValues::branch}};
 
-/// Limit of a multiplier's distance from the unit circle, or of |t_s|, for a located zero of a test function. A
-/// function that jumps over zero, as where a pair meets on the real axis, has no zero.
+/// A zero of a test function is accepted if the multiplier's distance from the unit circle, or |t_s|, is at most
+/// this value. A function that jumps over zero, for instance where a complex pair becomes real, has no zero.
 inline constexpr double location_tolerance = 1e-6;
 
-/// Values of the test functions. ones: number of structural multipliers 1; along: t_s; error: of a
-/// multiplier's distance from the unit circle. Multipliers within this error count as inside, so that
-/// rounding alone changes no sign.
+/// Values of the test functions. ones: number of structural multipliers 1; along: t_s; error: error of a
+/// multiplier's distance from the unit circle. A multiplier within this error is regarded as inside the
+/// circle, so that rounding alone changes no sign.
 [[nodiscard]] TestValues test_values(const Multipliers& all, std::size_t ones, double along, double error);
 
-/// Zero of f, with values a at 0 and b at 1 of opposite signs, by the Illinois method (regula falsi). f returns nullopt
-/// for an unknown value, which ends the search.
+/// Zero of f in [0, 1] by the Illinois method (regula falsi). a = f(0) and b = f(1) must have opposite signs.
+/// If f returns nullopt, its value is unknown, and the search ends with nullopt.
 [[nodiscard]] std::optional<double> root_between(double a, double b,
                                                  const std::function<std::optional<double>(double)>& f);
 

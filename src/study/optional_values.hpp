@@ -9,7 +9,7 @@
 
 namespace signorini::study {
 
-/// Value for a cell; empty if absent.
+/// The value as a number for a table's cell; nullopt if absent.
 template <class Value>
 [[nodiscard]] std::optional<double> number_of(const std::optional<Value>& value) {
   if (!value) return std::nullopt;
@@ -22,13 +22,13 @@ template <class Value>
   return value ? base::Json(*value) : base::Json();
 }
 
-/// The unit of a key of the scene, by its path, with the scene's unit names; empty for a plain number, and if
-/// the path is not a key.
+/// Unit of the scene's key at `path`, in the scene's unit names. Empty if the key has no unit, or if the path
+/// is not a key.
 ///
 ///   key_unit("contacts.left.normal_stiffness", units) == "kN/m"
 ///   key_unit("contacts.*.friction", units) == ""
 [[nodiscard]] std::string key_unit(const std::string& path, const Units& units);
-/// "PATH [UNIT]", or the path alone.
+/// "PATH [UNIT]"; "PATH" if the key has no unit.
 [[nodiscard]] std::string key_with_unit(const std::string& path, const Units& units);
 
 }  // namespace signorini::study

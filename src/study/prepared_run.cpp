@@ -75,13 +75,13 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
-/// A file beside the manifest that it does not list was not written to its end.
+/// True if the file exists and is complete: the manifest, if there is one, lists only complete files.
 bool was_written(const fs::path& directory, const std::optional<base::Manifest>& manifest,
                  std::string_view file) {
   return is_there(directory / file) && (!manifest || manifest->find(file) != nullptr);
 }
 
-/// Events, and what pictures need, in memory: files are written when both are known.
+/// Collects events and picture data in memory: files are written only if the events equal the stored ones.
 class PictureRows final : public Recorder {
  public:
   PictureRows(const PreparedRun& prepared, bool instants, const std::function<bool()>& go_on)
@@ -102,7 +102,8 @@ class PictureRows final : public Recorder {
     motions_[static_cast<std::size_t>(contact)] = rows;
   }
   void curves(const Curves& curves) override { curves_ = curves; }
-  /// Instants are not used, but a run that delivers them is not split into parts (run/independent_parts.hpp).
+  /// Instants are not used here. They are requested if the stored run has them, because a run that delivers
+  /// instants is not split into parts (run/independent_parts.hpp).
   [[nodiscard]] bool wants_instants() const override { return instants_; }
   bool progress(double /*t*/) override { return go_on_(); }
 
@@ -124,7 +125,7 @@ class PictureRows final : public Recorder {
   std::optional<result::BodyMotionFile> bodies_;
 };
 
-/// Compares row by row; a certificate has appended columns to those of the run.
+/// True if the file has these events. Columns that a certificate has appended to the rows are ignored.
 bool same_events(const std::string& events, const fs::path& file) {
   std::istringstream expected(events);
   std::ifstream found(file, std::ios::binary);
@@ -144,7 +145,7 @@ bool lacks_picture_rows(const fs::path& directory) {
   try {
     const base::Json summary = base::parse_json(stream);
     const std::string kind = summary.at("outcome").at("kind");
-    // A run that a full disk ended would not end there again.
+    // A run that ended because the disk was full would not end at the same time again.
     const bool by_itself = summary.at("outcome").value("exit_code", 0) != static_cast<int>(ExitCode::file);
     return (kind == "done" || kind == "stopped") && by_itself &&
            summary.at("versions").at("signorini") == version;
@@ -169,7 +170,7 @@ bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go
   }
   std::error_code ignored;
   for (const std::string_view table : base::picture_rows)
-    fs::remove(directory / table, ignored);  // opening a pipe would wait
+    fs::remove(directory / table, ignored);  // if the path is a named pipe, opening it would block
   rows.write(directory, prepared.model);
   if (manifest) {
     for (const std::string_view table : base::picture_rows) manifest->add(directory, table);

@@ -27,42 +27,43 @@ struct StoredRun {
 };
 
 struct PreparedRun {
-  Scene scene;  ///< with the cutoff that was found for [reduction] tolerance
+  Scene scene;  ///< with the cutoff found for [reduction] tolerance
   Model model;
 
   /// Runs in memory, with output rows at both ends only. Errors: SceneError for scenes that the engine refuses.
   Report run_in_memory(Recorder& recorder) const;
-  /// Runs into `directory`, to which `watch` forwards all data; certified if options are given. If a file
-  /// cannot be written, summary.json has the time that the run reached. Errors: those of run_in_memory();
-  /// FileError.
+  /// Runs and stores the results in `directory`; `watch` must forward all data to the directory. The run is
+  /// certified if `certified` has a value. If a file cannot be written, summary.json records the time that
+  /// the run reached. Errors: those of run_in_memory(); FileError.
   StoredRun run_to_disk(result::RunDirectory& directory, run::ForwardingRecorder& watch,
                         const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 
-/// Reads a scene with these changes, finds its cutoff and builds its model. go_on: same as in find_cutoff.
+/// Reads a scene with these changes, finds its cutoff and builds its model. go_on: interrupts the search for
+/// the cutoff if it returns false.
 /// Errors: those of read_scene, find_cutoff and build_model.
 [[nodiscard]] PreparedRun prepare_run(
     const std::string& file, const std::vector<Override>& changes,
     const std::function<bool()>& go_on = [] { return true; });
-/// Prepares one of several runs that are compared. found: the cutoff that was found for the first run.
+/// Prepares one of several runs that are compared. found: the cutoff of the first run, which all runs use.
 [[nodiscard]] PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found);
-/// The same run with output rows at both ends only.
+/// Copy of `run` with output rows only at its beginning and its end.
 [[nodiscard]] RunSpec without_rows(RunSpec run);
 
-// Picture data of a run that was computed without them (run --no-plots).
+// Picture data of a run that was computed with --no-plots.
 //
 //   run.toml -> the same run once more -> motion.csv, curves.csv, body_motion.csv
 //
-// Runs are bitwise reproducible, so the repeated events must equal those of events.csv. If they differ, nothing is
-// written: files that run.toml refers to (records, the continued run) or the program have changed.
+// Runs are bitwise reproducible, so the repeated events must equal those of events.csv. If they differ, the
+// program or a file that run.toml refers to (a record, the continued run) has changed, and no file is written.
 
-/// True for a run of this version that ended by itself and has neither motion.csv nor curves.csv. A table
-/// that its manifest does not list counts as absent: it was not written to its end.
+/// True if the stored run ended by itself, was computed by this version and has neither motion.csv nor
+/// curves.csv. A table that the manifest does not list is incomplete and is regarded as absent.
 [[nodiscard]] bool lacks_picture_rows(const std::filesystem::path& directory);
 
 /// Computes the picture data and adds them to the manifest; returns true if they were written. go_on: called
-/// often; false ends the computation, and no file is changed. Errors: those of prepare_run; FileError if
-/// events differ.
+/// often; if it returns false, the computation ends and no file is changed. Errors: those of prepare_run;
+/// FileError if events differ.
 bool add_picture_rows(const std::filesystem::path& directory, const std::function<bool()>& go_on);
 
 }  // namespace signorini::study

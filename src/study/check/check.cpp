@@ -14,7 +14,7 @@ namespace {
 
 constexpr int shown_modes = 5;
 
-/// C including the dashpots of contacts.
+/// Damping matrix C of the structure, with the dashpots of contacts.
 SparseMatrix with_dashpots(const Model& model) {
   std::vector<assembly::LineSpring> dashpots;
   for (const Contact& c : model.contacts) {
@@ -41,7 +41,7 @@ void measure_mass(const Scene& scene, const Model& structure, CheckReport& repor
 
 /// Warns of the part of the initial state that the reduced model cannot represent.
 void warn_of_lost_state(const Model& model, std::vector<std::string>& warnings) {
-  constexpr double worth_a_word = 1e-9;  // relative to the scene's scales
+  constexpr double worth_a_word = 1e-9;  // smaller losses, relative to the scene's scales, are not reported
   const Reduction& reduction = *model.reduction;
   const auto warn = [&](double lost, double scale, const char* what, const std::string& unit) {
     if (lost > worth_a_word * scale)
@@ -65,7 +65,7 @@ CheckReport check(const Scene& scene, const Model& model) {
   report.method = std::move(start.method);
   report.warnings = std::move(start.warnings);
   if (const auto found = checks::ambiguous_contacts(model))
-    report.warnings.push_back(found->reason + "; the run will stop when that happens");
+    report.warnings.push_back(found->reason + "; the run stops if this state of the contacts occurs");
   if (std::string found = checks::unstable_motion(scene, structure, report.contacts); !found.empty())
     report.warnings.push_back(std::move(found));
   for (std::string& loose : checks::loose_parts(scene)) report.warnings.push_back(std::move(loose));

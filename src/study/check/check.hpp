@@ -19,12 +19,14 @@ namespace signorini::check {
 /// Mass of the scene, including parts on fixed degrees of freedom; node scenes only.
 struct MassFacts {
   double total = 0.0;
-  double x = 0.0, y = 0.0;                ///< centre
-  double moving_x = 0.0, moving_y = 0.0;  ///< r M r for a unit translation of everything that is not fixed
+  double x = 0.0, y = 0.0;  ///< centre of mass
+  /// r M r for a unit translation of all free degrees of freedom in x or y
+  double moving_x = 0.0, moving_y = 0.0;
 };
 
-/// Stiffness of a contact's spring, and `rest`, that of the structure at the contact: 1 / (a . K_rest^-1 a).
-/// K_rest includes the springs of all other contacts. rest 0: only the spring resists the motion.
+/// Stiffness of a contact's spring, and stiffness `rest` of the remaining structure at the contact: 1 / (a .
+/// K_rest^-1 a), a: direction of the contact. K_rest includes the springs of all other contacts. If rest is
+/// 0, only the spring resists the motion.
 struct StiffnessRatio {
   int contact = 0;
   bool normal = true;
@@ -41,10 +43,11 @@ struct Discontinuity {
 /// Estimated cost of the time loop, as an order of magnitude.
 struct Cost {
   long unknowns = 0;
-  double omega_max = 0.0;  ///< of the structure with sticking contacts, and of harmonic loads
+  /// Greatest circular frequency of the structure with sticking contacts, and of harmonic loads.
+  double omega_max = 0.0;
   run::CostEstimate estimate;
   std::optional<double> exact;     ///< seconds that exact would take instead of ida, by the same estimate
-  std::vector<run::Trial> trials;  ///< measurements by measure_cost(); empty without it
+  std::vector<run::Trial> trials;  ///< measurements by measure_cost(); empty if it is not called
 };
 
 /// Facts about a scene. Frequencies, free motions and stiffnesses are those of the full structure, even if
@@ -52,15 +55,15 @@ struct Cost {
 struct CheckReport {
   long degrees_of_freedom = 0, massless = 0;
   std::optional<MassFacts> mass;
-  double least_mass = 0.0, greatest_mass = 0.0;  ///< on the diagonal of M, without zeros
-  std::vector<ContactSample> contacts;           ///< just after t = 0
+  double least_mass = 0.0, greatest_mass = 0.0;  ///< nonzero entries on the diagonal of M
+  std::vector<ContactSample> contacts;           ///< contacts just after t = 0
   std::vector<std::string> warnings;             ///< warnings of the run, and model warnings
-  /// Motions of the structure that its closed contacts leave free, with the contacts that hold them.
+  /// Motions of the structure that its closed contacts do not restrain, or restrain only by friction; one text each.
   std::vector<std::string> free_motions;
-  modes::Frequencies open, closed, stuck;           ///< all contacts in the same state
-  std::optional<std::vector<double>> load_factors;  ///< run.geometric: Geometric::load_factors
+  modes::Frequencies open, closed, stuck;           ///< all contacts open, closed, or sticking
+  std::optional<std::vector<double>> load_factors;  ///< only with run.geometric: Geometric::load_factors
   std::vector<StiffnessRatio> stiffness;
-  std::vector<Discontinuity> discontinuities;  ///< ascending
+  std::vector<Discontinuity> discontinuities;  ///< in ascending time
   Method method;
   Cost cost;
   std::size_t rows = 0;  ///< number of rows of history.csv
@@ -69,9 +72,9 @@ struct CheckReport {
 /// Checks a scene. Errors: SceneError with the reason if the run could not start.
 [[nodiscard]] CheckReport check(const Scene& scene, const Model& model);
 
-/// Measures the first steps of each engine that accepts the scene, for half a second each; also with these
-/// cutoffs of [reduction], in cycles per time. If none is given and the run is long, a cutoff is chosen
-/// (run::cutoff_to_try).
+/// Measures the first steps of each engine that accepts the scene, for half a second each, and of reduced
+/// models with these `cutoffs` of [reduction], in cycles per unit of time. If `cutoffs` is empty and the run
+/// is long, run::cutoff_to_try chooses a cutoff.
 void measure_cost(const Scene& scene, const Model& model, std::vector<double> cutoffs, CheckReport& report);
 
 /// The report as JSON, with numbers in the scene's units.
@@ -103,10 +106,10 @@ struct Ambiguity {
 
 /// Nodes without any attachment, and sections that no member uses; one sentence each.
 [[nodiscard]] std::vector<std::string> loose_parts(const Scene& scene);
-/// An unstable motion with the contacts as they are at t = 0; empty if there is none.
+/// Sentence about an unstable motion with the contact states of t = 0; empty if there is none.
 [[nodiscard]] std::string unstable_motion(const Scene& scene, const Model& model,
                                           const std::vector<ContactSample>& contacts);
-// Each returns the part of CheckReport with the same name.
+// Each of these functions computes one member of CheckReport.
 [[nodiscard]] check::MassFacts mass_of(const Scene& scene, const Model& model);
 [[nodiscard]] std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                                     const std::vector<ContactSample>& contacts);

@@ -29,7 +29,8 @@ class FirstStep : public Recorder {
   std::vector<ContactSample> contacts;
 };
 
-/// The tangent restricted to degrees of freedom with mass: only there does a rigid constraint act immediately.
+/// The tangent's entries at degrees of freedom with mass, and zeros elsewhere: a rigid constraint acts
+/// immediately only on masses.
 Vector heavy_part(const Model& model, const Combination& tangent) {
   Vector t = assembly::dense_vector(tangent, model.size());
   for (int i = 0; i < model.size(); ++i)
@@ -37,8 +38,8 @@ Vector heavy_part(const Model& model, const Combination& tangent) {
   return t;
 }
 
-/// True on a stationary ground with mass on all degrees of freedom: several contacts that constrain one motion then
-/// share their force (linear/redundant_rows.hpp).
+/// True if the surface does not move and all degrees of freedom of the tangent have mass. If several such
+/// contacts constrain the same motion, they share the force (linear/redundant_rows.hpp).
 bool may_share(const Model& model, const Contact& contact) {
   return contact.surface_motion.is_constant() &&
          std::none_of(contact.tangent.terms.begin(), contact.tangent.terms.end(), [&](const auto& term) {
@@ -46,7 +47,7 @@ bool may_share(const Model& model, const Contact& contact) {
          });
 }
 
-/// Ambiguity among contacts whose tangents act on common degrees of freedom.
+/// Ambiguity among contacts whose tangents act on common degrees of freedom; nullopt if there is none.
 std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<std::size_t>& contacts) {
   std::vector<std::string> names;  // names of the columns of `held`
   std::vector<bool> shares;        // true: the contact may share its force

@@ -20,7 +20,7 @@
 namespace signorini::checks {
 namespace {
 
-/// r M r for a unit translation of all degrees of freedom with this name ending.
+/// r M r for a unit translation of all degrees of freedom whose name ends with `component`.
 double moving_mass(const Model& model, std::string_view component) {
   Vector r = Vector::Zero(model.size());
   for (int i = 0; i < model.size(); ++i)
@@ -40,8 +40,8 @@ std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSampl
   return closed;
 }
 
-/// Factor for the stiffness of the springs that replace rigid contacts; larger if contacts must stabilise a
-/// structure with frozen forces.
+/// Factor for the stiffness of the springs that replace rigid contacts. With prestress (run.geometric) the
+/// factor is larger, because contacts may have to stabilise the structure.
 double firmness_of(const Model& model) { return model.geometric ? 1e6 : 1.0; }
 
 }  // namespace
@@ -102,7 +102,7 @@ check::MassFacts mass_of(const Scene& scene, const Model& model) {
   };
   const element::Mesh mesh = element::make_mesh(scene);
   for (const auto& e : mesh.elements) {
-    // The shares of the nodes are those of a uniform load along x.
+    // The nodes share the element's mass as they share a uniform load along x.
     const element::ElementVector shares = e->load_vector({1.0 / e->extent(), 0.0});
     const std::vector<element::ElementUnknown> unknowns = e->unknowns();
     double x = 0.0, y = 0.0;
@@ -166,7 +166,7 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
   std::vector<std::string> names;
   for (const statics::FreeMotion& f :
        statics::constrain_free_motions(problem, statics::null_motions(k).topRows(own.size), closed, true)) {
-    // A contact without friction or a spring follows the motion and does not hold it.
+    // A contact without friction follows the motion and does not restrain it.
     const Contact* holder =
         f.contact_index < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.contact_index)];
     const bool holds =
@@ -191,8 +191,8 @@ std::vector<check::StiffnessRatio> stiffness_ratios(const Model& model) {
   std::vector<check::StiffnessRatio> result;
   const auto add = [&](std::size_t contact, bool normal, const Combination& form, double stiffness) {
     const double give = form.dot(structure.solve(assembly::dense_vector(form, model.size())));
-    // 1 / give is the stiffness of spring and rest in parallel; if the rest is below rounding, it counts as
-    // zero.
+    // 1 / give is the stiffness of the spring and the rest of the structure in parallel. A rest below
+    // rounding is regarded as zero.
     const double rest = give > 0.0 ? 1.0 / give - stiffness : 0.0;
     result.push_back({static_cast<int>(contact), normal, stiffness, rest > 1e-12 * stiffness ? rest : 0.0});
   };

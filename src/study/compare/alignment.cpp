@@ -10,7 +10,7 @@
 namespace signorini::compare {
 
 bool same_time(double a, double b) {
-  constexpr double roundoff = 1e-13;  // for time grids made by summation instead of multiplication
+  constexpr double roundoff = 1e-13;  // relative; for time grids computed by summation
   return std::abs(a - b) <= roundoff * std::max(std::abs(a), std::abs(b));
 }
 
@@ -61,7 +61,7 @@ bool same(const LoggedEvent& a, const LoggedEvent& b) {
   return a.contact == b.contact && a.type == b.type && a.from == b.from && a.to == b.to;
 }
 
-/// Position in one list: events taken so far, and each contact's next event.
+/// Position in one list of events: the events taken so far (paired or skipped), and the next event of each contact.
 class Walk {
  public:
   Walk(const std::vector<LoggedEvent>& events, double t_end, double instant)
@@ -133,7 +133,8 @@ class Walk {
 
 enum class Order { same, one_instant, undetermined, different };
 
-/// Whether `event` of the reference may be paired with `partner`, although `other` has earlier events left.
+/// Decides if `event` of the reference may be paired with `partner`, although `other` has earlier events that
+/// are not paired yet.
 Order order_of(Walk& reference, Walk& other, std::size_t event, std::size_t partner) {
   Order order = Order::same;
   for (const std::size_t before : other.passed_over(partner)) {

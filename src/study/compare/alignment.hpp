@@ -1,11 +1,14 @@
 // alignment.hpp: pairs the events of two runs, and the rows of their tables.
 //
-//   reference  a1 a2 b1 a3 ...        partners have the same contact, event, from and to, and each contact's
-//   other      a1 b1 a2 a3 ...        events keep their order; the first event without a partner ends the list
+//   reference  a1 a2 b1 a3 ...
+//   other      a1 b1 a2 a3 ...
 //
-// Only the order of events of different contacts may differ, and only if it is insignificant: within one instant, or
-// closer than the events' own uncertainties in one of the two lists (then counted as `swapped`). Rows of the
-// type `time` are ignored: they are jumps of the loads, not changes of the motion.
+// Partners have the same contact, event, from and to. The events of each contact keep their order. The first event
+// without a partner ends the list of pairs.
+//
+// Only events of different contacts may have a different order, and only if the order is insignificant: the events
+// are within one instant, or, in one of the two lists, closer than their uncertainties (then counted as
+// `swapped`). Rows of the type `time` are ignored, because they are jumps of the loads, not changes of the motion.
 #pragma once
 
 #include <cmath>
@@ -29,7 +32,7 @@ struct MaxDifference {
   double t = 0.0;
   std::string where;  ///< a column, a contact, an event
 
-  /// Keeps the larger difference. NaN counts as larger than all numbers.
+  /// Keeps the larger difference. NaN is regarded as larger than all numbers.
   void update(double difference, double at, const std::string& place) {
     if (std::isnan(value) || difference <= value) return;
     value = difference;
@@ -39,7 +42,7 @@ struct MaxDifference {
 };
 
 /// Largest differences of one quantity. whole: over the time that both runs cover; until_split: up to the
-/// first difference of their sequences.
+/// first difference between the event sequences.
 struct Deviation {
   MaxDifference whole, until_split;
   std::size_t count = 0;               ///< number of compared pairs; 0: nothing to compare
@@ -61,7 +64,7 @@ struct Deviation {
 //   while (join.next()) use(join.t(), join.a().number(3), join.b().number(4));
 //   join.rows()                                               number of rows of each, and of common ones
 //
-// Rows at times that only one table has are skipped, and counted. Times are equal if they differ by rounding only.
+// Rows at times that only one table has are counted but not compared. Times are equal if they differ by rounding only.
 
 /// Number of rows of two tables, and number of compared rows.
 struct RowCount {
@@ -70,7 +73,7 @@ struct RowCount {
   friend bool operator==(const RowCount&, const RowCount&) = default;
 };
 
-/// Errors of all members: FileError.
+/// Reads the common rows of two tables. Errors of all members: FileError.
 class TimeJoin {
  public:
   /// Rows after `until` are ignored.
@@ -97,7 +100,7 @@ class TimeJoin {
 class ContactRowReader {
  public:
   explicit ContactRowReader(const std::filesystem::path& path);
-  /// Moves to the next time; an incomplete last time may have fewer contacts.
+  /// Moves to the next time. If the last time is incomplete, it has fewer contacts.
   bool next();
   struct Forces {
     double N = 0.0, T = 0.0;
@@ -118,42 +121,44 @@ class ContactRowReader {
 /// True if t is after the end, by more than rounding.
 [[nodiscard]] inline bool beyond(double t, double end) { return t > end && !same_time(t, end); }
 
-/// Columns of a row of events.csv that are needed for the comparison.
+/// Columns of a row of events.csv that the comparison uses.
 struct LoggedEvent {
   double t = 0.0;
   std::string contact, type, from, to;
-  double uncertainty = 0.0;  ///< t_uncertainty; 0 if the run has none
+  double uncertainty = 0.0;  ///< t_uncertainty of events.csv; 0 if the run has none
 
   /// True for a change of state; false for a jump of a load.
   [[nodiscard]] bool is_change() const { return type != to_string(EventType::time); }
-  /// "first slip, stick -> slip+"
+  /// Text of the event: "first slip, stick -> slip+".
   [[nodiscard]] std::string name() const;
 };
 
 struct AlignedPair {
   std::size_t reference = 0, other = 0;  ///< indices into the two lists
-  /// In the other list the event comes after one that follows it in the reference.
+  /// True if, in the other list, this event comes after an event that follows it in the reference.
   bool swapped = false;
 };
 
 struct Alignment {
   std::vector<AlignedPair> pairs;  ///< in the order of the reference
   std::size_t swapped = 0;
-  /// First difference of the sequences: the events there, absent for a list without further events.
+  /// First difference between the sequences. reference, other: indices of the events there; nullopt if the
+  /// list has no further event.
   struct Split {
     double t = 0.0;  ///< earlier time of the two events
     std::optional<std::size_t> reference, other;
-    std::size_t unaligned = 0;  ///< remaining events of the longer list
+    std::size_t unaligned = 0;  ///< number of remaining events in the longer list
   };
   std::optional<Split> split;
 };
 
 struct AlignmentSettings {
-  double t_end = 0.0;    ///< both runs reached it; later events are ignored
-  double instant = 0.0;  ///< events closer than this have no order; at least rounding of t_end
+  double t_end = 0.0;    ///< time that both runs reach; later events are ignored
+  double instant = 0.0;  ///< events closer than this time have no order; at least the rounding of t_end
 };
 
-/// Both lists must ascend in t. Cost: proportional to the number of events times the number of events per instant.
+/// Aligns the events of two runs. Both lists must ascend in t. Cost: proportional to the number of events
+/// times the number of events per instant.
 [[nodiscard]] Alignment align(const std::vector<LoggedEvent>& reference,
                               const std::vector<LoggedEvent>& other, const AlignmentSettings& settings);
 

@@ -94,7 +94,7 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
 void compare_response(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
   if (a.figures.facts.response.empty() || b.figures.facts.response.empty()) return;
   TimeJoin join(a.figures.directory / "response.csv", b.figures.directory / "response.csv", c.t_end);
-  Comparison ignored;  // its columns belong to no other quantity
+  Comparison ignored;  // only its notes are used
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "response.csv");
   c.notes.insert(c.notes.end(), ignored.notes.begin(), ignored.notes.end());
   for (const CommonColumn& column : columns)
@@ -114,7 +114,7 @@ void compare_response(const ComparedRun& a, const ComparedRun& b, double split, 
 
 void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
   TimeJoin join(a.figures.directory / "energy.csv", b.figures.directory / "energy.csv", c.t_end);
-  Comparison ignored;  // its columns belong to no other quantity
+  Comparison ignored;  // collects the columns without a partner
   std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "energy.csv");
   std::erase_if(columns, [](const CommonColumn& column) { return column.name == "balance"; });
   c.energy.unmatched = std::move(ignored.displacement.unmatched);
@@ -126,7 +126,7 @@ void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Co
   c.rows.energy = join.rows();
 }
 
-/// True if an event of either run lies between two times; neither time may decrease from call to call.
+/// any(from, to): true if an event of either run lies in [from, to]. Neither time may decrease from call to call.
 class EventsBetween {
  public:
   EventsBetween(const ComparedRun& a, const ComparedRun& b) {
@@ -144,7 +144,7 @@ class EventsBetween {
   std::size_t at_ = 0;
 };
 
-/// Moves to its next time, and counts its rows; false: no more rows before the end.
+/// Moves the reader to its next time and counts the rows there. Returns false if there are no more rows up to `end`.
 bool next_row(ContactRowReader& reader, double end, std::size_t& count) {
   if (!reader.next() || beyond(reader.t(), end)) return false;
   count += reader.forces().size();
@@ -169,8 +169,8 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
   auto series = series_of(settings, "forces-", force_difference_table());
   ForcesByContact by_contact;
 
-  // A time is evaluated once the next one is known, because it needs to know whether an event lies between its two
-  // neighbours.
+  // An output time is evaluated when the next output time is known: force_away requires that no event lies
+  // between the two neighbouring output times.
   struct Waiting {
     double t, before;
     MaxDifference greatest;

@@ -2,9 +2,8 @@
 //
 //   Comparison c = compare_runs(read_run_figures("ida"), read_run_figures("exact"), settings);
 //
-// Events are aligned one by one (alignment.hpp); tables are compared row by row at the output times of both runs, and
-// column by column for the columns of both. Everything is read as a stream: runs may be larger than memory. Units are
-// those of the scene.
+// Events are aligned one by one (alignment.hpp). Tables are compared at the output times and in the columns that
+// both runs have. Files are read as streams, because runs may be larger than memory. Units are those of the scene.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +17,13 @@
 
 namespace signorini::compare {
 
-/// A run's figures and events.
+/// Figures and events of a run.
 struct ComparedRun {
   RunFigures figures;
   std::vector<LoggedEvent> events;
 };
 
-/// Checks all files of the run first (base/run_files.hpp). Errors: FileError.
+/// Reads a run after a check of all its files (base/run_files.hpp). name: the run's name in tables. Errors: FileError.
 [[nodiscard]] ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name);
 
 struct ComparisonSettings {
@@ -42,22 +41,23 @@ struct Comparison {
   Deviation event_time;
   Deviation displacement, rotation, velocity, angular_velocity;
   Deviation force;  ///< N and T of the contacts
-  /// Same as force, at output times that have no event of either run up to the neighbouring output times.
+  /// Difference of forces away from events: at output times without an event of either run between the
+  /// previous and the next output time.
   Deviation force_away;
   Deviation energy;  ///< stored energies, dissipations and works, each separately
   std::vector<std::pair<std::string, Deviation>> columns;  ///< columns of history.csv; then NAME.N and NAME.T
-  /// The response quantities of both runs, at the rows of both.
+  /// Differences of the response quantities that both runs have, at the times of rows that both runs have.
   struct Response {
     std::string name, unit;
     Deviation deviation;
   };
   std::vector<Response> response;
   std::size_t common_times = 0;
-  /// Rows up to t_end; in contacts.csv one row per time and contact.
+  /// Numbers of rows up to t_end; contacts.csv has one row per time and contact.
   struct Rows {
     RowCount history, contacts, energy, response;
   } rows;
-  bool ends_differ = false;        ///< one of the runs continues beyond t_end
+  bool ends_differ = false;        ///< true if one of the runs continues beyond t_end
   std::vector<std::string> notes;  ///< parts that could not be compared, one sentence each
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 using Audit = std::map<std::string, double>;
 
-/// Table of runs, with one audit column for each entry of audit, the reference run's.
+/// Table of runs. Its audit columns are the entries of `audit`, the audit of the reference run.
 result::CsvTable<RunFigures> run_table(const Audit& audit) {
   using R = RunFigures;
   result::CsvTable<R> table = {{"run", &R::name},
@@ -42,7 +42,7 @@ std::string runs_csv(const ComparisonReport& report) {
   table.put_header(block);
   for (const ComparedRun& run : report.runs) table.put_row(block, run.figures);
   for (const auto& [name, reason] : report.refused) {
-    // an engine that refused the scene only has a name and a reason
+    // An engine that refused the scene has only a name and a reason.
     const std::map<std::string, std::string> cells = {
         {"run", name}, {"engine", name}, {"outcome", "refused"}, {"reason", reason}};
     for (const auto& column : table.columns()) {
@@ -54,7 +54,7 @@ std::string runs_csv(const ComparisonReport& report) {
   return block.str();
 }
 
-/// Difference of a quantity in one run.
+/// Difference of a quantity between one run and the reference.
 struct Difference {
   const std::string& run;
   Quantity quantity;
@@ -80,7 +80,7 @@ std::string differences_csv(const ComparisonReport& report) {
   return table.text(rows);
 }
 
-/// Difference of a column in one run.
+/// Difference of a column between one run and the reference.
 struct ColumnDifference {
   const std::string &run, &column;
   const Deviation& deviation;

@@ -17,10 +17,10 @@
 
 namespace signorini::compare {
 
-// The tables of a comparison for its pictures, as lists of columns.
+// Tables of a comparison that its pictures read.
 //
 //   plots/motion-RUN.csv  t,displacement,velocity     largest difference of any column from the reference at t
-//   plots/forces-RUN.csv  t,N,T                       the same for any contact
+//   plots/forces-RUN.csv  t,N,T                       largest difference of any contact from the reference at t
 //   events.csv            run,t_reference,t,difference,contact,event,from,to,swapped   one row per aligned pair
 
 /// Row of motion-RUN.csv. Units: length, length/time.
@@ -48,7 +48,7 @@ struct ForceDifference {
 struct EventPair {
   const std::string& run;
   const LoggedEvent& reference;
-  double t;  ///< time in the other run
+  double t;  ///< time of the event in the other run
   bool swapped;
 };
 /// Columns of events.csv.
@@ -76,14 +76,15 @@ struct ComparisonReport {
   std::vector<std::pair<std::string, std::string>> refused;
 };
 
-/// "exact has no more events; ida has first slip, stick -> slip+ at t = 0.31"
+/// First difference of two sequences as text: "exact has no more events; ida has first slip, stick -> slip+
+/// at t = 0.31".
 [[nodiscard]] std::string split_text(const ComparedRun& reference, const ComparedRun& other,
                                      const Alignment::Split& split);
 
 /// Text of compare.json.
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
 
-/// Errors: FileError.
+/// Writes all tables and compare.json into the directory. Errors: FileError.
 void write_comparison(const std::filesystem::path& directory, const ComparisonReport& report);
 
 }  // namespace signorini::compare

@@ -22,7 +22,8 @@ constexpr std::array<const char*, 6> colours = {"#1a1a1a", "#d95f02", "#1f77b4",
                                                 "#1b9e77", "#e7298a", "#7b3294"};
 constexpr std::size_t max_contacts = 24;  // limit for pictures of single contacts
 
-/// Later runs are thinner and dashed, on top: coinciding curves stay visible.
+/// Line style of a run. Later runs are drawn on top with thinner, dashed lines, so that coinciding curves
+/// remain visible.
 std::string look(std::size_t run) {
   const std::string colour = colours[run % colours.size()];
   if (run == 0) return "linewidth 2.6 linecolor '" + colour + "'";
@@ -140,7 +141,7 @@ class Pictures {
     return result::canvas_of(runs_.front().look, 142.0 + 230.0 * static_cast<double>(panels), true);
   }
 
-  /// A fixed axis if the curves of all runs together are nearly constant.
+  /// Command for a fixed axis if the curves of all runs together are nearly constant.
   [[nodiscard]] std::string axis(const std::string& contact, const ContactCurve& curve) const {
     result::Range all;
     result::ContactScales scales;
@@ -154,8 +155,8 @@ class Pictures {
     return result::constant_axis(all, scales.*curve.scale);
   }
 
-  /// At most 12 decades below the largest value. A logarithmic axis needs a positive value, even if all runs agree
-  /// exactly.
+  /// Range of the logarithmic axis: at most 12 decades below the largest value. If all runs agree exactly, an
+  /// invisible positive curve is added, because a logarithmic axis needs a positive value.
   [[nodiscard]] std::string y_range(const DifferenceCurve& curve, std::vector<result::Curve>& curves) const {
     double greatest = 0.0;
     for (const Comparison& c : report_.comparisons) {
@@ -214,7 +215,7 @@ void begin_comparison_plots(const fs::path& directory) {
 std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report,
                                              const result::PictureStyle& look) {
   const Pictures pictures(directory / "plots", report, look);
-  result::PictureFiles files;  // their tables exist already
+  result::PictureFiles files;  // the tables of the pictures exist already
   if (!pictures.any()) return {};
   const auto& contacts = report.runs.front().figures.facts.contacts;
   for (std::size_t k = 0; k < std::min(contacts.size(), max_contacts); ++k)

@@ -14,14 +14,14 @@
 
 namespace signorini::compare {
 
-/// File name part for run number i: "2-exact".
+/// Part of file names for the run with index i: "2-exact" for i = 1.
 [[nodiscard]] std::string run_slug(const std::string& name, std::size_t i);
 
 /// Creates DIR/plots, or removes the files of an earlier comparison from it. Errors: FileError.
 void begin_comparison_plots(const std::filesystem::path& directory);
 
-/// Writes the scripts into DIR/plots and returns them; none if there are fewer than two output times. Errors:
-/// FileError.
+/// Writes the scripts into DIR/plots and returns their paths; empty if there are fewer than two output times.
+/// Errors: FileError.
 std::vector<std::filesystem::path> write_comparison_plots(const std::filesystem::path& directory,
                                                           const ComparisonReport& report,
                                                           const result::PictureStyle& look = {});

@@ -35,8 +35,9 @@ std::string of_rows(const RowCount& rows) {
   return fmt::format("{} of {} and {}", rows.compared, rows.reference, rows.other);
 }
 
-/// Part of the quantity's table that was not compared; empty: none. Tables have their rows at the times of history.csv,
-/// contacts.csv one per contact; response.csv also has rows at events, whose times differ from run to run.
+/// Text about rows of the quantity's table that were not compared; empty if all were compared. Tables have a
+/// row at each time of history.csv, and contacts.csv has a row per time and contact. response.csv also has
+/// rows at events, whose times differ from run to run.
 std::string not_covered(const std::string& quantity, const RunFigures& reference, const RunFigures& other,
                         const Comparison& c) {
   const auto sentence = [](const char* file, const RowCount& rows) {
@@ -63,7 +64,7 @@ std::string not_covered(const std::string& quantity, const RunFigures& reference
   return rows.all() ? "" : sentence(file, rows);
 }
 
-/// "A.ux, B.ux"; of many names only the first three.
+/// List of names, "A.ux, B.ux"; only the first three if there are more.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 3;
   std::string text;
@@ -71,7 +72,8 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
 }
 
-/// Columns or contacts of the quantity that only one run has; empty: all are common, and there are some.
+/// Text about columns or contacts of the quantity that only one run has. Empty if at least one exists and
+/// both runs have all.
 std::string not_common(const Quantity& quantity, const Comparison& c) {
   const std::vector<std::string>& alone = quantity.deviation->unmatched;
   if (quantity.deviation->count > 0 && alone.empty()) return "";
@@ -85,10 +87,10 @@ std::string not_common(const Quantity& quantity, const Comparison& c) {
   return "neither run has any; in both: " + both;
 }
 
-/// Reason why a limit on the quantity cannot be applied to both runs; empty: it can.
+/// Reason why a limit on the quantity cannot be applied to both runs; empty if it can be applied.
 std::string no_comparison(const Quantity& quantity, const RunFigures& reference, const RunFigures& other,
                           const Comparison& c) {
-  if (quantity.name == "event_time") return "";  // events without a partner count as well
+  if (quantity.name == "event_time") return "";  // exceeded() also checks events without a partner
   if (c.common_times < 2) return "there are no output times to compare";
   if (std::string why = not_common(quantity, c); !why.empty()) return why;
   return not_covered(quantity.name, reference, other, c);
@@ -156,13 +158,14 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
   if (limits.empty()) return list;
   for (const RunFigures* run : {&reference, &other}) {
     if (run->done()) continue;
-    list.push_back(fmt::format("{}: {} at t = {:.9g}, so limits cannot be checked beyond", run->name,
+    list.push_back(fmt::format("{}: {} at t = {:.9g}, so limits cannot be checked beyond that time", run->name,
                                run->facts.outcome, run->t));
   }
   const bool whole = reference.done() && other.done();
   if (whole && comparison.ends_differ)
     list.push_back(fmt::format(
-        "{}: compared up to t = {:.9g}, but {} continues to {:.9g}, so limits cannot be checked beyond",
+        "{}: compared up to t = {:.9g}, but {} continues to {:.9g}, so limits cannot be checked beyond that "
+        "time",
         other.name, comparison.t_end, (reference.t > other.t ? reference : other).name,
         std::max(reference.t, other.t)));
   const auto& split = comparison.alignment.split;
@@ -176,7 +179,7 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
     if (limit.name == sequence) {
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
-      list.push_back(fmt::format("{}: sequence differs from t = {:.9g} on, {} from there on exceed {}",
+      list.push_back(fmt::format("{}: sequence differs from t = {:.9g} on, {} from then on exceed the limit {}",
                                  other.name, split->t, base::count_text(unaligned, "event"),
                                  base::format_number(limit.value)));
       continue;

@@ -20,7 +20,7 @@ struct Limit {
 /// a repeated name, or a value that is not a number >= 0.
 [[nodiscard]] std::vector<Limit> parse_limits(const std::vector<std::string>& texts);
 
-/// A quantity of a comparison by the name of its limit, with its unit.
+/// A compared quantity with the name of its limit and its unit.
 struct Quantity {
   std::string name, unit;
   const Deviation* deviation;
@@ -35,10 +35,9 @@ struct Quantity {
 [[nodiscard]] std::string rows_compared(const Comparison& comparison);
 
 /// One sentence for each exceeded limit: "exact: displacement 3e-6 m at t = 0.1 (A.ux) exceeds ...". A limit
-/// also counts as exceeded if the comparison does not cover both runs completely. This is so if one run ended
-/// early or continues beyond the other, if a column or contact exists in only one of them or in none, or if a
-/// row of a table has no partner. Events without a partner violate event_time, unless `sequence` has its own
-/// limit.
+/// is also exceeded if the comparison does not cover both runs completely: one run ended early or continues
+/// beyond the other, a column or contact exists in only one run or in none, or a row of a table has no
+/// partner. Events without a partner exceed event_time, unless `sequence` has its own limit.
 [[nodiscard]] std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFigures& reference,
                                                 const RunFigures& other, const Comparison& comparison);
 

@@ -1,9 +1,9 @@
-// run_figures.hpp: figures of a run from its directory, for tables of several runs.
+// run_figures.hpp: figures of a run, read from its directory, for tables of several runs.
 //
 //   RunFigures run = read_run_figures("pipeline-run");
 //   std::vector<LoggedEvent> events = read_events(run.directory);
 //
-// Runs that stopped early, were interrupted or killed have fewer figures: the others are absent.
+// If a run stopped early, was interrupted or was killed, some of its figures are absent.
 #pragma once
 
 #include <filesystem>
@@ -28,12 +28,12 @@ struct RunFigures {
   std::map<std::string, long> events_by_type;
   std::map<std::string, double> audit;  ///< relative violations, by their names in summary.json
   std::map<std::string, double> friction_work;
-  std::optional<double> friction, damping;  ///< total dissipation
+  std::optional<double> friction, damping;  ///< total energy dissipated by friction and by damping
 
   [[nodiscard]] bool done() const { return facts.outcome == "done"; }
 };
 
-/// Errors: FileError if there is no run.
+/// Reads the figures of the run in this directory. Errors: FileError if there is no run.
 [[nodiscard]] RunFigures read_run_figures(const std::filesystem::path& directory);
 
 /// The rows of events.csv. Errors: FileError.

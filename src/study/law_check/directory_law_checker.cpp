@@ -99,8 +99,8 @@ class DirectoryLawChecker {
     refuse_if_cut(reader.rows());
   }
 
-  /// A completed run must have an instant at its end; every event must be at an instant, and every change must have its
-  /// event.
+  /// Refuses files that are cut. A completed run must have an instant at its end, every event must be at an
+  /// instant, and every change of state must have an event.
   void refuse_if_cut(const result::CsvReader& reader) const {
     const auto refuse = [](const std::string& file, const std::string& why) { throw FileError(file, why); };
     const double end = recorded_.ended && !recorded_.stopped ? recorded_.t : last_event_;
@@ -115,7 +115,8 @@ class DirectoryLawChecker {
                          last_change_));
   }
 
-  /// False for `run --no-plots`, which omits tables for pictures; otherwise they are written together.
+  /// True if motion.csv exists. `run --no-plots` omits the tables for pictures; otherwise motion.csv and
+  /// curves.csv are written together.
   [[nodiscard]] bool has_motion() const {
     std::error_code none;
     if (fs::exists(directory_ / "motion.csv", none)) return true;
@@ -124,7 +125,7 @@ class DirectoryLawChecker {
     return false;
   }
 
-  /// A row of events.csv at a time without an instant.
+  /// Reports the next row of events.csv, because there is no instant at its time.
   void unmatched() {
     add({events_.front().t, "events.csv", events_.front().contact, "record", 1.0, 0.0, {}, true});
     events_.pop_front();
@@ -150,7 +151,8 @@ class DirectoryLawChecker {
         add({recorded_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
   }
 
-  /// Rows of events.csv that belong to the instant: in the order of contacts, starting from the states before it.
+  /// Rows of events.csv that belong to the instant: contacts in ascending order, each row from the contact's
+  /// state before the instant.
   std::vector<Event> events_of(const InstantRow& row) {
     while (!events_.empty() && events_.front().t < row.t) unmatched();
     std::vector<Event> events;
@@ -164,7 +166,8 @@ class DirectoryLawChecker {
     }
     return events;
   }
-  /// A user-law state counts as its kind.
+  /// True if the event starts from the contact's state before the instant. events.csv names a user law's
+  /// state by its kind.
   [[nodiscard]] static bool begins_with(const Event& event, const InstantRow& row) {
     const State state = row.before.states[static_cast<std::size_t>(event.contact)].state;
     return std::string(to_string(state)) == to_string(event.from);
@@ -204,8 +207,8 @@ class DirectoryLawChecker {
         last_change_ = row.t;
   }
 
-  /// Checks that the law checker beside a run does not need: continuity with the previous instant, the start
-  /// of the scene, and the forces on the structure.
+  /// Checks that are not made during a run: continuity from the previous instant, the start of the scene, and
+  /// the forces on the structure.
   void beside_others(const InstantRow& row, const law_check::InstantRecord& record) {
     if (row.start) given_start(row);
     if (last_ && engine_.located) {
@@ -224,7 +227,7 @@ class DirectoryLawChecker {
     left_driven_ = record.after.driven;
   }
 
-  /// Initial values of the scene; those of a static start are checked by their forces.
+  /// Checks the initial values against the scene. A static start is checked by its forces instead.
   void given_start(const InstantRow& row) {
     if (model_.static_start || model_.reduction) return;
     for (const auto& [recorded, asked, unit] : {std::tuple(&row.before.u, &model_.u0, seen::length),
@@ -277,11 +280,11 @@ class DirectoryLawChecker {
   run::CheckedMotion motion_;
   TableRowChecker rows_;
   std::deque<Event> events_;
-  std::optional<InstantRow> last_;               // the last instant
-  std::vector<law_check::Driven> left_driven_;   // after it
-  double t_ = 0.0;                               // time of the last instant
-  double last_event_ = 0.0, last_change_ = 0.0;  // of a state
-  long lacking_ = 0;                             // number of events missing in events.csv
+  std::optional<InstantRow> last_;               // the previous instant
+  std::vector<law_check::Driven> left_driven_;   // prescribed motions of the contacts just after it
+  double t_ = 0.0;                               // time of the previous instant
+  double last_event_ = 0.0, last_change_ = 0.0;  // times of the last event and of the last change of a state
+  long lacking_ = 0;                             // number of events of summary.json that events.csv lacks
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 //
 //   run.toml -> model;   summary.json -> engine;   instants.csv, events.csv -> src/law_check, instant by instant
 //   contacts.csv   each row: state of the last instant, guards of this state, forces of this state
-//   summary.json   as many events of each type as in events.csv; peaks not below any row
+//   summary.json   as many events of each type as in events.csv; peaks at least as large as the rows
 //
 //   DirectoryLawCheck found = check_directory_laws("pipeline-run");
 //
@@ -22,9 +22,9 @@ namespace signorini::directory_check {
 /// found in tables Violation::event is the name of the table.
 struct DirectoryLawCheck {
   Model model;
-  /// Numbers of checked items; rows: of contacts.csv and motion.csv.
+  /// Numbers of checked instants, events and rows; rows: of contacts.csv and motion.csv.
   long instants = 0, events = 0, rows = 0;
-  bool complete = true;  ///< the run had ended
+  bool complete = true;  ///< true if the run had ended
   LawCheckSummary law_checks;
 };
 

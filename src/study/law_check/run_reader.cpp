@@ -151,7 +151,7 @@ void take_end(const base::Json& json, const Model& model, const std::string& fil
   recorded.t = outcome.at("t").get<double>();
   const std::string kind = outcome.value("kind", "");
   if (kind != "done" && kind != "stopped" && kind != "interrupted")
-    refuse("outcome.kind: found \"" + base::excerpt(kind) + "\" beside the events of a run that has ended");
+    refuse("outcome.kind: found \"" + base::excerpt(kind) + "\", expected done, stopped or interrupted");
   recorded.stopped = kind != "done";
   recorded.total = json.at("events").at("total").get<long>();
   recorded.events_by_type = json.at("events").at("by_type").get<std::map<std::string, long>>();

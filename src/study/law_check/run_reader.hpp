@@ -18,32 +18,32 @@ namespace signorini::directory_check {
 
 struct RecordedSummary {
   Engine engine = Engine::automatic;
-  std::string flow;      ///< of exact: "modal" or "taylor"
+  std::string flow;      ///< flow of the engine exact: "modal" or "taylor"
   bool ended = true;     ///< false: the run is still being written, or was killed
   bool stopped = false;  ///< the run stopped before t_end
   double t = 0.0;        ///< time reached
   long total = 0;        ///< number of events
   std::map<std::string, long> events_by_type;
-  /// Extremes of each contact; empty for an older run.
+  /// Extremes of a contact's forces over the run; absent in the summary of an older version.
   struct Load {
     double least_N = 0.0, greatest_N = 0.0, least_T = 0.0, greatest_T = 0.0;
   };
   std::vector<std::optional<Load>> loads;
   std::vector<std::optional<Peak>> peaks;  ///< one per contact
 };
-/// Errors: FileError.
+/// Reads summary.json. Errors: FileError.
 [[nodiscard]] RecordedSummary read_recorded_summary(const std::filesystem::path& directory,
                                                     const Model& model);
 
-/// All rows of events.csv; user-law states are given as their kinds. ended: the run has ended, so that a last
-/// line without its line break is an error. Errors: FileError.
+/// All rows of events.csv; a user-law state is read as its kind. ended: true if the run has ended; then a
+/// last line without a line break is an error. Errors: FileError.
 [[nodiscard]] std::vector<Event> read_recorded_events(const std::filesystem::path& directory,
                                                       const Model& model, bool ended);
 
 /// Message for a table that ends too early: the line of its end, and `lacks`, the missing part.
 [[nodiscard]] std::string truncation_message(const result::CsvReader& reader, const std::string& lacks);
 
-/// Index of a contact by name; an unknown name is a FileError for this file and line.
+/// Finds the index of a contact by its name. Errors: FileError with file and line if the name is unknown.
 class ContactNames {
  public:
   explicit ContactNames(const Model& model);
@@ -77,7 +77,7 @@ class RecordedRowReader {
   [[nodiscard]] bool has_ratios() const { return ratios_; }
   /// True if a last line without its line break was omitted.
   [[nodiscard]] bool is_cut() const { return reader_.is_cut(); }
-  /// Throws a FileError with the line, for a table that ends too early.
+  /// Throws a FileError with the line at which the table ends too early. lacks: the missing part.
   [[noreturn]] void refuse_truncated(const std::string& lacks) const;
 
  private:

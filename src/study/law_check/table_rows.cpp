@@ -37,7 +37,7 @@ void TableRowOrder::grid_row(const RecordedRow& row) {
 
 void TableRowOrder::end_of_grid(const RecordedRowReader& reader) const {
   if (model_.contacts.empty()) return;
-  // The rows of a time that the run has reached exactly exist only if the instant there was completed.
+  // If the run ended exactly at an output time, rows of this time exist only if the instant there was completed.
   const std::size_t least =
       is_complete_run()
           ? run_.grid.size()
@@ -45,7 +45,8 @@ void TableRowOrder::end_of_grid(const RecordedRowReader& reader) const {
                 std::lower_bound(run_.grid.begin(), run_.grid.end(), run_.reached,
                                  [](double t, double end) { return t < end && !same(t, end); }) -
                 run_.grid.begin());
-  const bool at_last = !in_order_ && place_ + 1 >= least;  // rows out of order are reported instead
+  // Rows out of order are reported as violations instead.
+  const bool at_last = !in_order_ && place_ + 1 >= least;
   if ((place_ < least && !at_last) || (due_ > 0 && run_.ended && in_order_))
     reader.refuse_truncated(fmt::format("the row of contact \"{}\" at t = {:.9g}", model_.contacts[due_].name,
                                         place_ < run_.grid.size() ? run_.grid[place_] : run_.reached));
@@ -109,8 +110,8 @@ void TableRowChecker::instant(const InstantRow& row, const law_check::InstantRec
   }
 }
 
-/// States after the last instant; at an instant, those of both of its sides, and of other instants within the time
-/// resolution.
+/// States that a row at time t may have: the state after the last instant; at an instant, the states on both
+/// of its sides, and the states of other instants within the time resolution.
 std::vector<ContactState> TableRowChecker::states_at(std::size_t contact, double t) const {
   std::vector<ContactState> states;
   auto next = std::upper_bound(states_.begin(), states_.end(), t,
@@ -149,7 +150,8 @@ void TableRowChecker::check(const RecordedRow& row, const RecordedRowReader& rea
                             const Found& found) {
   if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
-  std::optional<std::vector<Violation>> least;  // over the states at its time with the row's name
+  // Smallest list of violations among the states at the row's time that have the row's state name.
+  std::optional<std::vector<Violation>> least;
   for (const ContactState& state : states_at(row.contact, row.t)) {
     if (row.state != to_string(state.state)) continue;
     std::vector<Violation> broken;
@@ -177,7 +179,7 @@ std::vector<Violation> TableRowChecker::violations_of(const RecordedRow& row, co
   m.dut = row.vt;
   m.displacement_size = size.place + model_.scales.displacement;
   m.velocity_size = size.speed;
-  if (c.compliance_split() && !is_open(state.state)) {  // with any values of its springs
+  if (c.compliance_split() && !is_open(state.state)) {  // the table lacks the springs' own gap and ut
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }
@@ -185,7 +187,7 @@ std::vector<Violation> TableRowChecker::violations_of(const RecordedRow& row, co
   std::vector<Violation> broken;
   law_checker_.check_contact(row.t, row.contact, state, m, false, size.force, broken);
   std::erase_if(broken, [&](const Violation& v) {
-    return c.tangential_stiffness && v.law == "slip direction";  // needs g', which tables lack
+    return c.tangential_stiffness && v.law == "slip direction";  // this law needs g', which tables lack
   });
   for (Violation& v : broken) v.event = file;
   check_forces(row, state, file, [&](Violation v) { broken.push_back(std::move(v)); });
@@ -219,13 +221,14 @@ void TableRowChecker::check_forces(const RecordedRow& row, const ContactState& s
     check("friction force", c.compliance_split() ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
-/// Checks slip = ut - T/kt; for a compliance split ut is that of the surfaces. of_force: error of T.
+/// Checks slip = ut - T/kt. For a compliance split ut is the displacement of the surfaces, so slip = ut.
+/// of_force: error of T.
 void TableRowChecker::check_slip(const RecordedRow& row, const char* file, double of_force,
                                  const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
   const double kt = c.compliance_split() ? 0.0 : c.tangential_stiffness.value_or(0.0);
   const double by_force = kt > 0.0 ? row.T / kt : 0.0;
-  // For a moving surface the position is only known at instants.
+  // sizes_ contains the displacement of a moving surface only at instants.
   const double surface =
       c.surface_motion.is_constant()
           ? 0.0
@@ -249,7 +252,7 @@ void TableRowChecker::check_ratio(const RecordedRow& row, const char* file, cons
 }
 
 void TableRowChecker::reach(const RecordedRow& row) {
-  // A stopped run has rows of a step without an instant at its end; no peak includes them.
+  // The last step of a stopped run has rows but no instant at its end; no peak includes these rows.
   if (stopped_ && !states_.empty() && row.t > states_.back().t) return;
   Peak& peak = peaks_[row.contact];
   const Size& size = sizes_[row.contact];
@@ -281,7 +284,7 @@ double TableRowChecker::noise_of_force(std::size_t k) const {
          (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * noise_of_length(k);
 }
 
-/// No row may exceed the extremes, and the larger extreme of a force in magnitude is its peak.
+/// Checks that no row exceeds the recorded extremes, and that the extreme with the larger magnitude equals the peak.
 void TableRowChecker::check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
                                   const std::vector<std::optional<Peak>>& peaks, const Found& found) const {
   for (std::size_t k = 0; k < recorded.size(); ++k) {
@@ -309,7 +312,7 @@ void TableRowChecker::check_loads(const std::vector<std::optional<RecordedSummar
 
 void TableRowChecker::check_peaks(const std::vector<std::optional<Peak>>& recorded,
                                   const Found& found) const {
-  if (engine_.limits.step > 0.0) return;  // extremes only at the ends of steps
+  if (engine_.limits.step > 0.0) return;  // the engine records extremes only at ends of steps
   for (std::size_t k = 0; k < recorded.size(); ++k) {
     if (!recorded[k]) continue;
     const double length = noise_of_length(k);

@@ -1,8 +1,9 @@
 // table_rows.hpp: checks of contacts.csv and motion.csv by the law checker.
 //
-//   state of a row = state after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
-//   ratio = |T| / |N| with friction, for a closed contact and N != 0
-//   peaks of summary.json >= rows up to the last instant of a stopped run
+//   state    the state after the last instant; the guards of this state are satisfied
+//   forces   N = kn g;  sticking: T = kt (ut - p);  slipping: T = -s fk N
+//   ratio    |T| / |N|, only for a closed contact with friction and N != 0
+//   peaks    of summary.json: at least as large as all rows; in a stopped run, as the rows up to the last instant
 //
 //   TableRowChecker rows(model, engine, checker);
 //   for each instant: rows.instant(record);
@@ -32,7 +33,8 @@ namespace signorini::directory_check {
 struct RunSpan {
   std::vector<double> grid;           ///< output times, up to t_end
   bool ended = true, stopped = true;  ///< as in the run's summary
-  double reached = 0.0;               ///< as recorded; for a run that has not ended, the last instant
+  /// Time reached as recorded; for a run that has not ended, the last instant.
+  double reached = 0.0;
 };
 
 class TableRowOrder {
@@ -69,18 +71,18 @@ class TableRowChecker {
  public:
   using Found = std::function<void(Violation)>;
 
-  /// All arguments must outlive the object. stopped: the run ended before t_end, by itself.
+  /// All arguments must outlive the object. stopped: true if the run stopped itself before t_end.
   TableRowChecker(const Model& model, const run::CheckedEngine& engine, const law_check::LawChecker& witness,
                   bool stopped);
-  /// Takes the states on both sides of an instant; to be called in the order of time.
+  /// Stores the states on both sides of an instant. Instants must be passed in the order of time.
   void instant(const InstantRow& row, const law_check::InstantRecord& record);
-  /// Both check all rows of a table (contacts.csv or motion.csv) and its completeness, and return the number
-  /// of rows. Errors: FileError.
+  /// Each function checks all rows and the completeness of one table, contacts.csv or motion.csv, and returns
+  /// the number of rows. Errors: FileError.
   long contacts(const std::filesystem::path& file, const RunSpan& run, const Found& found);
   long motion(const std::filesystem::path& file, const RunSpan& run, const Found& found);
-  /// Compares peaks with the checked rows and instants.
+  /// Checks that no checked row exceeds the recorded peaks.
   void check_peaks(const std::vector<std::optional<Peak>>& recorded, const Found& found) const;
-  /// Compares the recorded extremes of N and T with the checked rows, and with the peaks.
+  /// Checks that the recorded extremes of N and T agree with the checked rows and with the peaks.
   void check_loads(const std::vector<std::optional<RecordedSummary::Load>>& recorded,
                    const std::vector<std::optional<Peak>>& peaks, const Found& found) const;
 
@@ -89,11 +91,12 @@ class TableRowChecker {
     double t = 0.0, resolution = 0.0;
     std::vector<ContactState> before, after;
   };
-  /// Largest magnitudes of terms over the whole run.
+  /// Largest magnitudes of a contact's terms over the whole run, which determine rounding limits; gap and ut
+  /// at the start.
   struct Size {
     double place = 0.0, speed = 0.0, force = 0.0, gap_at_start = 0.0, ut_at_start = 0.0;
   };
-  struct Order {  // position in a table
+  struct Order {  // checks of the order and of the end of a table
     void (TableRowOrder::*row)(const RecordedRow&);
     void (TableRowOrder::*end)(const RecordedRowReader&) const;
   };
@@ -118,8 +121,8 @@ class TableRowChecker {
   std::vector<States> states_;
   std::vector<Size> sizes_;
   std::vector<Peak> peaks_;
-  std::vector<RecordedSummary::Load> loads_;  // extremes over rows
-  std::vector<bool> reached_;                 // true if a row reaches the peak
+  std::vector<RecordedSummary::Load> loads_;  // extremes over the checked rows
+  std::vector<bool> reached_;                 // true if loads_ contains a row of the contact
 };
 
 }  // namespace signorini::directory_check

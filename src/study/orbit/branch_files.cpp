@@ -73,7 +73,7 @@ std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outp
   }
   if (points.size() < rows)
     throw FileError((directory / "branch.csv").string(),
-                    fmt::format("has {} rows, expected {} up to the point in last/", points.size(), rows));
+                    fmt::format("has {} rows, expected {} up to the checkpoint in last/", points.size(), rows));
   return points;
 }
 
@@ -118,7 +118,7 @@ void check_owner(const fs::path& directory, const base::Json& kept, const SceneR
   if (differ.size() > shown) text += fmt::format(", and {} more keys", differ.size() - shown);
   throw UsageError(
       fmt::format("--resume: the branch in {} belongs to another scene, or to other options: {}. "
-                  "Resume it with its own, or follow a new branch with --force",
+                  "Resume it with its own scene and options, or follow a new branch with --force",
                   directory.string(), text));
 }
 
@@ -136,7 +136,7 @@ void write_mark(const fs::path& directory, const SceneReader& read, const Branch
   write_orbit(next, scene, build_model(scene), mark.orbit);
   result::write_file(next / "mark.json", base::json_text(mark_json(read, options, mark)));
   fs::remove_all(before, error);
-  fs::rename(last, before, error);  // there may be none yet
+  fs::rename(last, before, error);  // last/ may not exist yet
   fs::rename(next, last, error);
   if (error) throw FileError(last.string(), "cannot be written: " + error.message());
   fs::remove_all(before, error);
@@ -159,7 +159,7 @@ BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, c
     const base::Json saved = base::parse_json(stream);
     if (saved.at("path") != options.path || saved.at("from") != options.from || saved.at("to") != options.to)
       throw UsageError(fmt::format(
-          "--resume: the branch in {} follows {} from {} to {}; --over asks for another", directory.string(),
+          "--resume: the branch in {} follows {} from {} to {}; --over requests another branch", directory.string(),
           saved.at("path").get<std::string>(), saved.at("from").get<double>(), saved.at("to").get<double>()));
     check_owner(directory, saved.at("scene"), read, options);
     mark.parameter = saved.at("parameter");
@@ -172,7 +172,7 @@ BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, c
     mark.orbit.phase = orbit.at("phase");
     mark.orbit.autonomous = orbit.at("autonomous");
   } catch (const base::Json::exception&) {
-    throw FileError(directory.string(), "has no point of a branch to continue from");
+    throw FileError(directory.string(), "contains no checkpoint from which a branch can be resumed");
   }
   mark.orbit.start = orbit::branch_reader(read, options.path, mark.parameter)(
                          {{"run.initial", "{ run = " + base::Json((last / "start").string()).dump() + " }"}})
@@ -210,13 +210,14 @@ constexpr std::size_t max_outputs = 6;
 constexpr const char* low_colour = "#d95f02";
 constexpr const char* high_colour = "#1f77b4";
 
-/// Points of one curve: gnuplot breaks a line at a value that is not a number.
+/// A point of the picture's table. gnuplot breaks a curve at a value that is not a number.
 struct DrawnPoint {
-  const BranchPoint* point;  // null: a break
-  bool stable, unstable;     // curves that contain the point
+  const BranchPoint* point;  // null: a break of the curve
+  bool stable, unstable;     // true if the stable or unstable curve contains the point
 };
 
-/// A segment is unstable if one of its ends is. A located point belongs to both sides.
+/// A segment is unstable if one of its ends is unstable. A point of undecided stability belongs to the curves
+/// of both neighbours.
 std::vector<DrawnPoint> drawn_points(const Branch& branch) {
   std::vector<const BranchPoint*> order;
   for (const BranchPoint& p : branch.points) order.push_back(&p);
@@ -260,7 +261,7 @@ class BranchTable {
         block.number(cell(*p.point));
     });
   }
-  /// Values in the stable or unstable parts, NaN elsewhere.
+  /// gnuplot columns with values in the stable or unstable parts, and NaN elsewhere.
   [[nodiscard]] std::string parts(const std::string& name, const char* kind) const {
     return fmt::format("{}:({} > 0 ? {} : NaN)", table_.number("x"), table_.value(kind), table_.value(name));
   }
@@ -279,7 +280,7 @@ class BranchTable {
 
 const std::string rows = "'branch.csv' skip 1";
 
-/// unstable_too: the legend names the dashed parts.
+/// Adds a curve with solid stable and dashed unstable parts. unstable_too: true if the legend names the dashed parts.
 void add_line(const BranchTable& table, const std::string& name, const std::string& colour,
               const std::string& title, bool unstable_too, result::Panel& panel) {
   const std::string dashed = "with lines linewidth 1.4 dashtype (6,5) linecolor '" + colour + "'";
@@ -305,7 +306,7 @@ constexpr std::array marks{
     MarkOfPoint{"end", "with points pointtype 3 pointsize 1.1 linecolor '#1a1a1a'"},
     MarkOfPoint{"restart", "with points pointtype 2 pointsize 1.0 linecolor '#666666'"}};
 
-/// Symbols of the kinds of special points that occur, with their names in the first panel.
+/// Adds symbols for all kinds of special points on the branch. first: true if the legend names the symbols.
 void add_marks(const BranchTable& table, const Branch& branch, const std::string& name, bool first,
                result::Panel& panel) {
   for (const MarkOfPoint& mark : marks) {
@@ -318,7 +319,7 @@ void add_marks(const BranchTable& table, const Branch& branch, const std::string
   }
 }
 
-/// Grey bands for every second sequence; only if the branch has no fold, where bands would overlap.
+/// Grey bands for every second sequence of events; none if the branch has a fold, where bands would overlap.
 std::string bands(const Branch& branch) {
   std::string s;
   int object = 10;

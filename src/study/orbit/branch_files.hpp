@@ -4,8 +4,8 @@
 //   branch.json   the key, the reason for the branch's end, its sequences of events by number
 //   last/         a point of the first branch, in the format of `orbit`, and mark.json, for --resume
 //
-// last/ is written while the branch is followed, to a temporary folder that replaces it: it is complete even
-// after a kill.
+// last/ is updated while the branch is followed. Each update is written to a temporary folder, which then
+// replaces last/. Therefore last/ is complete even after a kill.
 #pragma once
 
 #include <filesystem>
@@ -39,7 +39,7 @@ void write_mark(const std::filesystem::path& directory, const SceneReader& read,
 /// Removes the checkpoint of an earlier branch.
 void remove_mark(const std::filesystem::path& directory);
 /// Reads the checkpoint of a branch that ended early or was killed. Errors: FileError; UsageError if the
-/// branch is complete or a different one.
+/// branch is complete, or if it belongs to another scene or to other options.
 [[nodiscard]] BranchCheckpoint read_mark(const std::filesystem::path& directory, const SceneReader& read,
                                          const BranchOptions& options);
 
@@ -53,8 +53,8 @@ void remove_mark(const std::filesystem::path& directory);
 //                       dashed, special points as symbols
 //   plots/branch.csv    the curves: x, stable 1 or 0, sequence, special, multiplier, amplitude, outputs
 
-/// Pictures of the branch. outputs: names with units, in the order of BranchPoint::minima; at most six have a
-/// panel.
+/// Pictures of the branch. outputs: names with units, in the order of BranchPoint::minima; only the first six
+/// have a panel.
 [[nodiscard]] result::PictureFiles branch_pictures(const std::string& title, const Units& units,
                                                    const BranchOptions& options,
                                                    const std::vector<std::string>& outputs,

@@ -50,7 +50,7 @@ std::string quoted(const fs::path& path) {
   return text + "\"";
 }
 
-/// Contains only the data from which a run continues (scene/read_initial.cpp).
+/// The summary contains only the data from which a run continues (scene/read_initial.cpp).
 std::string start_summary(const Model& model) {
   const Scales& s = model.scales;
   const base::Json scales = {{"displacement", s.displacement},
@@ -62,7 +62,7 @@ std::string start_summary(const Model& model) {
       {{"what", "start of an orbit"}, {"model", {{"alpha", model.alpha}, {"scales", scales}}}});
 }
 
-/// The state at t = 0, from the model that begins with it.
+/// Writes the state at t = 0. model: a model whose initial state is the start of the orbit.
 void write_start(const fs::path& directory, const Model& model, const Orbit& orbit) {
   const Vector u = model.physical(model.u0, 0.0, 0), v = model.physical(model.v0, 0.0, 1);
   Sample sample{0.0, &u, &v, {}, {}};
@@ -158,7 +158,7 @@ struct PhasePlot {
   [[nodiscard]] double range() const { return greatest - least; }
 };
 
-/// "A.ux" and "A.vx", "d0.u" and "d0.v": a name, a dot, u or v, a direction.
+/// Pairs of columns such as "A.ux" and "A.vx", "d0.u" and "d0.v": a name, a dot, u or v, a direction.
 std::vector<PhasePlot> phase_plots_of(const std::vector<std::string>& header) {
   std::vector<PhasePlot> list;
   for (std::size_t i = 0; i < header.size(); ++i) {
@@ -173,7 +173,7 @@ std::vector<PhasePlot> phase_plots_of(const std::vector<std::string>& header) {
   return list;
 }
 
-/// The phase portraits with the largest ranges.
+/// The phase portraits with the largest ranges of displacement.
 std::vector<PhasePlot> greatest_phase_plots(const std::filesystem::path& directory) {
   result::CsvReader reader(directory / "history.csv");
   std::vector<PhasePlot> list = phase_plots_of(reader.header());

@@ -15,10 +15,10 @@ namespace signorini::orbit_study {
 /// Text of orbit.json.
 [[nodiscard]] std::string orbit_json(const Model& model, const Orbit& orbit);
 
-/// The scene of orbit_scene(); its run.toml begins from DIR/start.
+/// Changes the scene of orbit_scene() so that its run.toml starts from DIR/start.
 [[nodiscard]] Scene scene_beginning_in(Scene scene, const std::filesystem::path& directory);
 
-/// Writes DIR/orbit.json and DIR/start. model: model of that scene. Errors: FileError.
+/// Writes DIR/orbit.json and DIR/start. model: model of `scene`. Errors: FileError.
 void write_orbit(const std::filesystem::path& directory, const Scene& scene, const Model& model,
                  const Orbit& orbit);
 
@@ -27,7 +27,7 @@ void write_orbit(const std::filesystem::path& directory, const Scene& scene, con
 //   plots/multipliers.gp   Floquet multipliers and the unit circle
 //   plots/phase.gp         v over u of the degrees of freedom with the largest motion, from history.csv; three at most
 
-/// Pictures of the orbit. directory: contains the run of a period. Errors: FileError.
+/// Pictures of the orbit. directory: folder with the run of one period. Errors: FileError.
 [[nodiscard]] result::PictureFiles orbit_pictures(const std::filesystem::path& directory,
                                                   const std::string& title, const Units& units,
                                                   const Orbit& orbit, const result::PictureStyle& look = {});

@@ -21,19 +21,20 @@ namespace signorini::quake {
 
 struct QuakeSpec {
   double duration = 20.0;  ///< D, s
-  double dt = 0.01;        ///< s
+  double dt = 0.01;        ///< interval of the samples, s
   double pga = 0.0;        ///< largest |a|, in the unit of a
   unsigned long seed = 1;
   double ground_frequency = 2.5, ground_damping = 0.6;  ///< wg / 2 pi in Hz, zg
   double low_frequency = 0.25, low_damping = 0.6;       ///< wf / 2 pi in Hz, zf
-  std::function<double(double T)> target = {};          ///< PSA at 5 % of critical damping; null: by filter
+  /// Target PSA at 5 % of critical damping; null: amplitudes by filter.
+  std::function<double(double T)> target = {};
 };
 
 /// Range of periods over which a spectrum is matched and reported.
 inline constexpr double min_matched_period = 0.05, max_matched_period = 2.0;  // s
 inline constexpr double spectrum_damping = 0.05;
 
-/// Samples at 0, dt, ..., D, in the unit of pga or target.
+/// Samples of a at 0, dt, ..., D, in the unit of pga or target.
 [[nodiscard]] std::vector<double> quake(const QuakeSpec& spec);
 
 /// Largest |velocity| and |displacement| of the ground, and their final values. The ground starts from rest,

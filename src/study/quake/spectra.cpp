@@ -12,7 +12,8 @@
 namespace signorini::quake {
 namespace {
 
-/// One step h of the oscillator: from the state (u, v) and the accelerations at both ends to the next state.
+/// Coefficients of one step h of the oscillator, from the state (u, v) and the accelerations at both ends to
+/// the next state.
 struct Step {
   double uu = 0.0, uv = 0.0, vu = 0.0, vv = 0.0;  // free motion
   double ua = 0.0, ub = 0.0, va = 0.0, vb = 0.0;  // response to a at the beginning and at the end

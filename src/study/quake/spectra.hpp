@@ -14,9 +14,8 @@
 
 namespace signorini::quake {
 
-/// PSA(T) at the damping ratio z, 0 <= z < 1, in the unit of a. a: samples at equal distances dt > 0; T > 0
-/// and dt have one unit of time. The oscillator is also followed for one period after the last sample, with a
-/// = 0.
+/// PSA(T) at the damping ratio z, 0 <= z < 1, in the unit of a. a: samples at equal intervals dt > 0; T > 0
+/// in the unit of dt. The response includes one period after the last sample, with a = 0.
 [[nodiscard]] double pseudo_acceleration(const std::vector<double>& a, double dt, double T, double z);
 
 // Target response spectrum of an accelerogram.
@@ -30,9 +29,10 @@ namespace signorini::quake {
 
 class TargetSpectrum {
  public:
-  /// Errors: UsageError for an unknown name, FileError, SceneError for an invalid line.
+  /// Reads a spectrum. ag: ground acceleration of "ec8-...". Errors: UsageError for an unknown name,
+  /// FileError, SceneError for an invalid line.
   static TargetSpectrum read(const std::string& name_or_file, double ag);
-  /// T >= 0.
+  /// PSA(T) for T >= 0.
   [[nodiscard]] double operator()(double T) const;
 
  private:

@@ -8,9 +8,10 @@
 namespace signorini::reduction {
 namespace {
 
-// Terms of the series in each force. Chosen; tests/unit/study/reduction/excited_modes compares them with all modes.
+// Number of terms of the series for each force. Chosen value; tests/unit/study/reduction/excited_modes
+// compares the result with all modes.
 constexpr int terms = 4;
-constexpr double dependent = 1e-10;  // fraction of a vector's energy outside the others that is only rounding
+constexpr double dependent = 1e-10;  // fraction of a vector's energy outside the span that is only rounding
 // Smallest 1/omega^2 of a vector, relative to the largest; below it the vector responds without inertia.
 constexpr double needs_no_mass = 1e-12;
 
@@ -36,7 +37,7 @@ class Span {
 
  private:
   const SparseMatrix& k_;
-  Eigen::MatrixXd vectors_, forces_;  // K times each
+  Eigen::MatrixXd vectors_, forces_;  // forces_: K times each vector
   Eigen::Index count_ = 0;
 };
 
@@ -69,7 +70,7 @@ ExcitedModes excited_modes(const Model& structure, const reduce::KeptModes& kept
       base::symmetric_eigen(h.transpose() * (structure.mass * h));  // 1/omega^2, ascending
   const Eigen::Index all = ritz.values.size();
   if (all == 0 || !ritz.values.allFinite())
-    throw reduce::NotReducible("the modes left out cannot be estimated");
+    throw reduce::NotReducible("the contribution of the modes left out cannot be estimated");
   const Eigen::Index count = (ritz.values.array() > needs_no_mass * ritz.values[all - 1]).count();
   const Eigen::VectorXd inverse = ritz.values.tail(count).reverse();
   result.squares = inverse.cwiseInverse();

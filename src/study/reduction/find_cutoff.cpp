@@ -22,7 +22,7 @@ Vector vector_of(const Combination& form, Eigen::Index n) {
   return x;
 }
 
-/// A tied node's motion follows from that of its body.
+/// The displacement of a column as a form of the structure's displacements. A tied node moves with its body.
 Vector form_of(const Column& column, const Model& full) {
   const Eigen::Index n = full.size();
   if (column.dof < n) return Vector::Unit(n, column.dof);
@@ -89,7 +89,8 @@ TruncationError::TruncationError(const Model& full, const Eigen::VectorXd& squar
   }
 }
 
-/// Advances from one sample to the next, with their neighbours: F = a0 + a1 s + a2 s^2 + a3 s^3, slopes by parabolas.
+/// Advances the modes from the sample `from` to the next sample `to`. F = a0 + a1 s + a2 s^2 + a3 s^3;
+/// parabolas through the neighbouring samples give the slopes at both ends.
 void TruncationError::advance(const Array& before, const Array& from, const Array& to, const Array& after) {
   const double h = step_;
   const Array slope = 0.5 * (to - before) / h, end_slope = 0.5 * (after - from) / h, rise = (to - from) / h;
@@ -133,29 +134,31 @@ void TruncationError::finish() {
 
 namespace {
 
-constexpr Eigen::Index min_modes = 6;  // modes with stiffness in the first trial; chosen value
-// Radians of the cutoff: at twice the cutoff, an extreme between two samples is 1 % larger.
+constexpr Eigen::Index min_modes = 6;  // number of modes with stiffness in the first trial; chosen value
+// Phase of the cutoff frequency per sample: an oscillation at twice the cutoff exceeds its samples by at most 1 %.
 constexpr double radians_a_sample = 0.15;
 constexpr double max_growth = 4.0;    // growth of the cutoff from one trial to the next
 constexpr double least_growth = 2.0;  // smallest growth: the next trial then adds most of the missing part
-constexpr double max_radians = 1.0;   // per half step, where few instants are compared: a factor of 1.85
-constexpr double nothing_known =
-    1.0;  // error of a trial if the finer one misses no less: the whole displacement
-constexpr double usual_order = 2.0;             // order of `missed` in 1/cutoff before two trials
-constexpr int max_failures = 4;                 // successive trials that cannot run
-constexpr int max_moves = 8;                    // moves of a cutoff if modes cannot be counted
-constexpr double move_by = 1.01;                // factor of such a move
-constexpr double raised = 1.5;                  // factor for a cutoff below which there are too few modes
-constexpr Eigen::Index min_compared = 2048;     // instants at which trials are compared; chosen
-constexpr Eigen::Index max_compared = 1 << 22;  // displacements that a trial keeps for the comparison: 32 MB
+// Limit for the phase in apart() if few instants are compared: a factor of 1.85.
+constexpr double max_radians = 1.0;
+// Error of a trial if the finer trial misses as much or more: the whole displacement.
+constexpr double nothing_known = 1.0;
+// Order of `missed` in 1/cutoff, assumed until two trials show it.
+constexpr double usual_order = 2.0;
+constexpr int max_failures = 4;              // limit for successive trials that cannot run
+constexpr int max_moves = 8;                 // limit for moves of a cutoff if modes cannot be counted
+constexpr double move_by = 1.01;             // factor by which a cutoff is moved
+constexpr double raised = 1.5;               // factor for a cutoff with too few modes below it
+constexpr Eigen::Index min_compared = 2048;  // smallest number of compared instants; chosen value
+// Number of displacements that a trial stores for the comparison: 32 MB.
+constexpr Eigen::Index max_compared = 1 << 22;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction.tolerance", why);
 }
 
-/// Restricts a reduced model's displacements to the requested places. A run computes the same motion, and its
-/// samples cost as little as a few rows. Parts of the model that refer to the structure's degrees of freedom
-/// must be removed.
+/// Restricts a reduced model's displacements to the requested places. A run then computes the same motion, but its
+/// samples have only a few rows. Parts of the model that refer to the structure's degrees of freedom are removed.
 void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
   const auto count = static_cast<Eigen::Index>(asked.size());
   Reduction& reduction = *model.reduction;
@@ -176,10 +179,11 @@ void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
   model.drawn_nodes.clear();
 }
 
-/// Forces of contacts and displacements, at equal steps.
+/// Records displacements, and passes the forces of contacts to a TruncationError, at equal time steps.
 class Watcher final : public Recorder {
  public:
-  /// samples: steps of the run; both numbers are min_compared times a power of two.
+  /// samples: number of steps of the run; instants: number of compared instants. Both are min_compared times
+  /// a power of two.
   Watcher(TruncationError& left_out, Eigen::Index places, Eigen::Index samples, Eigen::Index instants,
           const std::function<bool()>& go_on)
       : left_out_(left_out), every_(samples / instants), go_on_(go_on) {
@@ -211,7 +215,7 @@ class Watcher final : public Recorder {
   std::vector<double> forces_;
 };
 
-/// The structure and, where they are few enough, all of its modes.
+/// The structure and, if it is small enough, all of its modes.
 class SystemMatrices {
  public:
   explicit SystemMatrices(const Scene& scene)
@@ -231,9 +235,9 @@ class SystemMatrices {
 
   struct Cutoff {
     double omega = 0.0;
-    Eigen::Index kept = 0;  ///< modes below it; -1: they cannot be counted
+    Eigen::Index kept = 0;  ///< number of modes below omega; -1: cannot be counted
   };
-  /// A cutoff above all modes up to a frequency, and above at least this number of modes.
+  /// A cutoff above all modes up to the frequency `omega`, and above at least `least` modes.
   [[nodiscard]] Cutoff cutoff_above(double omega, Eigen::Index least) const {
     least = std::min(least, all());
     if (all_) {
@@ -263,7 +267,7 @@ class SystemMatrices {
 
  private:
   static Model built(Scene scene) {
-    scene.reduction->cutoff_omega = 1.0;  // gaps at the start are judged as those of a reduced model
+    scene.reduction->cutoff_omega = 1.0;  // initial gaps are checked as in a reduced model
     return model::build_structure(scene);
   }
 
@@ -274,14 +278,14 @@ class SystemMatrices {
 
 /// A trial run with one cutoff.
 struct Trial {
-  bool ended = false;   // as requested
-  std::string failure;  // why there is none
+  bool ended = false;   // true if go_on ended the run
+  std::string failure;  // reason why the trial could not run; empty: it ran
   double missed = 0.0, greatest = 0.0;
   Eigen::MatrixXd at;
   CutoffTrial reported = {};
 };
 
-/// Number of steps that resolve this frequency.
+/// Number of time steps that resolve this circular frequency.
 Eigen::Index samples_for(double omega, double t_end) {
   Eigen::Index samples = min_compared;
   while (static_cast<double>(samples) < t_end * omega / radians_a_sample) samples *= 2;
@@ -323,8 +327,8 @@ Trial trial(const Scene& scene, const SystemMatrices& structure, const SystemMat
   return result;
 }
 
-/// Largest difference of displacements at common instants. An oscillation at twice the cutoff, where most of the
-/// difference is, is larger between two instants h apart by 1 / cos(omega h).
+/// Largest difference of displacements at common instants, divided by cos(omega h): most of the difference
+/// oscillates at twice the cutoff omega, and its extremes lie between two instants h apart.
 double apart(const Trial& a, const Trial& b, double t_end) {
   const Eigen::Index n = std::min(a.at.cols(), b.at.cols()) - 1;
   const Eigen::Index every_a = (a.at.cols() - 1) / n, every_b = (b.at.cols() - 1) / n;
@@ -335,12 +339,12 @@ double apart(const Trial& a, const Trial& b, double t_end) {
   return most / std::cos(std::min(half_a_step, max_radians));
 }
 
-/// Factor by which the missing part turned out to be underestimated; 1: it was not.
+/// Factor by which `missed` underestimates the error of a trial; at least 1.
 double feedback(const Trial& trial) {
   return trial.missed > 0.0 ? std::max(1.0, trial.reported.error / trial.missed) : 1.0;
 }
 
-/// Sets the error of a trial, from one with more modes: the solution of
+/// Sets the error of a trial by comparison with a finer trial: the solution of
 /// error = moved + missed_finer max(1, error / missed).
 void judge(Trial& trial, const Trial& finer, double t_end) {
   if (!(finer.greatest > 0.0)) return;
@@ -363,7 +367,8 @@ class Search {
     const Eigen::Index all = structure_.all();
     for (cutoff_ = first();; cutoff_ = next()) {
       if (cutoff_.kept < 0) refuse(scene_, "the modes below the cutoff cannot be counted; give cutoff_omega");
-      // If the estimate of the last trial is too large and only all modes remain, they are kept without a trial.
+      // If the last trial's estimated error exceeds the tolerance and the next trial would keep all modes,
+      // all modes are kept without a trial.
       const bool needed = cutoff_.kept < all || (!trials_.empty() && estimated() <= *spec.tolerance);
       Trial now = needed ? tried() : Trial{};
       if (now.ended) return scene_;
@@ -382,8 +387,8 @@ class Search {
   }
 
  private:
-  /// First cutoff. If modes can only be counted, it is above the lowest frequency of the structure on its
-  /// contacts.
+  /// First cutoff. If the structure is too large to compute all modes, the cutoff is above the lowest
+  /// frequency of the structure on its contacts.
   [[nodiscard]] SystemMatrices::Cutoff first() const {
     const bool known = structure_.all() <= reduce::all_modes_up_to;
     const double lowest = structure_.model.omega1 > 0.0 ? structure_.model.omega1 : 1.0 / scene_.run.t_end;
@@ -408,7 +413,7 @@ class Search {
     return failed;
   }
 
-  /// Error of the last trial, as estimated before the next one.
+  /// Error of the last trial, as estimated before a finer trial.
   [[nodiscard]] double estimated() const {
     const double before = trials_.size() > 1 ? feedback(trials_[trials_.size() - 2]) : 1.0;
     return trials_.back().missed * before;
@@ -429,7 +434,7 @@ class Search {
     return structure_.cutoff_above(growth * cutoff_.omega, cutoff_.kept + 1);
   }
 
-  /// Records all trials, the i-th as the last: its cutoff is used.
+  /// Returns the scene with the cutoff of the i-th trial, and records all trials; the i-th trial is recorded last.
   Scene found(std::size_t i) {
     ReductionSpec& spec = *scene_.reduction;
     for (std::size_t j = 0; j < trials_.size(); ++j)
@@ -443,7 +448,7 @@ class Search {
   const std::function<bool()>& go_on_;
   const SystemMatrices structure_;
   SystemMatrices::Cutoff cutoff_;
-  int failures_ = 0;  // since the last trial that ran
+  int failures_ = 0;  // number of failed trials since the last trial that ran
   std::vector<Trial> trials_;
 };
 

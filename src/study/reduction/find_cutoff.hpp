@@ -6,10 +6,10 @@
 //
 // The missing contribution changes contact forces, which emit waves, shift events and may change their
 // sequence. An estimate from one run includes none of these effects, and no forces that jump between its
-// samples. So a trial is compared with a run with at least twice the cutoff, at all common sample instants.
-// The contribution that the finer run still misses also changes the motion; its effect is scaled by the ratio
-// error / missed of the trial. If the finer run has all modes, the error is the difference from the full
-// model.
+// samples. Therefore each trial is compared with a run with at least twice the cutoff, at all common sample
+// instants. The contribution that the finer run misses also changes the motion; this effect is scaled by the
+// ratio error / missed of the trial. If the finer run has all modes, the error is the difference from the
+// full model.
 // Errors are relative to the largest displacement of all requested places in the run.
 #pragma once
 
@@ -32,24 +32,24 @@ namespace signorini::reduction {
 /// A place at which displacements are evaluated.
 struct RequestedPlace {
   std::string name;  ///< "normal of contact 'first'", "A.ux"
-  Vector form;       ///< on displacements of the structure; the motion of supports is left out
+  Vector form;       ///< linear form of the structure's displacements, without motions of supports
 };
 
-/// Contacts along normal and tangent, and named nodes without rotations. full: result of build_structure().
+/// The places: contacts along normal and tangent, and displacements of named nodes. full: result of build_structure().
 [[nodiscard]] std::vector<RequestedPlace> requested_places(const Model& full);
 
 class TruncationError {
  public:
-  /// full: result of build_structure(), must outlive the object; square, shapes: its modes, ascending; kept:
-  /// number of modes that the reduction keeps. With kept = 0 square and shapes are the vectors that replace
-  /// the modes left out (excited_modes.hpp).
+  /// full: result of build_structure(), must outlive the object; square, shapes: omega^2 and shapes of its
+  /// modes, ascending; kept: number of modes that the reduction keeps. With kept = 0, square and shapes
+  /// belong to the vectors that replace the modes left out (excited_modes.hpp).
   TruncationError(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes,
                   Eigen::Index kept, double step);
 
   [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
   /// Takes the forces of contacts, in the order of the model's layout, at the times 0, step, 2 step, ...
   void sample(double t, const std::vector<double>& forces);
-  /// To be called after the last sample.
+  /// Completes the last step. Must be called after the last sample.
   void finish();
   /// Largest |missed(p)| at each place.
   [[nodiscard]] const std::vector<double>& missed() const { return missed_; }
@@ -70,13 +70,13 @@ class TruncationError {
 };
 
 /// The scene with the cutoff that satisfies its reduction.tolerance. Errors: SceneError at
-/// reduction.tolerance if no modes satisfy it, or if a trial run stops. go_on: called periodically; false
-/// ends the search with the scene unchanged.
+/// reduction.tolerance if no number of modes satisfies it, or if trial runs stop. go_on: called periodically;
+/// if it returns false, the search ends and the scene is returned unchanged.
 [[nodiscard]] Scene find_cutoff(
     Scene scene, const std::function<bool()>& go_on = [] { return true; });
 
-/// The scene with the cutoff `found` for another scene, if both have the same tolerance; otherwise its own
-/// cutoff is found. So compared runs use one model, and the search is done once.
+/// The scene with the cutoff `found` for another scene, if both scenes have the same tolerance; otherwise a search
+/// finds the scene's own cutoff. Thus compared runs use the same model, and only the first one needs a search.
 [[nodiscard]] Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found);
 
 }  // namespace signorini::reduction

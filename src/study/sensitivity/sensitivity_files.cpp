@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 std::optional<double> known(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
 base::Json json_number(double x) { return std::isfinite(x) ? base::Json(x) : base::Json(nullptr); }
 
-/// Row of a figure for one key.
+/// Row of a table: one event, figure or landing, and one key.
 template <class Figure>
 struct KeyRow {
   const Figure& figure;
@@ -273,7 +273,7 @@ double rate_in(const result::CsvReader& reader, std::size_t column) {
   return reader.cell(column).empty() ? EventRates::none : reader.number(column);
 }
 
-/// Index of the contact in s.contacts, to which a new name is added; -1 for the run itself.
+/// Index of a contact in s.contacts; an unknown name is added. -1 for the run itself.
 int contact_numbered(Sensitivities& s, const std::string& name) {
   if (name.empty()) return -1;
   const auto found = std::find(s.contacts.begin(), s.contacts.end(), name);
@@ -296,10 +296,11 @@ void read_parameters(const fs::path& file, Sensitivities& s, Sigmas& sigmas) {
       if (row.contains("sigma")) sigmas.push_back(row.at("sigma"));
     }
   } catch (const base::Json::exception& error) {
-    throw FileError(file.string(), std::string("is not of sensitivities: ") + error.what());
+    throw FileError(file.string(), std::string("is not a file of `signorini sensitivity`: ") + error.what());
   }
   if (s.parameters.empty() || (!sigmas.empty() && sigmas.size() != s.parameters.size()))
-    throw FileError(file.string(), "expected parameters, all of them with a sigma or none");
+    throw FileError(file.string(),
+                    "expected at least one parameter, and a sigma for every parameter or for none");
 }
 
 }  // namespace

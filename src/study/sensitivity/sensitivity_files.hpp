@@ -20,7 +20,7 @@
 
 namespace signorini::sensitivity_study {
 
-// Standard deviations of event times and figures from those of keys, to first order.
+// Standard deviations of event times and figures, to first order, from the standard deviations of keys.
 //
 //   sigma_x = sqrt( sum_p (dx/dp sigma_p)^2 )       for independent keys
 //
@@ -45,8 +45,8 @@ struct Spread {
 void write_sensitivities(const std::filesystem::path& directory, const Sensitivities& s,
                          const Sigmas& sigmas);
 
-/// Reads the data needed by pictures: parameters, figures, and times of events with their derivatives. sigmas
-/// becomes empty if none were given. Errors: FileError.
+/// Reads the data needed by pictures: parameters, figures, and times of events with their derivatives.
+/// sigmas: set to the stored standard deviations; empty if there are none. Errors: FileError.
 [[nodiscard]] Sensitivities read_sensitivities(const std::filesystem::path& directory, Sigmas& sigmas);
 
 /// The unit of a figure, with the scene's unit names.

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t max_figures = 6, max_bars = 16, max_time_pictures = 12;
-// Limit for labelled events in a picture of event times; further ones are grey.
+// Limit for the number of events in a picture of event times.
 constexpr std::size_t first_events = 24;
 constexpr const char* contact_colours[] = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                            "#e7298a", "#666666", "#a6761d", "#17becf"};
@@ -43,7 +43,7 @@ struct Bar {
 /// Fraction of the longest bar below which bars are invisible: a thousandth of a pixel in a thousand pixels.
 constexpr double no_length = 1e-6;
 
-/// Sorts bars with the longest on top; gnuplot's axis points upwards. Invisible bars are dropped.
+/// Sorts bars so that the longest is on top: gnuplot's axis points upwards. Invisible bars are dropped.
 void sort_bars(std::vector<Bar>& bars) {
   double longest = 0.0;
   for (const Bar& bar : bars) longest = std::max(longest, std::abs(bar.length));
@@ -56,13 +56,13 @@ void sort_bars(std::vector<Bar>& bars) {
   std::reverse(bars.begin(), bars.end());
 }
 
-/// A bar and its position from the bottom, from 1.
+/// A bar and its position, counted from 1 at the bottom.
 struct PlacedBar {
   std::size_t place;
   const Bar& bar;
 };
 
-/// `length`: name of the column of lengths.
+/// Table of bars. length: name of the column of lengths.
 result::CsvTable<PlacedBar> bar_table(const char* length) {
   return {{"place", &PlacedBar::place},
           {length, [](const PlacedBar& b) { return b.bar.length; }},
@@ -100,7 +100,7 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   }
   std::stable_sort(sizes.begin(), sizes.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  // Chosen value: errors of derivatives are at most 1e-10 of the largest.
+  // Smaller elasticities, relative to the largest, are rounding. Chosen value: errors of derivatives are at most 1e-10.
   constexpr double rounding_of_derivatives = 1e-9;
   while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first)
     sizes.pop_back();
@@ -158,8 +158,8 @@ void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const result::Plo
   files.add(run, picture);
 }
 
-/// Range of the parameter on each side in a picture of event times; it includes the first changes of the
-/// sequence.
+/// Half the range of the parameter in a picture of event times. The range includes the smallest changes of
+/// the sequence unless they are larger than `widest`.
 double span_of(const Sensitivities& s, std::size_t p) {
   const double value = std::abs(s.parameters[p].value);
   double least = 0.0;
@@ -169,10 +169,10 @@ double span_of(const Sensitivities& s, std::size_t p) {
   return least > 0.0 ? std::min(3.0 * least, most) : most;
 }
 
-/// Tangent of an event's time over a parameter: from (p, t) by (dp, dt).
+/// Tangent of an event's time over a parameter, from (p, t) to (p + dp, t + dt).
 struct Tangent {
   double p, t, dp, dt;
-  int contact;  ///< from 1; 0: a load
+  int contact;  ///< number of the contact, from 1; 0: event of a load
 };
 
 const result::CsvTable<Tangent>& tangent_table() {

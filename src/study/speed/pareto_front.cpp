@@ -7,7 +7,8 @@
 namespace signorini::speed {
 namespace {
 
-/// Ratio of equal times or errors: a gain in time of less than a tenth is the machine's variation.
+/// Two times or errors with a ratio above this value are regarded as equal: times vary by up to a tenth from
+/// run to run.
 constexpr double noise = 0.9;
 
 double ranked(const WorkRow& row, const std::string& quantity, const ErrorRange& range) {
@@ -52,7 +53,7 @@ std::string pareto_sentence(const std::vector<WorkRow>& rows, const std::string&
                                 : "no complete run has a meaningful error";
     return fmt::format("For errors of {}, no cheapest run can be named: {}.", what, why);
   }
-  // Neighbours on one line are represented by the last one, the most accurate.
+  // If neighbouring runs belong to one line, only the last run is named, which is the most accurate.
   std::vector<std::size_t> last;
   for (const std::size_t i : best) {
     if (!last.empty() && rows[last.back()].point.line() == rows[i].point.line()) last.pop_back();

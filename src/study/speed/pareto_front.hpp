@@ -1,8 +1,8 @@
 // pareto_front.hpp: the cheapest engine for each accuracy (Pareto front of error and time).
 //
-// A run is on the front if no other run is as accurate in as little time, within a tenth of each. Only runs
-// that reach the end with the reference's sequence of events count: an error up to the first missing event is
-// not comparable.
+// A run is on the front if no other run is as accurate in as little time; differences below a tenth are
+// ignored. Only runs that reach the end with the reference's sequence of events are compared, because an
+// error up to the first missing event is not comparable.
 #pragma once
 
 #include <limits>
@@ -24,8 +24,8 @@ struct ErrorRange {
                                                     const std::string& quantity,
                                                     const ErrorRange& range = {});
 
-/// One sentence: "For errors of event time down to 3e-05 s newmark is cheapest (dt=1e-04: 0.02 s), ..."; also if no run
-/// is complete, or none was timed.
+/// One sentence: "For errors of event time down to 3e-05 s newmark is cheapest (dt=1e-04: 0.02 s), ...". If
+/// no run is complete or timed, the sentence gives this reason.
 [[nodiscard]] std::string pareto_sentence(const std::vector<WorkRow>& rows, const std::string& quantity,
                                           const ErrorRange& range = {});
 

@@ -20,7 +20,7 @@
 namespace signorini::speed {
 namespace {
 
-/// Quantities in tables for readers; files have all quantities.
+/// Quantities that study.md shows; study.csv and study.json have all quantities.
 constexpr const char* shown[] = {"event_time", "displacement", "force_away", "energy"};
 
 std::string unit_of(const WorkReport& report, const std::string& quantity) {
@@ -29,7 +29,7 @@ std::string unit_of(const WorkReport& report, const std::string& quantity) {
   return "";
 }
 
-/// "response:NAME" of the compared outputs, in the order of the scene.
+/// Names "response:NAME" of the compared outputs, in the order of the scene.
 std::vector<std::string> response_names(const WorkReport& report) {
   std::vector<std::string> list;
   for (const WorkRow& row : report.rows)
@@ -288,7 +288,7 @@ namespace {
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1a1a1a", "#1b9e77",
                                                 "#7b3294", "#e7298a", "#a6761d", "#666666"};
 constexpr std::array<const char*, 4> drawn = {"event_time", "displacement", "force_away", "energy"};
-// gnuplot point types: filled symbols; the number before each is its hollow form.
+// gnuplot point types of filled symbols; type n - 1 is the hollow form of type n.
 constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};
 constexpr double panel_height = 330.0;
 
@@ -333,7 +333,7 @@ struct Axis {
   double floor = 0.0;  ///< position of an error of exactly zero
 };
 
-/// nullopt if no run has a positive error of this quantity.
+/// Axis of a quantity's errors; nullopt if no run has a positive error of this quantity.
 std::optional<Axis> axis_of(const std::vector<Line>& lines, const std::string& quantity) {
   double least = std::numeric_limits<double>::infinity();
   std::string unit;

@@ -1,7 +1,7 @@
 // work_plan.hpp: the runs of a study: every engine with every setting of its accuracy.
 //
-//   run.rtol or run.dt, whichever controls the error of the engine (signorini/engine.hpp); none if only
-//   rounding does
+// Setting of the accuracy: run.rtol or run.dt, depending on the engine (signorini/engine.hpp); none if only
+// rounding limits the accuracy.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@ namespace signorini::speed {
 //   1e-2:1e-3:2     1e-2, 5e-3, 2.5e-3, 1.25e-3: the third number is the factor between neighbours
 //   1e-3,4e-4       a list
 
-/// The numbers, > 0, in the given order. Errors: UsageError, whose message begins with `option`, also for
-/// more than 100 values.
+/// Positive numbers in the given order. Errors: UsageError, whose message begins with `option`, for invalid
+/// text, for repeated numbers and for more than 100 numbers.
 [[nodiscard]] std::vector<double> parse_decades(const std::string& option, const std::string& text);
 
 /// The value rounded to few digits, as a user would write it: 1e-05, not 1.0000000000000003e-05.
@@ -34,13 +34,13 @@ struct WorkPoint {
   std::optional<double> accuracy;  ///< value of accuracy_key()
   std::vector<Override> varied;    ///< other keys that differ from the reference
 
-  /// "1e-06", or the keys in `varied`; empty for `exact` without varied keys.
+  /// "rtol=1e-06", followed by the keys in `varied`; empty for `exact` without varied keys.
   [[nodiscard]] std::string setting() const;
-  /// "ida rtol=1e-06 reduction.cutoff_omega=1e3"
+  /// Name of the run: "ida rtol=1e-06 reduction.cutoff_omega=1e3".
   [[nodiscard]] std::string name() const;
-  /// The line in pictures that the point belongs to: engine and varied keys.
+  /// Name of the point's line in pictures: engine and varied keys.
   [[nodiscard]] std::string line() const;
-  /// The line's short name: "ida cutoff_omega=1e3"
+  /// Short name of the point's line: "ida cutoff_omega=1e3".
   [[nodiscard]] std::string label() const;
   /// Overrides of the scene: engine, accuracy, varied keys.
   [[nodiscard]] std::vector<Override> changes() const;
@@ -49,13 +49,13 @@ struct WorkPoint {
 struct WorkRanges {
   std::vector<std::string> engines;
   std::vector<double> rtol, dt;
-  std::vector<std::vector<Override>> varied = {{}};  ///< at least one point, which may be empty
+  std::vector<std::vector<Override>> varied = {{}};  ///< at least one set of changed keys, which may be empty
 };
 
-/// All combinations: engine by engine, varied point by varied point, in the order of the ranges.
+/// All combinations of engines, varied keys and accuracies, in this order and in the order of the ranges.
 [[nodiscard]] std::vector<WorkPoint> work_points(const WorkRanges& ranges);
 
-/// Five time steps, each a tenth of the one before; the first is the largest power of ten up to t_end / 50.
+/// Five time steps, each a tenth of the previous step; the first is the largest power of ten up to t_end / 50.
 [[nodiscard]] std::vector<double> usual_steps(double t_end);
 
 }  // namespace signorini::speed

@@ -29,7 +29,8 @@ void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const 
     const bool times = quantity.name == "event_time";  // aligned events are before the split
     const bool part = split && !times;
     if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
-    if (part && comparison.alignment.pairs.empty()) continue;  // before the first event: insignificant
+    // Before the first event differences are not significant.
+    if (part && comparison.alignment.pairs.empty()) continue;
     const compare::MaxDifference& greatest = part ? deviation.until_split : deviation.whole;
     row.errors.push_back(
         {quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where, deviation.whole.value});
@@ -40,8 +41,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ends a run after its time limit. The clock is read only now and then, since reading it costs as much as a
-/// short step.
+/// Ends a run after its time limit. The clock is read only at every 16th call, because a reading costs as
+/// much as a short step.
 class Deadline : public run::ForwardingRecorder {
  public:
   explicit Deadline(const WorkLimits& limits, Recorder* next = nullptr)

@@ -1,4 +1,5 @@
-// work_run.hpp: one run of a study: recorded once for its errors, repeated without output for its time.
+// work_run.hpp: one run of a study. It is recorded once to determine errors, and repeated without output to
+// measure time.
 #pragma once
 
 #include <filesystem>
@@ -17,21 +18,22 @@ namespace signorini::speed {
 /// limits.hpp).
 struct WorkError {
   std::string quantity, unit;
-  double value = 0.0, t = 0.0;  ///< up to the first difference of the sequences
+  /// Largest difference, and its time, up to the first difference of the sequences.
+  double value = 0.0, t = 0.0;
   std::string where;
-  double whole = 0.0;  ///< over the whole run
+  double whole = 0.0;  ///< value over the whole run
 };
 
 struct WorkRow {
   WorkPoint point;
   std::filesystem::path directory;  ///< directory of the run; empty if refused
   std::string outcome;              ///< done, stopped, refused, "too slow"
-  /// True if the errors of all other runs are relative to this one.
+  /// True if the errors of all other runs are differences from this run.
   bool reference = false;
   std::string reason;                               ///< empty when done
   std::optional<double> t;                          ///< time reached
-  bool whole = false;                               ///< true: reached the end of the reference
-  std::optional<long> events, events_of_reference;  ///< within the compared time
+  bool whole = false;                               ///< true if the run reached the end of the reference
+  std::optional<long> events, events_of_reference;  ///< numbers of events within the compared time
   std::size_t matched_events = 0;                   ///< number of events with a partner in the reference
   /// First difference of the sequences; empty if they are equal.
   std::string split;
@@ -48,14 +50,14 @@ struct WorkRow {
   [[nodiscard]] std::optional<double> wall_time() const;  ///< the smallest of wall_times
 };
 
-/// Enters the differences of a run from the reference into its row.
+/// Sets errors and matched events of `row` from the comparison of `run` with the reference.
 void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
                      const compare::Comparison& comparison);
 
 struct WorkLimits {
   double seconds = 60.0;                              ///< wall time per run
-  std::function<bool()> go_on = [] { return true; };  ///< false: the user asks for a stop
-  std::vector<std::string> command_line;              ///< for the summaries of runs
+  std::function<bool()> go_on = [] { return true; };  ///< returns false if the user interrupts the study
+  std::vector<std::string> command_line;              ///< stored in the summaries of the runs
 };
 
 /// Outcome of a run, with details for the study.
@@ -64,11 +66,11 @@ struct WorkOutcome {
   bool too_slow = false, interrupted = false;
 };
 
-/// Runs into a directory of its own. Errors: SceneError for scenes that the engine refuses; FileError.
+/// Runs and stores the results in `directory`. Errors: SceneError for scenes that the engine refuses; FileError.
 [[nodiscard]] WorkOutcome record_run(const study::PreparedRun& run, const std::filesystem::path& directory,
                                      const WorkLimits& limits);
 
-/// Runs without output: there are rows at both ends only, and no data are stored.
+/// Runs in memory to measure the time, with output rows at both ends only.
 [[nodiscard]] WorkOutcome time_run(const study::PreparedRun& run, const WorkLimits& limits);
 
 }  // namespace signorini::speed

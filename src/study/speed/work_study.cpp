@@ -27,18 +27,19 @@ namespace {
 /// Relative change of masses: more than one unit in the last place, less than the accuracy of any structural data.
 constexpr double last_digits = 1e-15;
 
-/// Smallest tolerance that the reader accepts.
+/// Smallest value of run.rtol that a scene may have.
 constexpr double tightest_rtol = 1e-14;
 
-/// Runs expected to take more than this number of time limits are skipped: expectations are orders of magnitude.
+/// A run is skipped if its expected duration exceeds this multiple of the time limit. Expected durations are
+/// only orders of magnitude.
 constexpr double hopeless = 30.0;
 
 constexpr const char* flow_key = "run.flow";
 
-/// Number of time limits that a reference run may take.
+/// A reference run may take this multiple of the time limit.
 constexpr double patience = 10.0;
 
-/// Folders are numbered, since names may differ in special characters only.
+/// Names of folders begin with a number, because names of runs may differ in special characters only.
 std::string folder_name(std::size_t number, const std::string& name) {
   return fmt::format("{:03}-{}", number, base::file_name(name, 80, ".", '-'));
 }
@@ -52,7 +53,7 @@ std::vector<Override> capture_velocities(const Scene& scene, const Model& model)
   return list;
 }
 
-/// Range of a displacement column, largest over all columns.
+/// Largest range of all displacement columns in history.csv.
 double greatest_motion(const fs::path& directory) {
   result::CsvReader history(directory / "history.csv");
   struct Column {
@@ -76,7 +77,7 @@ double greatest_motion(const fs::path& directory) {
   return motion;
 }
 
-/// A time before t without an event of either run nearby.
+/// A time before t with no event of either run nearby; 0 if there is none.
 double quiet_before(double t, const std::vector<compare::LoggedEvent>& a,
                     const std::vector<compare::LoggedEvent>& b) {
   constexpr double near = 1e-6;  // relative to t
@@ -129,11 +130,11 @@ study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
   for (Override& change : changes)
-    change.shown_as = change.path + "=" + change.value;  // a row has no options
+    change.shown_as = change.path + "=" + change.value;  // no option has set the key
   return study::prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 
-/// Expected duration; nullopt for points that have run.
+/// Expected duration in s; 0 for points that have run already.
 double WorkStudy::seconds_of(const WorkPoint& point) const {
   if (recorded_.contains(point.name())) return 0.0;
   const study::PreparedRun run = prepare(point);
@@ -147,7 +148,7 @@ const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkL
   const study::PreparedRun run = prepare(point);
   Recorded recorded;
   std::size_t number = recorded_.size();
-  do  // a folder with foreign files was kept
+  do  // a folder with foreign files remains from an earlier study
     recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
   while (fs::exists(recorded.directory));
   const WorkOutcome outcome = record_run(run, recorded.directory, limits);
@@ -179,7 +180,7 @@ bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
   }
 }
 
-/// Measures the error of `exact` itself: the same run with all masses changed in their last digits.
+/// Measures the error of `exact` itself: the difference from the same run with all masses changed in their last digits.
 void WorkStudy::measure_reference_error(const WorkPoint& point) {
   const fs::path folder = request_.directory / "runs" / "again";
   study::PreparedRun run = prepare(point);
@@ -209,8 +210,8 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
                     decided, until));
 }
 
-/// nullopt if `exact` uses the series already, if the command line sets the flow, or if the series would take too long;
-/// the latter is noted.
+/// `exact` with its Taylor series. nullopt if `exact` uses the series already, if the command line sets the
+/// flow, or if the series would take too long; in the last case a note is added.
 std::optional<WorkPoint> WorkStudy::series_of_exact() {
   WorkPoint series;
   series.engine = to_string(references[0]);
@@ -229,7 +230,7 @@ std::optional<WorkPoint> WorkStudy::series_of_exact() {
     report_.notes.push_back(
         fmt::format("{} is left out: it would take {} s, more than the time limit of {:g} s", series.name(),
                     run::seconds_text(seconds), request_.limits.seconds));
-  } catch (const SceneError&) {  // reported when `exact` itself runs
+  } catch (const SceneError&) {  // the error is reported when `exact` itself runs
   }
   return std::nullopt;
 }
@@ -251,7 +252,7 @@ bool WorkStudy::choose_reference() {
   tight.engine = to_string(references[1]);
   const auto& rtol = request_.ranges.rtol;
   const double least = rtol.empty() ? tightest_rtol : *std::min_element(rtol.begin(), rtol.end());
-  // A tolerance below the rounding of the scene's forces cannot be met; the next decades can.
+  // A tolerance below the rounding of the scene's forces cannot be met, so the next two decades are tried as well.
   for (int tries = 0; tries < 3 && !report_.interrupted; ++tries) {
     tight.accuracy = rounded_decimal(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
     if (!try_reference(tight, why_not)) continue;
@@ -263,7 +264,7 @@ bool WorkStudy::choose_reference() {
   return false;
 }
 
-/// Error ranges: from the error of the reference itself, up to errors as large as the quantities.
+/// Sets the ranges of meaningful errors: from the error of the reference itself up to the size of the quantity.
 void WorkStudy::take_ranges() {
   compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
@@ -272,7 +273,7 @@ void WorkStudy::take_ranges() {
     for (const compare::Quantity& quantity : compare::quantities(doubt, report_.units))
       if (quantity.deviation->count > 0) report_.range[quantity.name].floor = quantity.deviation->whole.value;
   }
-  // Rounding of event times.
+  // Errors of event times cannot be smaller than their rounding.
   double& floor = report_.range["event_time"].floor;
   floor = std::max(floor, rounding::eps * report_.compared_until);
   const auto events = static_cast<double>(changes_until(reference_.events, report_.compared_until));
@@ -284,7 +285,7 @@ void WorkStudy::find_reference() {
   const bool whole = choose_reference();
   if (report_.reference.empty()) {
     if (recorded_.empty()) throw Error(ExitCode::scene, report_.notes.back());
-    report_.notes.push_back("there is no reference, so runs have times and no errors");
+    report_.notes.push_back("there is no reference, so runs have times but no errors");
     return;
   }
   if (!whole) {
@@ -306,7 +307,7 @@ void WorkStudy::compare(WorkRow& row, const compare::ComparedRun& run) const {
   row.events_of_reference = changes_until(reference_.events, report_.compared_until);
   row.reference = row.point.name() == report_.reference;
   row.whole = run.figures.t >= std::min(report_.compared_until, reference_.figures.t);
-  if (row.reference && !reference_error_measured_) return;  // no error relative to itself
+  if (row.reference && !reference_error_measured_) return;  // the reference has no error relative to itself
   compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
   const compare::ComparedRun& other = row.reference ? perturbed_reference_ : run;
@@ -348,8 +349,8 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
 }
 
 void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t round)>& before) {
-  constexpr double enough = 10.0;  // seconds
-  constexpr double brief = 0.05;   // a round of shorter runs contains several of them
+  constexpr double enough = 10.0;  // s; then a run is not repeated again
+  constexpr double brief = 0.05;   // s; a round repeats shorter runs several times
   constexpr int most = 10;
   for (std::size_t round = 1; round <= request_.repeats; ++round) {
     for (WorkRow& row : report_.rows) {
@@ -362,7 +363,8 @@ void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t ro
       for (int i = 0; i < most && sum < brief; ++i) {
         const WorkOutcome outcome = time_run(run, request_.limits);
         report_.interrupted = outcome.interrupted;
-        if (outcome.interrupted || outcome.too_slow) break;  // the machine was busy: no time for this run
+        // The machine is busy: no time from this repetition.
+        if (outcome.interrupted || outcome.too_slow) break;
         least = std::min(least, outcome.report.wall_time);
         sum += outcome.report.wall_time;
       }

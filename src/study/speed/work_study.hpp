@@ -2,15 +2,14 @@
 //
 //   WorkStudy study(request);  study.find_reference();
 //   for (const WorkPoint& point : work_points(request.ranges)) study.add(point);
-//   study.time_all(...);       // round by round, so that temporary load of the machine affects all runs
-// equally
+//   study.time_all(...);       // round by round: temporary load affects all runs equally
 //
-// The reference is `exact`. If `exact` uses modes, and its Taylor series is expected to finish within the
-// time limit, the reference is the series, which is independent of modes. If `exact` refuses the scene or
-// stops early, the reference is `ida` with a tolerance one decade below the smallest. The error of `exact` is
-// measured by the same run with all masses changed in their last digits. Times after such a change has
-// altered the sequence of events are not compared. In all runs rigid contacts without a capture_velocity get
-// that of the scene's own tolerance; otherwise every run would solve a different problem.
+// The reference is `exact`. If `exact` uses modes, and its Taylor series is expected to finish within the time
+// limit, the reference is the series, which is independent of modes. If `exact` refuses the scene or stops
+// early, the reference is `ida` with a tolerance one decade below the smallest. The error of `exact` is its
+// difference from the same run with all masses changed in their last digits. If this change alters the sequence
+// of events, times after the alteration are not compared. In all runs rigid contacts without a capture_velocity
+// get the value that belongs to the scene's own tolerance; otherwise every run would solve a different problem.
 #pragma once
 
 #include <array>
@@ -30,7 +29,7 @@ namespace signorini::speed {
 
 struct WorkRequest {
   std::string scene;  ///< file name
-  /// The user's settings for an engine; "" for settings of all engines.
+  /// Overrides that the user gives for an engine; for "", overrides for all engines.
   std::function<std::vector<Override>(const std::string& engine)> settings;
   WorkRanges ranges;
   std::size_t repeats = 3;
@@ -47,7 +46,7 @@ struct WorkReport {
   std::size_t repeats = 0, unknowns = 0, contacts = 0;
   std::string reference;                    ///< name of the reference's run; empty if there is none
   double compared_until = 0.0;              ///< time up to which errors are evaluated
-  std::map<std::string, ErrorRange> range;  ///< by quantity
+  std::map<std::string, ErrorRange> range;  ///< range of errors for each quantity
   std::vector<std::string> notes;           ///< one sentence each
   std::vector<WorkRow> rows;
   bool interrupted = false;
@@ -55,7 +54,7 @@ struct WorkReport {
 
 class WorkStudy {
  public:
-  /// The engine of the reference, and the one that replaces it if the first cannot compute the scene.
+  /// Engine of the reference, and the engine that replaces it if the first one cannot compute the scene.
   static const std::array<Engine, 2> references;
 
   /// Reads the scene and builds its model. Errors: SceneError, UsageError, FileError.
@@ -64,12 +63,13 @@ class WorkStudy {
   /// Computes the reference. If no engine computes the scene within ten times the time limit, runs have times
   /// but no errors. Errors: SceneError if no engine computes the scene at all; FileError.
   void find_reference();
-  /// Records a run and compares it. A refused run is a row as well. Errors: FileError.
+  /// Records a run, compares it with the reference and returns its row. A refused run also has a row. Errors:
+  /// FileError.
   const WorkRow& add(const WorkPoint& point);
-  /// Measures the times of all runs. A run is repeated until it has taken ten seconds, at least once;
-  /// `before` is called before each repetition.
+  /// Measures the times of all runs, in rounds. A run is repeated until its repetitions have taken ten
+  /// seconds, at least once; `before` is called before each repetition.
   void time_all(const std::function<void(const WorkRow&, std::size_t round)>& before);
-  /// The additional run of `exact` with its series, if it is the reference.
+  /// The run of `exact` with its Taylor series, if this run is the reference.
   [[nodiscard]] const std::optional<WorkPoint>& series() const { return series_; }
 
   [[nodiscard]] const WorkReport& report() const { return report_; }
@@ -94,10 +94,10 @@ class WorkStudy {
   WorkReport report_;
   std::string fingerprint_;                   // fingerprint of the scene as first read
   std::vector<Override> capture_velocities_;  // capture velocities, the same in all runs
-  std::optional<ReductionSpec> reduction_;    // contains the cutoff of all runs
+  std::optional<ReductionSpec> reduction_;    // contains the cutoff, the same in all runs
   std::map<std::string, Recorded> recorded_;
-  compare::ComparedRun reference_,
-      perturbed_reference_;  // perturbed: `exact` with masses changed in their last digits
+  // perturbed_reference_: `exact` with masses changed in their last digits
+  compare::ComparedRun reference_, perturbed_reference_;
   bool reference_error_measured_ = false;
   std::optional<WorkPoint> series_;
 };

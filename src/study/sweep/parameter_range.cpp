@@ -50,7 +50,7 @@ int decimals(const std::string& number) {
   return static_cast<int>(std::clamp<long long>(after - exponent, 0, 99));
 }
 
-/// start + k step with the decimals of both, as a user would write it.
+/// start + k step, rounded to the decimals that a user would write.
 double stepped(double start, double step, double k, int digits) {
   const double value = start + k * step;
   constexpr int most_digits = 15;
@@ -100,7 +100,7 @@ double round_step(double from, double to) {
   return to < from ? -step : step;
 }
 
-/// "0.1:0.5:0.1" from the ends 0.1 and 0.5.
+/// Example of a range with these ends: "0.1:0.5:0.1" from 0.1 and 0.5.
 std::string example_of(const std::string& from, const std::string& to) {
   return fmt::format("{}:{}:{:.3g}", from, to,
                      round_step(*base::parse_number(from), *base::parse_number(to)));
@@ -149,7 +149,7 @@ ParameterRange parse_vary(const std::string& text) {
 
 namespace {
 
-/// Indices of the keys that vary in step with key i, itself first; empty if an earlier key has the same group.
+/// Indices of the keys in the group of key i, key i first; empty if an earlier key belongs to this group.
 std::vector<std::size_t> in_step(const std::vector<ParameterRange>& varied, std::size_t i) {
   std::vector<std::size_t> members{i};
   if (varied[i].group == 0) return members;
@@ -158,7 +158,7 @@ std::vector<std::size_t> in_step(const std::vector<ParameterRange>& varied, std:
     if (j < i) return {};
     members.push_back(j);
     if (varied[j].values.size() != varied[i].values.size())
-      throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected as many", varied[i].path,
+      throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected equal numbers", varied[i].path,
                                    base::count_text(varied[i].values.size(), "value"), varied[j].path,
                                    varied[j].values.size()));
   }
@@ -243,7 +243,7 @@ using Inverse = std::function<double(double u)>;
 struct Distribution {
   const char *name, *parameters;
   std::size_t count;
-  /// Null function if the parameters are invalid.
+  /// Returns a null function if the parameters are invalid.
   Inverse (*make)(const std::vector<double>& p);
 };
 
@@ -308,7 +308,7 @@ Inverse parse_distribution(const std::string& text, const std::string& option) {
   throw UsageError(fmt::format("{}: unknown distribution \"{}\", expected one of {}", option, name, known));
 }
 
-/// Adds "a,b" as two keys; the second one's text marks it as sharing the draw of the first.
+/// Adds the keys of "a,b". The text of each further key refers to the first one, whose draw it shares.
 void add_keys(const std::string& paths, const std::string& distribution, const std::string& option,
               std::vector<ParameterRange>& varied) {
   std::string first;
@@ -325,7 +325,7 @@ void add_keys(const std::string& paths, const std::string& distribution, const s
 using Generator = std::unique_ptr<gsl_rng, void (*)(gsl_rng*)>;
 using Sobol = std::unique_ptr<gsl_qrng, void (*)(gsl_qrng*)>;
 
-/// Excludes 0 and 1, where a normal variable would be infinite.
+/// Moves u away from 0 and 1, where a normal variable would be infinite.
 double inner(double u) { return std::min(std::max(u, 0x1p-54), 1.0 - 0x1p-53); }
 
 }  // namespace
@@ -333,7 +333,7 @@ double inner(double u) { return std::min(std::max(u, 0x1p-54), 1.0 - 0x1p-53); }
 std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec) {
   std::vector<ParameterRange> varied;
   std::vector<Inverse> inverses;
-  std::vector<std::size_t> draw_of;  // per key: keys of one text share their draw
+  std::vector<std::size_t> draw_of;  // index of the draw for each key; keys of one text share a draw
   for (const std::string& text : texts) {
     const std::string option = "--sample " + text;
     if (!base::is_plain_text(text))

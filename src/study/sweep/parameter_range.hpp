@@ -3,8 +3,8 @@
 //   0:1.3:0.1     start:stop:step, the stop included if it is a multiple; 0.3 is 0.3, not 0.30000000000000004
 //   ida,exact     a list of TOML values; commas inside of quotes, brackets and braces do not separate
 //
-// Several ranges form a product; the last one varies fastest. Keys of one group vary in step, and count as
-// one range at the place of the group's first key.
+// Several ranges form a product; the last one varies fastest. Keys of one group vary together and form one
+// range at the position of the group's first key.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ namespace signorini::sweep {
 /// One `--vary path=values`.
 struct ParameterRange {
   std::string path;
-  std::string text;                 ///< as given
-  std::vector<std::string> values;  ///< each as `--set` takes it
-  int group = 0;                    ///< keys of the same group, above 0, vary in step
+  std::string text;                 ///< text of the values, as given
+  std::vector<std::string> values;  ///< each in the syntax of `--set`
+  int group = 0;                    ///< keys of the same group, above 0, vary together
   bool sampled = false;             ///< the values are draws from the distribution `text`
 
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
@@ -27,16 +27,17 @@ struct ParameterRange {
 
 /// The option that gave the values: "vary" or "sample".
 [[nodiscard]] const char* option_of(const ParameterRange& vary);
-/// Override for one of its values.
+/// Override that sets the key of `vary` to this value.
 [[nodiscard]] Override override_of(const ParameterRange& vary, const std::string& value);
-/// Refuses duplicates: two options that set one key under different names (contacts.*.friction and
-/// contacts.first.friction), and a setting all of whose keys are varied. Errors: UsageError; those of the file.
+/// Refuses two options that set the same key under different names (contacts.*.friction and
+/// contacts.first.friction), and a setting without effect because all of its keys are varied. Errors:
+/// UsageError; errors of the scene file.
 void check_overlaps(const std::string& scene, const std::vector<ParameterRange>& varied,
                     const std::vector<Override>& settings);
 /// Parses PATH=VALUES of --vary. Errors: UsageError, also for more than 1e6 values.
 [[nodiscard]] ParameterRange parse_vary(const std::string& text);
 /// The product: entry i has one value for each ParameterRange, in their order. Errors: UsageError for more
-/// than 1e6 points, for a repeated path, and for keys in step with different numbers of values.
+/// than 1e6 points, for a repeated path, and for keys of one group with different numbers of values.
 [[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<ParameterRange>& varied);
 
 // Draws values of keys from distributions.
@@ -51,9 +52,8 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
 //   random   u from the Mersenne twister of the seed, draw by draw, row by row
 //   sobol    point i of Sobol's sequence, shifted by one vector of such draws, modulo 1
 //
-// Row i depends only on the seed, i and the number of draws per row. So more samples do not change the
-// earlier ones, and shares, resumed sweeps and other machines draw the same values. Source of both sequences:
-// GSL.
+// Row i depends only on the seed, i and the number of draws per row. Therefore more samples do not change earlier
+// samples; parts of a sweep, resumed sweeps and other machines draw the same values. Source of both sequences: GSL.
 
 enum class Sequence { random, sobol };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double tail = 0.5 * (1.0 - confidence);
 constexpr std::size_t max_steps = 200, even_steps = 100;
 
-/// P(B <= k) for n draws.
+/// P(B <= k), B binomial(n, p).
 double below_or_at(std::size_t k, double p, std::size_t n) {
   return gsl_cdf_binomial_P(static_cast<unsigned>(k), p, static_cast<unsigned>(n));
 }
@@ -47,8 +47,8 @@ std::set<std::size_t> shown_of(std::size_t n) {
   return places;
 }
 
-/// The p at which P(B >= m), or P(B <= m), of n draws is a/2, by bisection: GSL's inverse of the beta distribution
-/// fails for large n.
+/// The p at which P(B >= m) (lower limit) or P(B <= m) (upper limit) is a/2, B binomial(n, p). Bisection is
+/// used because GSL's inverse of the beta distribution fails for large n.
 double clopper_pearson(std::size_t m, std::size_t n, bool lower) {
   double low = 0.0, high = 1.0;
   while (true) {
@@ -61,14 +61,14 @@ double clopper_pearson(std::size_t m, std::size_t n, bool lower) {
   }
 }
 
-/// A row with the name of its query.
+/// A row of a table, with the results from which it is computed.
 template <class Figures>
 struct AnswerRow {
   const SampledResults& of;
   Figures figures;
 };
 
-/// Columns: quantity, unit and the keys that are not sampled.
+/// Table whose first columns are quantity, unit and the keys that are not sampled.
 template <class Figures>
 result::CsvTable<AnswerRow<Figures>> answer_table(const SweepSpec& spec) {
   using R = AnswerRow<Figures>;

@@ -1,14 +1,13 @@
 // quantiles.hpp: quantiles and exceedance probabilities of samples, with confidence intervals.
 //
-//   x_(1) <= ... <= x_(n)            the results of all rows that have one
+//   x_(1) <= ... <= x_(n)            sorted results; rows without a result are left out
 //   quantile of p      x_(k), k = ceil(n p), at least 1
 //   its interval       [x_(l), x_(u)]:  P(B < l) <= a/2,  P(B >= u) <= a/2,  B binomial(n, p), a = 0.05
 //   exceedance of x    m/n, m the number of x_i > x;  its interval is that of Clopper and Pearson
 //
-// No distribution is assumed. A limit that n samples cannot determine is absent. The intervals are valid for
-// independent draws; Sobol points are not independent, so they have no intervals.
-// Sources: David and Nagaraja, Order Statistics (2003), section 7.1; Clopper and Pearson, Biometrika 26 (1934)
-// 404.
+// No distribution is assumed. If n samples cannot determine a limit of an interval, this limit is absent. The
+// intervals are valid for independent draws; Sobol points are not independent, so they have no intervals.
+// Sources: David and Nagaraja, Order Statistics (2003), section 7.1; Clopper and Pearson, Biometrika 26 (1934) 404.
 #pragma once
 
 #include <optional>
@@ -27,7 +26,7 @@ struct Quantile {
   double probability = 0.0, value = 0.0;
   std::optional<double> low, high;
 };
-/// Quantile of at least one value, sorted ascending.
+/// Quantile of at least one value, sorted ascending. independent: false for Sobol points, which have no interval.
 [[nodiscard]] Quantile quantile(const std::vector<double>& sorted, double probability, bool independent);
 
 struct Exceedance {
@@ -42,16 +41,16 @@ struct Exceedance {
 /// The results of one query for one combination of the keys that are not sampled.
 struct SampledResults {
   std::size_t query = 0;
-  std::vector<std::string> values;  ///< values of those keys
+  std::vector<std::string> values;  ///< values of the keys that are not sampled
   std::vector<double> sorted;
   std::size_t missing = 0;  ///< rows without a result
 };
 /// Results query by query; empty if no key is sampled.
 [[nodiscard]] std::vector<SampledResults> sampled_results(const SweepSpec& spec, const SweepRows& rows);
 
-/// quantiles.csv: quantity,unit,PATH,...,n,missing,probability,value,low,high
+/// Text of quantiles.csv: quantity,unit,PATH,...,n,missing,probability,value,low,high.
 [[nodiscard]] std::string quantile_table(const SweepSpec& spec, const std::vector<SampledResults>& answers);
-/// exceedance.csv: quantity,unit,PATH,...,value,probability,low,high
+/// Text of exceedance.csv: quantity,unit,PATH,...,value,probability,low,high.
 [[nodiscard]] std::string exceedance_table(const SweepSpec& spec, const std::vector<SampledResults>& answers);
 /// True if the samples of a sweep are independent draws.
 [[nodiscard]] bool independent(const SweepSpec& spec);

@@ -1,12 +1,12 @@
 // response_query.hpp: results that a sweep extracts from every run: one column each.
 //
 //   max:NAME  min:NAME  abs:NAME      largest, smallest value, largest magnitude of an [[output]]
-//   tmax:NAME  tmin:NAME  end:NAME    times of these, and the final value
+//   tmax:NAME  tmin:NAME  end:NAME    times of the maximum and the minimum; final value
 //   residual:CONTACT                  slip at the end minus slip at the start
 //   count:EVENT  count:EVENT@CONTACT  number of events of a type, at all contacts or one
-//   impulse:CONTACT  impulse:CONTACT@2     the largest impulse of its landings, or that of the second one
+//   impulse:CONTACT  impulse:CONTACT@2     the largest impulse of its landings, or the impulse of the second landing
 //
-// A result that a run has not reached, such as the end of a stopped run, is NaN: an empty cell.
+// A missing result is NaN, an empty cell: all results of a run that stops early, and landings that do not occur.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace signorini::sweep {
 /// Events of one type, at all contacts or at one; in options EVENT or EVENT@CONTACT.
 struct EventQuery {
   EventType type{};
-  std::string contact;  ///< empty: all
+  std::string contact;  ///< empty: all contacts
 
   [[nodiscard]] bool matches(const Event& event, const Model& model) const {
     if (event.type != type || contact.empty()) return event.type == type;
@@ -31,7 +31,7 @@ struct EventQuery {
 
 /// Names of all event types, as options use them.
 [[nodiscard]] std::vector<std::string> event_names();
-/// Parses EVENT or EVENT@CONTACT; nullopt if EVENT is not an event type. option: begins error messages.
+/// Parses EVENT or EVENT@CONTACT; nullopt if EVENT is not an event type. option: beginning of error messages.
 /// Errors: UsageError for an unknown contact.
 [[nodiscard]] std::optional<EventQuery> parse_event_query(const std::string& option, const std::string& text,
                                                           const Model& model);
@@ -49,10 +49,10 @@ template <class List>
 
 struct ResponseQuery {
   enum class Kind { max, min, abs, tmax, tmin, end, residual, count, impulse } kind = Kind::max;
-  std::string text;        ///< as given: the name of the column
-  std::string name;        ///< name of an output or a contact; of Kind::count: empty for all
-  EventQuery event;        ///< of Kind::count
-  std::size_t number = 0;  ///< of Kind::impulse: number of the landing, from 1; 0: the largest
+  std::string text;        ///< as given; also the name of the column
+  std::string name;        ///< name of an output or a contact; for Kind::count empty: all contacts
+  EventQuery event;        ///< only for Kind::count
+  std::size_t number = 0;  ///< only for Kind::impulse: number of the landing, from 1; 0: the largest impulse
 
   [[nodiscard]] bool of_output() const { return kind <= Kind::end; }
 };
@@ -84,7 +84,7 @@ class QueryRecorder : public Recorder {
   std::vector<double> first_slip_, last_slip_;      // per contact
 };
 
-/// The unit of a query's result; empty if it has none.
+/// The unit of a query's result; empty if the result has no unit.
 [[nodiscard]] std::string unit_of(const ResponseQuery& query, const Model& model);
 
 }  // namespace signorini::sweep

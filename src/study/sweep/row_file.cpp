@@ -26,7 +26,7 @@ void check_kind(const fs::path& file) {
   if (!why.empty()) throw FileError(file.string(), why + ", expected the rows of a sweep");
 }
 
-/// Calls take(line, number) for each complete line; returns their total size.
+/// Calls take(line, number) for each complete line; returns the total size of these lines in bytes.
 template <class Take>
 std::uintmax_t whole_lines(const fs::path& file, const Take& take) {
   check_kind(file);
@@ -90,7 +90,7 @@ void RowFile::append(const std::string& lines) {
     return;
   }
   const int error = errno;
-  // If truncation also fails, the next sweep truncates.
+  // If this truncation also fails, the next sweep truncates the file.
   [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(good_));
   throw FileError(path_.string(), "cannot be written" + base::system_error_text(error));
 }
@@ -116,7 +116,8 @@ struct Place {
 void check(const Place& place, const char* names) {
   if (place.rank < place.size) return;
   throw UsageError(
-      fmt::format("--share auto: {} give rank {} of {}, counted from 0", names, place.rank, place.size));
+      fmt::format("--share auto: {} give rank {} of {} processes, expected a rank below the number of processes",
+                  names, place.rank, place.size));
 }
 
 std::optional<Place> launcher(const Environment& environment) {

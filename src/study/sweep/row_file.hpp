@@ -3,8 +3,8 @@
 //
 //   {"row":3,"values":["1.5"],"outcome":"done",...,"checksum":"9d0c5f1e2a7b4c38"}
 //
-// A line is complete or absent: a partial line at the end, left by a kill, is not a row. The checksum detects altered
-// lines. If a row occurs twice, the later one is valid: a row that crashed is tried again.
+// A line is complete or absent: a partial line at the end, left by a kill, is not a row. The checksum detects
+// altered lines. If a row occurs twice, the later line is valid, because a crashed row is computed again.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace signorini::sweep {
 
-/// A row and the number of its line, from 1.
+/// A row and its line number, from 1.
 struct NumberedRow {
   SweepRow row;
   std::size_t line = 0;
@@ -28,7 +28,7 @@ struct NumberedRow {
 /// The rows of a file by index; empty if the file does not exist. Errors: FileError, with the line number.
 [[nodiscard]] std::map<std::size_t, NumberedRow> read_rows(const std::filesystem::path& file);
 
-/// Appends lines. Errors of all members: FileError.
+/// Appends finished rows to the file. Errors of all members: FileError.
 class RowFile {
  public:
   /// Truncates a partial line at the end. Refuses a symbolic link, which could lead to a foreign file.
@@ -37,7 +37,7 @@ class RowFile {
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
 
-  /// lines: one or more of row_line(). A failed write is truncated to complete lines.
+  /// lines: one or more of row_line(). After a failed write the file is truncated to its complete lines.
   void append(const std::string& lines);
 
  private:
@@ -51,7 +51,8 @@ class RowFile {
 //   3/16     every 16th row, starting with the third
 //   auto     from the environment of Open MPI, of other launchers with PMI, and of Slurm arrays
 //
-// A launcher inside an array multiplies: task 2 of 4, rank 1 of 8 is share 10/32.
+// If a launcher runs inside an array, both shares multiply: in task 2 of 4, rank 1 of 8 (counted from 0) has
+// share 10/32.
 
 struct Share {
   std::size_t number = 1, count = 1;  ///< number counts from 1
@@ -63,11 +64,11 @@ struct Share {
   friend bool operator==(const Share&, const Share&) = default;
 };
 
-/// Value of an environment variable, if it is set.
+/// Returns the value of an environment variable; nullopt if it is not set.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 
 /// Parses a share. Errors: UsageError for texts other than K/N with 1 <= K <= N or "auto", and for "auto" if
-/// the environment has no such variables.
+/// no launcher or array has set its variables.
 [[nodiscard]] Share parse_share(const std::string& text, const Environment& environment);
 
 /// Number of processes of this sweep that a launcher (not an array) has started; 1 without a launcher.

@@ -13,7 +13,7 @@
 namespace signorini::sweep {
 namespace {
 
-// Relative difference up to which periods count as a ratio of integers, as in orbit/load_period.cpp.
+// Relative difference up to which two periods have a ratio of integers, as in orbit/load_period.cpp.
 constexpr double same_period = 1e-9;
 
 /// Number of complete periods in the time t.
@@ -23,7 +23,7 @@ StroboscopicMap strobe_of_loads(const std::string& option, const Scene& scene) {
   const std::optional<double> period = orbit::load_period(scene).period;
   if (!period) throw UsageError(option + ": the scene has no periodic load; expected a period");
   if (whole_periods(scene.run.t_end, *period) < 1.0)
-    throw UsageError(fmt::format("{}: their period {:g} is longer than the run, t_end = {:g}", option,
+    throw UsageError(fmt::format("{}: the loads' period {:g} is longer than the run, t_end = {:g}", option,
                                  *period, scene.run.t_end));
   StroboscopicMap strobe;
   strobe.text = "loads";
@@ -61,7 +61,7 @@ std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene) {
   std::optional<double> period;
   try {
     period = orbit::load_period(scene).period;
-  } catch (const SceneError&) {  // loads without a common period have no phase
+  } catch (const SceneError&) {  // if loads have no common period, points have no phase of the loads
     return {};
   }
   if (!period) return {};
@@ -93,7 +93,8 @@ void StroboscopicRecorder::sample(const Sample& sample) {
   // Rows are at k times the period up to rounding; the end of the run is also a row.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(sample.t);
   if (turns < 1.0 || std::abs(sample.t - turns * strobe_.period) > rounding) return;
-  if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();  // its other side
+  // The point is the state after the instant: the state before it is removed.
+  if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();
   add(sample);
 }
 

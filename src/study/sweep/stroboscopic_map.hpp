@@ -2,12 +2,12 @@
 // or after every event of a type.
 //
 //   0.5             t_k = k 0.5 after the start, k = 1, 2, ...
-//   loads           the same with the period of the run's loads; the run ends with a complete period
+//   loads           t_k = k times the period of the run's loads; the run ends with a complete period
 //   slip@block      after every event `slip` of the contact `block`; without @block at all contacts
 //
 //   point = (t, columns of history.csv, outputs),  t >= settle
 //
-// If an instant has two sides, the point is after it. Units: those of the scene.
+// If an instant has a state before and a state after it, the point is the state after it. Units: those of the scene.
 #pragma once
 
 #include <optional>
@@ -21,31 +21,31 @@ namespace signorini::sweep {
 
 struct StroboscopicMap {
   std::string text;       ///< as given
-  double period = 0.0;    ///< time; 0: after events
+  double period = 0.0;    ///< time between points; 0: points are after events
   bool of_loads = false;  ///< the period is that of the scene's loads
   EventQuery event;
 };
 /// Parses the text of --strobe. Errors: UsageError that lists the model's names; SceneError for loads without
 /// a common period.
 [[nodiscard]] StroboscopicMap parse_strobe(const std::string& text, const Scene& scene, const Model& model);
-/// Warning if the points are at varying phases of the loads; otherwise, or if the loads have no period,
-/// empty.
+/// Warning if the points are at varying phases of the loads. Empty if their phase is constant, or if the
+/// loads have no period.
 [[nodiscard]] std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene);
 
-/// Names and units of the values of a point.
+/// Name and unit of one value of a point.
 struct StroboscopicColumn {
   std::string name, unit;
-  bool output = false;  ///< an [[output]]
+  bool output = false;  ///< true for an [[output]]
 };
-/// Columns of a point: those of history.csv, then the outputs.
+/// Columns of a point: the columns of history.csv, then the outputs.
 [[nodiscard]] std::vector<StroboscopicColumn> strobe_columns(const Model& model);
 
 struct StroboscopicPoint {
   double t = 0.0;
-  std::vector<double> values;  ///< one per column
+  std::vector<double> values;  ///< one value per column
 };
 
-/// Takes the points of a run, and forwards all data.
+/// Collects the points of a run, and forwards all data to the next recorder.
 class StroboscopicRecorder : public run::ForwardingRecorder {
  public:
   /// All arguments must outlive the object.
@@ -70,12 +70,12 @@ class StroboscopicRecorder : public run::ForwardingRecorder {
   double settle_;
   const Model& model_;
   std::vector<StroboscopicPoint> points_;
-  std::optional<double> event_;  // time of an event without a point yet
+  std::optional<double> event_;  // time of an event whose point has not been added yet
   std::optional<double> t_outputs_;
   std::vector<double> outputs_;
 };
 
-/// The same run with output rows at the points, and an integer number of load periods.
+/// Copy of `run` with output rows at the points. With `loads` it ends after an integer number of load periods.
 [[nodiscard]] RunSpec with_strobe_rows(RunSpec run, const StroboscopicMap& strobe);
 
 }  // namespace signorini::sweep

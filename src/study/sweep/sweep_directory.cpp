@@ -83,7 +83,7 @@ bool is_row_number(const std::string& text) {
          (text.size() == 6 || text[0] != '0');
 }
 
-/// True for a real folder; the target of a link is foreign.
+/// True if the folder exists and is not a link; the target of a link is foreign. Errors: FileError.
 bool is_own_folder(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
@@ -92,7 +92,7 @@ bool is_own_folder(const fs::path& path) {
   throw FileError(path.string(), "is not the directory of a sweep; --force removes nothing there");
 }
 
-/// Folders that contain other files than those of a run are kept, with these files.
+/// Folders of the runs of an earlier sweep.
 std::vector<fs::path> old_runs(const fs::path& runs) {
   std::vector<fs::path> folders;
   if (!is_own_folder(runs)) return folders;
@@ -103,7 +103,7 @@ std::vector<fs::path> old_runs(const fs::path& runs) {
   return folders;
 }
 
-/// Removes only files that a sweep writes. Checks everything before it removes anything.
+/// Removes only files that a sweep writes; a run's folder that contains other files is kept.
 void remove_old(const fs::path& path) {
   std::error_code error;
   std::vector<fs::path> ours;
@@ -155,14 +155,14 @@ std::map<std::size_t, NumberedRow> SweepDirectory::rows_in(const fs::path& file)
       return FileError(file.string(), fmt::format("line {}: row {} is {}", found.line, index + 1, what));
     };
     if (index >= points_.size())
-      throw wrong(fmt::format("no row of this sweep, which has {}", points_.size()));
+      throw wrong(fmt::format("no row of this sweep, which has {} rows", points_.size()));
     if (!spec_.share.holds(index)) throw wrong("not of share " + spec_.share.text());
     const auto& point = points_[index];
     bool ours = found.row.values.size() == point.size();
     for (std::size_t i = 0; ours && i < point.size(); ++i) ours = found.row.values[i] == point[i].value;
     if (!ours) throw wrong("not the row of this sweep with that number");
   }
-  // A crashed row is tried again.
+  // A crashed row is computed again.
   std::erase_if(rows, [](const auto& entry) { return entry.second.row.outcome == "crashed"; });
   return rows;
 }
@@ -236,7 +236,7 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   if (was.sampling != is.sampling) return differ("--sample", was.sampling, is.sampling);
   if (was.vary != is.vary) {
     const std::string a = text_of(was.vary), b = text_of(is.vary);
-    return a == b ? "--together was another" : differ("--vary", a, b);
+    return a == b ? "--together was different" : differ("--vary", a, b);
   }
   if (was.responses != is.responses)
     return differ("--response", text_of(was.responses), text_of(is.responses));

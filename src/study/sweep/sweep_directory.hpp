@@ -1,10 +1,10 @@
-// sweep_directory.hpp: a sweep on disk; it can be stopped, resumed, shared out and merged.
+// sweep_directory.hpp: a sweep on disk, which can be stopped, resumed, divided into shares and merged.
 //
-//   DIR/sweep.json        specification of the sweep; a directory is continued only with the same one
+//   DIR/sweep.json        specification of the sweep; a sweep is resumed only with an equal specification
 //   DIR/rows.jsonl        the finished rows in the order of completion (row_file.hpp)
 //   DIR/sweep.csv         the table of the finished rows, updated during the sweep
-//   DIR/results.json      the same as JSON, at the end
-//   DIR/strobe.csv        the points of a stroboscopic sweep, at the end (sweep_table.hpp)
+//   DIR/results.json      the table as JSON, written at the end
+//   DIR/strobe.csv        the points of a stroboscopic sweep, written at the end (sweep_table.hpp)
 //   DIR/runs/000001/      the runs, with --keep
 #pragma once
 
@@ -21,25 +21,25 @@
 
 namespace signorini::sweep {
 
-/// Points that a stroboscopic sweep takes of every run; text empty: none.
+/// Points that a stroboscopic sweep records in every run; `text` is empty for other sweeps.
 struct StroboscopicSpec {
-  std::string text;              ///< --strobe
-  double period = 0.0;           ///< 0: after events
-  std::optional<double> settle;  ///< --settle
+  std::string text;              ///< value of --strobe
+  double period = 0.0;           ///< time between points; 0: points are after events
+  std::optional<double> settle;  ///< value of --settle
   std::vector<StroboscopicColumn> columns = {};
 };
 
-/// Option by which each run along the last range begins with the final state of the previous one.
+/// Option --carry: each run along the last range begins with the final state of the previous run.
 struct CarrySpec {
   bool on = false;
   bool back = false;  ///< the second half of the last range repeats its values in the opposite order
   friend bool operator==(const CarrySpec&, const CarrySpec&) = default;
 };
 
-/// Specification of a sweep. Two sweeps are the same if everything but scene and share is equal.
+/// Specification of a sweep. Two sweeps are the same if their specifications are equal apart from scene and share.
 struct SweepSpec {
   std::string scene;  ///< file, as given
-  /// Fingerprint of the scene's content, with settings and the first valid values.
+  /// Fingerprint of the scene's content, with settings and the first valid values of the varied keys.
   std::string fingerprint;
   std::vector<std::string> settings;  ///< --set, in order
   std::vector<ParameterRange> vary;   ///< the sampled keys last
@@ -56,8 +56,9 @@ struct SweepSpec {
 /// Directory of a sweep. Errors of all members: FileError.
 class SweepDirectory {
  public:
-  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is removed
-  /// first. No other process can open it until the object, and processes that inherited it, are gone.
+  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is
+  /// removed first. No other process can open the directory while this object, or a process that inherited
+  /// the object, exists.
   SweepDirectory(std::filesystem::path path, SweepSpec spec, bool force);
   ~SweepDirectory() = default;
   SweepDirectory(const SweepDirectory&) = delete;
@@ -71,7 +72,7 @@ class SweepDirectory {
   [[nodiscard]] const std::map<std::size_t, SweepRow>& rows() const { return rows_; }
   [[nodiscard]] std::filesystem::path run_directory(std::size_t index) const;
 
-  /// The rows in the file of another directory of this sweep, or of a share of it, without crashed rows.
+  /// Rows of a file in another directory of this sweep, or of one of its shares, without crashed rows.
   /// Errors: also if a row is altered or does not belong to this sweep.
   [[nodiscard]] std::map<std::size_t, NumberedRow> rows_in(const std::filesystem::path& file) const;
   /// Appends a row, or lines of row_line(), to the file and to rows().
@@ -93,11 +94,12 @@ class SweepDirectory {
 
 /// Reads DIR/sweep.json. Errors: FileError if there is no sweep.
 [[nodiscard]] SweepSpec read_sweep_spec(const std::filesystem::path& directory);
-/// Text of the first difference, "--vary was a=0:1:0.1, is a=0:1:0.2"; empty if only scene and share differ.
+/// Text of the first difference, "--vary was a=0:1:0.1, is a=0:1:0.2"; empty if the specifications are equal
+/// apart from scene and share.
 [[nodiscard]] std::string difference(const SweepSpec& was, const SweepSpec& is);
 
-/// Copies the rows of several shares into one directory; returns rows that none of them has (index from 0). Errors:
-/// FileError; also if the sweeps are not the same, or if two shares contradict each other.
+/// Copies the rows of several shares into one directory; returns the indices, from 0, of rows that no share
+/// has. Errors: FileError; also if the sweeps are not the same, or if two shares contradict each other.
 std::vector<std::size_t> merge_sweeps(const std::vector<std::filesystem::path>& from, SweepDirectory& to);
 
 }  // namespace signorini::sweep

@@ -25,13 +25,13 @@ std::vector<double> values_of(const ParameterRange& vary) {
 
 // Ratio of the largest to the smallest value from which an axis is logarithmic.
 constexpr double decades = 50.0;
-constexpr std::size_t max_ticks = 8;  // with more values, not every value has its own tick
+constexpr std::size_t max_ticks = 8;  // with more values gnuplot chooses the ticks
 
 bool logarithmic(const std::vector<double>& values) {
   return values.front() > 0.0 && values.back() >= decades * values.front();
 }
 
-/// Cell limits: half-way to both neighbours; of equal width at the ends.
+/// Limits of the cell around `at`: half-way to both neighbours. A cell at an end extends equally to both sides.
 std::pair<double, double> cell(const std::vector<double>& values, double at) {
   const bool log = logarithmic(values);
   const auto scale = [&](double x) { return log ? std::log(x) : x; };

@@ -3,8 +3,8 @@
 //   map.csv      x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work,QUERY,...
 //   borders.csv  x0,y0,x1,y1: sides between cells with different sequences of events
 //
-// Figures are the largest of all contacts. A cell extends half-way to its neighbours. An axis is logarithmic
-// if its values are positive and span a factor of 50 or more; there a cell extends to the geometric mean.
+// Peaks and friction work are the largest values of all contacts. A cell extends half-way to its neighbours. An axis is
+// logarithmic if its values are positive and span a factor of 50 or more; there a cell extends to the geometric mean.
 #pragma once
 
 #include <array>
@@ -18,13 +18,12 @@
 
 namespace signorini::sweep {
 
-/// The two keys with several values.
+/// Indices into SweepSpec::vary of the two keys with several values.
 struct MapAxes {
   std::size_t x = 0, y = 0;
 };
 
-/// The axes, if exactly two keys have several values, each has at least three, and all are numbers; otherwise
-/// nullopt.
+/// The axes, if exactly two keys have several values and both have at least three different numbers; otherwise nullopt.
 [[nodiscard]] std::optional<MapAxes> map_axes(const SweepSpec& spec);
 
 /// Row of map.csv: a cell and the results of its run; cells without a run have no row.
@@ -56,7 +55,7 @@ struct Borders {
 struct MapPanel {
   std::string label, column;
 };
-/// Picture with one map per panel. borders: borders.csv is drawn on the maps.
+/// Picture with one map per panel. borders: true if borders.csv is drawn on the maps.
 [[nodiscard]] result::Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
                                           const std::string& subtitle, const std::vector<MapPanel>& panels,
                                           bool borders, const result::PictureStyle& look);

@@ -19,7 +19,7 @@
 namespace signorini::sweep {
 namespace {
 
-/// True for the key of the axis, or one in step with it.
+/// True if the key is on the axis, or varies together with the key on the axis.
 bool moves_with(const SweepSpec& spec, const SweepAxis& axis, std::size_t key) {
   return key == axis.key || (axis.vary->group != 0 && spec.vary[key].group == axis.vary->group);
 }
@@ -96,7 +96,7 @@ constexpr std::array<const char*, 12> colours = {"#1f77b4", "#d95f02", "#1b9e77"
                                                  "#e7298a", "#666666", "#a6761d", "#17becf",
                                                  "#c0182b", "#7f7f00", "#5e4fa2", "#1a1a1a"};
 constexpr std::size_t max_panels = 6;
-constexpr std::size_t max_curves = 24;  // limit of names in a legend beside the panel
+constexpr std::size_t max_curves = 24;  // limit for the curves of a panel, whose names are in a legend
 
 /// Columns of curve-N.csv: a row of the sweep, its x, and figures of contacts.
 result::CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweepAxis& axis,
@@ -114,7 +114,7 @@ result::CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const Sweep
   return table;
 }
 
-/// Sorts rows by x: ranges may decrease, lists may have any order; lines are drawn from left to right.
+/// Sorts rows by x, because ranges may decrease and lists may have any order. Lines are drawn from left to right.
 std::vector<const SweepRow*> from_left(const SweepCurve& curve, const SweepAxis& axis) {
   std::vector<const SweepRow*> rows = curve.rows;
   std::stable_sort(rows.begin(), rows.end(), [&](const SweepRow* a, const SweepRow* b) {
@@ -184,9 +184,10 @@ class SweepCurves {
                             : alone                           ? ""
                                                               : contacts_[k];
         if (!combinations_[c].name.empty()) title += (title.empty() ? "" : ", ") + combinations_[c].name;
-        // The colour distinguishes contacts or, if there are several, combinations of the other keys.
+        // The colour distinguishes combinations of the other keys; if there is only one combination, it
+        // distinguishes contacts.
         const std::size_t colour = combinations_.size() > 1 ? c : k;
-        // Coinciding curves stay visible: later ones are thinner and dashed, on top.
+        // Later curves are thinner and dashed, and drawn on top, so that coinciding curves remain visible.
         const std::size_t i = list.size();
         list.push_back(
             {fmt::format("'curve-{}.csv' skip 1", c + 1), fmt::format("{}:{}", table_.number("x"), column),
@@ -297,9 +298,8 @@ void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
   files.add_table("map", map_table(spec).text(map_cells(spec, axes, rows)));
   const Borders found = borders_of(spec, axes, rows);
   const bool differ = !found.sides.empty();
-  const bool borders =
-      differ && 2 * found.sides.size() <= found.neighbours;  // borders around most cells would not be
-                                                             // informative
+  // Borders around most cells would not be informative.
+  const bool borders = differ && 2 * found.sides.size() <= found.neighbours;
   if (borders) files.add_table("borders", border_table().text(found.sides));
   const char* parts = !differ   ? ""
                       : borders ? "; lines separate sequences of events"
@@ -325,7 +325,7 @@ result::PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows
     return files;
   }
   if (!spec.strobe.text.empty()) add_strobe_picture(spec, rows, run, files);
-  if (spec.carry.back) return files;  // two runs per value: no curve over it
+  if (spec.carry.back) return files;  // each value has two runs, so there is no single curve
   const SweepAxis axis = axis_of(spec);
   const std::vector<SweepCurve> list = swept_curves(spec, rows, axis);
   const std::vector<std::string> contacts = contact_names(rows);

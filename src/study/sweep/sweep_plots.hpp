@@ -26,20 +26,20 @@ namespace signorini::sweep {
 ///   x of a row = value of the key on the axis, or the number of the value if values are not numbers
 struct SweepAxis {
   std::size_t key = 0;  ///< index into SweepSpec::vary
-  bool numbers = true;  ///< all of its values are numbers
+  bool numbers = true;  ///< true if all values of the key are numbers
   const ParameterRange* vary = nullptr;
 
   [[nodiscard]] std::string x(const SweepRow& row) const;
 };
-/// The first key, or with `last` the last one, with more than one value. `spec` must outlive the result.
+/// The first key with more than one value, or with `last` the last such key. `spec` must outlive the result.
 [[nodiscard]] SweepAxis axis_of(const SweepSpec& spec, bool last = false);
 
 /// Rows with equal values of all keys except the axis.
 struct SweepCurve {
-  std::string name;  ///< the common values
+  std::string name;  ///< values of the other keys, as text
   std::vector<const SweepRow*> rows;
 };
-/// Curves of the rows that ran, in their order.
+/// Curves of the rows with a run, in the order of the rows.
 [[nodiscard]] std::vector<SweepCurve> swept_curves(const SweepSpec& spec, const SweepRows& rows,
                                                    const SweepAxis& axis);
 /// Text that names the keys whose values are names of curves: "; curves: PATH, PATH".

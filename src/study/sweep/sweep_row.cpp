@@ -39,7 +39,7 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
   row.warnings = report.warnings.size();
 }
 
-/// Keeps the last row of a run, from which another run continues.
+/// Stores the last row of a run, from which another run continues.
 class LastRow : public run::ForwardingRecorder {
  public:
   explicit LastRow(Recorder& next) : run::ForwardingRecorder(&next) {}
@@ -48,7 +48,7 @@ class LastRow : public run::ForwardingRecorder {
     last_.rows.clear();
     last_.sample(sample);
   }
-  /// The state without tolerances and damping, which the continuing run sets itself.
+  /// The state without scales and damping, because the continuing run computes both itself.
   [[nodiscard]] SavedState state(const Model& model) const {
     SavedState state = last_state(model, last_);
     state.scales.reset();
@@ -60,8 +60,8 @@ class LastRow : public run::ForwardingRecorder {
   Result last_;
 };
 
-/// The row's own run has output rows only at both ends and at points, whether it is kept or not: so the result is the
-/// same, and the run is quicker.
+/// Computes the row by a run with output rows only at both ends and at points, which is fast. If the run is
+/// kept, a separate run with all rows is stored, so that the row does not depend on --keep.
 Report run(const RowTask& task, const study::PreparedRun& prepared, Recorder& heard, const RunSpec& spec) {
   if (!task.keep.empty()) {
     result::remove_run(task.keep);  // remains of an interrupted sweep
@@ -72,7 +72,7 @@ Report run(const RowTask& task, const study::PreparedRun& prepared, Recorder& he
   return simulate(prepared.model, spec, heard);
 }
 
-/// Drops outputs that no query needs, because they cost time; a kept run still has all of them.
+/// Removes outputs that no query needs, because they cost time; kept and stroboscopic runs have all outputs.
 void drop_outputs(const RowTask& task, const std::vector<ResponseQuery>& queries, Model& model) {
   if (!task.keep.empty() || !task.strobe.empty() ||
       std::any_of(queries.begin(), queries.end(), [](const ResponseQuery& q) { return q.of_output(); }))
@@ -98,7 +98,8 @@ std::optional<double> SweepRow::response(std::size_t i) const {
 
 namespace {
 
-/// A file that cannot be read makes this run refused; a file that cannot be written ends the sweep.
+/// Prepares the run. A file that cannot be read only refuses this run, so its FileError becomes an Error; a
+/// file that cannot be written ends the sweep.
 study::PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) try {
   Scene scene = parse_scene(task.text, task.scene, task.changes);
   if (carried != nullptr && *carried) scene.initial = {.saved = **carried};
@@ -211,7 +212,7 @@ std::string row_json(const SweepRow& row) { return base::json_text(json_of(row))
 
 namespace {
 
-// Placed at the end of a line; quotes within texts are escaped, so it is unique.
+// The last key of a line. It is unique, because quotes within texts are escaped.
 constexpr const char* checksum_key = ",\"checksum\":\"";
 
 }  // namespace

@@ -3,7 +3,7 @@
 //   SweepRow row = compute_row(
 //       {.scene = "belt.toml", .changes = {{"run.rtol", "1e-9"}}, .index = 0, .values = {"1e-9"}});
 //
-// A run that cannot start, or stops early, is a row as well, with its outcome and reason.
+// A run that cannot start or stops early also has a row, with its outcome and reason.
 #pragma once
 
 #include <array>
@@ -19,22 +19,22 @@
 namespace signorini::sweep {
 
 struct SweepRow {
-  std::size_t index = 0;            ///< from 0, in the whole sweep
+  std::size_t index = 0;            ///< index of the row in the whole sweep, from 0
   std::vector<std::string> values;  ///< values of the varied keys
   std::string outcome;              ///< done, stopped, refused (no run began), crashed
   std::string reason;               ///< empty when done
   double t = 0.0;                   ///< time reached
   std::map<std::string, long> events;
-  /// Peaks relative to the start over all steps, along tangent and normal; friction: dissipated work.
+  /// Peaks over all steps: tangential and normal motion relative to the start, |N|, |T|. friction: dissipated work.
   struct Contact {
     std::string name;
     double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
   };
   std::vector<Contact> contacts;
-  std::vector<double>
-      responses;  ///< one per query of the sweep, NaN if it has no result; empty if no run began
+  /// One result per query of the sweep, NaN if the run has none; empty if no run began.
+  std::vector<double> responses;
   std::vector<StroboscopicPoint> points;  ///< points of a stroboscopic sweep
-  std::string sequence;    ///< hash of its events: equal for equal sequences (response_query.hpp)
+  std::string sequence;    ///< hash of the events: equal for equal sequences (response_query.hpp)
   double wall_time = 0.0;  ///< s
   long steps = 0;
   double balance = 0.0;  ///< relative error of the energy balance
@@ -43,7 +43,7 @@ struct SweepRow {
   [[nodiscard]] bool ran() const { return outcome == "done" || outcome == "stopped"; }
   /// Number of events without jumps of the loads (type `time`).
   [[nodiscard]] long changes() const;
-  /// Result of the i-th query; nullopt if there is none.
+  /// Result of the i-th query; nullopt if the run has none.
   [[nodiscard]] std::optional<double> response(std::size_t i) const;
 };
 
@@ -61,29 +61,29 @@ inline constexpr std::array sweep_figures = {
 };
 
 struct RowTask {
-  std::string scene;              ///< file name, for messages and to find data files beside it
+  std::string scene;              ///< file name, for messages and to find data files in its folder
   std::string text;               ///< content of the file when the sweep began: all rows use the same scene
   std::vector<Override> changes;  ///< the sweep's settings, then the varied keys
   std::size_t index = 0;
   std::vector<std::string> values;
-  std::filesystem::path keep;  ///< directory of the run; empty: only the row is kept
+  std::filesystem::path keep;  ///< directory in which the run is stored; empty: only the row is kept
   std::vector<std::string> command_line;
   std::vector<std::string> responses = {};  ///< queries, as given
-  std::string strobe = {};                  ///< as given; empty: no points
+  std::string strobe = {};                  ///< value of --strobe; empty: no points
   std::optional<double> settle = {};        ///< earliest time of the first point; absent: half of t_end
 };
 
 /// Runs a task. Errors: FileError if files cannot be written.
 [[nodiscard]] SweepRow compute_row(const RowTask& task);
-/// Runs a task from the final state of the previous row, `carried`, if there is one. Then carried becomes the
-/// final state of this run; it is unchanged if no run began.
+/// Runs a task from the final state of the previous row, `carried`, if there is one. Afterwards `carried` is
+/// the final state of this run; it is unchanged if this run does not reach its end.
 [[nodiscard]] SweepRow compute_row(const RowTask& task, std::optional<SavedState>& carried);
 
 /// The row as JSON, without checksum.
 [[nodiscard]] std::string row_json(const SweepRow& row);
-/// The row as a line of a file, with its line end and a checksum, so that an altered line is not taken for a result.
+/// The row as a line of a file, with a checksum, which detects altered lines, and a line break.
 [[nodiscard]] std::string row_line(const SweepRow& row);
-/// True if the line (without its line end) is exactly as row_line() made it.
+/// True if the line (without its line break) is exactly as row_line() wrote it.
 [[nodiscard]] bool is_unaltered(const std::string& line);
 /// Parses a line of row_line(). Errors: Json::exception.
 [[nodiscard]] SweepRow parse_row(const std::string& line);

@@ -109,7 +109,7 @@ struct RowPoint {
   const StroboscopicPoint* point;
 };
 
-/// True if the row belongs to the repetition of the last range in the opposite order.
+/// True if the row belongs to the half of the last range that has the opposite order.
 bool goes_back(const SweepSpec& spec, const SweepRow& row) {
   if (!spec.carry.back) return false;
   const std::size_t count = spec.vary.back().values.size();
@@ -123,7 +123,7 @@ std::vector<RowPoint> points_of(const std::vector<const SweepRow*>& rows) {
   return list;
 }
 
-/// Indices of the drawn values.
+/// Indices of the drawn columns: outputs, or columns of history.csv if there are no outputs.
 std::vector<std::size_t> drawn(const std::vector<StroboscopicColumn>& columns) {
   std::vector<std::size_t> list;
   const bool outputs = std::any_of(columns.begin(), columns.end(), [](const auto& c) { return c.output; });
@@ -173,7 +173,7 @@ void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const resu
       result::canvas_of(run.look, 148.0 + 320.0 * static_cast<double>(shown.size()), false), false};
   picture.space = 26.0;
   picture.setup = "set offsets 0,0,graph 0.05,graph 0.05\n" + x_range(axis);
-  std::vector<result::Curve> curves;  // without their column
+  std::vector<result::Curve> curves;  // each panel adds its column
   for (const SweepCurve& curve : swept_curves(spec, rows, axis))
     for (const bool back : {false, true}) {
       if (curves.size() == point_colours.size()) break;

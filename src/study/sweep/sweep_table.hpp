@@ -4,7 +4,7 @@
 //              QUERY,...,NAME.peak_t,NAME.peak_n,NAME.peak_N,NAME.peak_T,NAME.friction_work,...,
 //              wall_time,steps,energy_balance,warnings
 //
-// One group of columns per contact, in model order; empty if no run began.
+// Each contact has a group of columns, in the order of the model; cells are empty if no run began.
 #pragma once
 
 #include <map>
@@ -20,10 +20,10 @@ using SweepRows = std::map<std::size_t, SweepRow>;
 
 /// Names of the contacts in all rows, in the order of their first occurrence.
 [[nodiscard]] std::vector<std::string> contact_names(const SweepRows& rows);
-/// The contact with this name in a row, if it has one.
+/// The contact with this name in a row; null if the row has no such contact.
 [[nodiscard]] const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name);
 
-/// Texts of sweep.csv and of results.json.
+/// Texts of sweep.csv and results.json.
 [[nodiscard]] std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows);
 [[nodiscard]] std::string sweep_json(const SweepSpec& spec, const SweepRows& rows);
 

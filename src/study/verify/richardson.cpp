@@ -42,16 +42,17 @@ ObservedRun observe(const Model& model, const RunSpec& run, const std::function<
 
 namespace {
 
-constexpr double second_order = 3.0;  // 2^2 - 1
+constexpr double second_order = 3.0;  // denominator of the extrapolation, 2^2 - 1
+// Number of later values that an error bar includes.
 constexpr std::size_t ahead = 5;
-/// Relative to the last difference: errors of third order that vary from step to step.
+/// Part of the last difference that a bar includes: errors of third order that vary from step to step.
 constexpr double by_chance = 0.02;
-/// Deviations from order two: for a verdict, and for error estimates from differences.
+/// Largest deviations from order two, for is_second_order() and for usable().
 constexpr double settled_within = 0.1, usable_within = 0.6;
 
 double square(double x) { return x * x; }
 
-/// Largest value up to index i + ahead.
+/// result[i] = largest value up to index i + ahead.
 std::vector<double> greatest_so_far(const std::vector<double>& values) {
   std::vector<double> result(values.size());
   double greatest = 0.0;

@@ -1,4 +1,4 @@
-// richardson.hpp: observed runs, and Richardson extrapolation of three of them at h, h/2, h/4.
+// richardson.hpp: observations of runs, and Richardson extrapolation of three runs with the steps h, h/2, h/4.
 //
 //   x_h = x + C h^2 + O(h^3)
 //   order p = log2( rms(x_h - x_h/2) / rms(x_h/2 - x_h/4) )
@@ -7,12 +7,12 @@
 //   R' = x_h/2 + (x_h/2 - x_h) / 3
 //   bar = 2 |R - R'| + |x_h/2 - x_h/4| / 50, the largest value up to five values later
 //
-// The remaining error of R is of third order, a h^3 / 8; that of R' is a h^3, so |R - R'| is seven times the
-// error of R if a is smooth. At events a is not smooth, since their position within a step is random: R and
-// R' may then have equal errors. The fiftieth of the last difference covers these (measured: a thousandth,
-// case 02b). Such errors persist, so the bar never decreases. If the observed order is not yet two, the bar
-// is the whole difference |x_h/2 - x_h/4|. Five later values count, since a difference may vanish by chance.
-// Rounding grows with the square root of the number of steps.
+// The remaining error of R is of third order, a h^3 / 8, and that of R' is a h^3, so |R - R'| is seven times
+// the error of R if a is smooth. At events a is not smooth, because their position within a step is random;
+// then R and R' may have equal errors. A fiftieth of the last difference covers these errors (measured: a
+// thousandth, case 02b). Such errors persist, so the bar never decreases. The bar includes five later values,
+// because a single difference may vanish by chance. If the observed order is not yet two, the bar is the
+// whole difference |x_h/2 - x_h/4|. Rounding grows with the square root of the number of steps.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@
 
 namespace signorini::verify {
 
-/// Observations of a run: its events, and at output times the columns of history.csv, N, T and outputs.
+/// Observations of a run: its events, and the values of observed_columns() at output times.
 struct ObservedRun {
   certify::EventSequence track;
   certify::RecordedRows rows;
@@ -39,7 +39,7 @@ struct ObservedRun {
 
 /// A column of ObservedRun::rows.
 struct ObservedColumn {
-  std::string name;  ///< "A.ux", "first.N", an output's
+  std::string name;  ///< "A.ux", "first.N", or the name of an output
   /// "displacement", "rotation", "velocity", "angular_velocity", "force", "output [m/s^2]"
   std::string kind;
   std::string unit;
@@ -47,7 +47,7 @@ struct ObservedColumn {
 /// Columns of ObservedRun::rows for this model.
 [[nodiscard]] std::vector<ObservedColumn> observed_columns(const Model& model);
 
-/// Calls go_on periodically, which decides whether the run continues; stores no data.
+/// Recorder that stores no data. It calls go_on periodically, which returns false to interrupt the run.
 class ObservingRecorder : public Recorder {
  public:
   explicit ObservingRecorder(const std::function<bool()>& go_on) : go_on_(go_on) {}
@@ -62,35 +62,35 @@ class ObservingRecorder : public Recorder {
 /// Runs the model, and returns its observations. Errors: SceneError for scenes that the engine refuses.
 [[nodiscard]] ObservedRun observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on);
 
-/// Observations of a run that has ended.
+/// Observations of a run, from the tracker that has recorded it.
 [[nodiscard]] ObservedRun observed_run(certify::CompanionTracker&& tracker, Report report);
 
 /// Values of a quantity at one instant, computed with the steps h, h/2, h/4.
 using StepTriple = std::array<double, 3>;
 
-/// The limit of the values, and its error bound.
+/// Limits of the values for h = 0, and their error bounds.
 struct Extrapolation {
   std::vector<double> value, error_bound;
 };
 
-/// Sums of squares of the differences between steps, over series of one unit.
+/// Observed order, from sums of squares of the differences between steps. All series must have the same unit.
 class ConvergenceOrder {
  public:
-  /// negligible: smaller differences are ignored, for instance if IDA's own error is far larger.
+  /// negligible: smaller differences are ignored, for instance differences far below IDA's own error.
   void add(const std::vector<StepTriple>& series, double negligible = 0.0);
-  /// nullopt if the differences are rounding or negligible, for instance if the method is exact.
+  /// Observed order; nullopt if the differences are rounding or negligible, for instance if the method is exact.
   [[nodiscard]] std::optional<double> value() const;
 
  private:
   double coarse_ = 0.0, fine_ = 0.0, rounding_ = 0.0;
 };
 
-/// True if the order is that of the method, within a tenth.
+/// True if the order is that of the method, within a tenth, or nullopt.
 [[nodiscard]] bool is_second_order(const std::optional<double>& order);
-/// True if the order is near enough to two for differences to bound errors.
+/// True if the order is near enough to two that differences between steps bound the errors, or nullopt.
 [[nodiscard]] bool usable(const std::optional<double>& order);
 
-/// Properties of a kind of quantities, which share a unit.
+/// Properties of all series of one kind, which have the same unit.
 struct SeriesKind {
   std::optional<double> order;
   double scale = 0.0;  ///< largest magnitude

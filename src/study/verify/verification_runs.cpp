@@ -11,14 +11,14 @@ namespace signorini::verify {
 namespace {
 
 const char* const event_time = "event_time";
-/// Relative time tolerance for "settled": the certain parts of both sequences end at about the same time.
+/// Part of the time with a certain sequence up to which newmark's sequences must agree to be settled.
 constexpr double nearly = 0.99;
-/// Extremes are between rows, whose largest error is doubled.
+/// Error bound of an extreme relative to the largest bound of the rows, because an extreme is between rows.
 constexpr double between_rows = 2.0;
-/// Relative to IDA's own error: smaller differences of newmark do not matter.
+/// Differences of newmark are ignored below this part of IDA's own error.
 constexpr double negligible = 0.1;
 
-/// Largest difference relative to the allowed one; NaN if both are zero.
+/// Difference relative to the allowed difference; 0 without a difference.
 double excess(const Observation& o) {
   return o.difference() > 0.0 ? o.difference() / std::max(o.allowed(), std::numeric_limits<double>::min())
                               : 0.0;
@@ -54,7 +54,7 @@ VerificationRuns::Sequence VerificationRuns::sequence() const {
     result.reason = pair.reason;
   } else if (result.until < t_end_) {
     result.reason = certificate->until <= steps.until && !certificate->complete
-                        ? "IDA's sequence is certified until there only: " + certificate->reason
+                        ? "IDA's sequence is certified only up to this time: " + certificate->reason
                     : !steps.reason.empty() ? "newmark's sequence changes with its step: " + steps.reason
                     : !pair.reason.empty()  ? pair.reason
                                             : "a run has stopped: " + newmark[2].report.outcome.reason;
@@ -95,7 +95,7 @@ VerificationRuns::Kind VerificationRuns::event_times(double until) const {
   return kind;
 }
 
-/// Output times that may be before an event in one run and after it in another.
+/// True for output times that may be before an event in one run and after it in another run.
 std::vector<bool> VerificationRuns::rows_at_events(double until) const {
   std::vector<bool> at(ida.rows.t.size(), false);
   std::vector<std::vector<std::optional<double>>> times;
@@ -157,7 +157,7 @@ bool VerificationRuns::settled() {
                      [](const Kind& k) { return signorini::verify::is_second_order(k.order.value()); });
 }
 
-/// Adds one comparison.
+/// Counts one comparison in `kind`, and updates its worst and its first disagreeing observation.
 void VerificationRuns::count(const Observation& o, const std::string& where, VerifiedKind& kind) {
   ++kind.compared;
   kind.disagreeing += o.agrees() || o.exact_agrees() ? 0 : 1;
@@ -217,8 +217,8 @@ VerifiedKind VerificationRuns::verified(const Kind& kind, Verification& result) 
   return summary;
 }
 
-/// The step that meets an extreme best is random, so extremes have no order: the bar is the largest difference between
-/// newmark's steps, each of which also reports its values at ida's extremes.
+/// The distance of the nearest step from an extreme is random, so extremes have no order of convergence. The bar
+/// is the largest difference between newmark's runs, each of which also has rows at the times of IDA's extremes.
 void VerificationRuns::add_extremes(Verification& result) const {
   if (!certificate->complete || result.until < t_end_) return;
   const std::size_t first = columns_.size() - model_.outputs.size();
@@ -260,7 +260,7 @@ std::string VerificationRuns::differences(const Verification& result) const {
   if (first == nullptr) return "";
   const Observation& o = *first->first;
   return fmt::format(
-      "{}{} at t = {:.9g}: ida {:.12g}, newmark tends to {:.12g}, {:.2g} {} apart where {:.2g} is allowed",
+      "{}{} at t = {:.9g}: ida {:.12g}, newmark's limit {:.12g}, difference {:.2g} {}, allowed {:.2g}",
       first->name, first->first_where.empty() ? "" : " of " + first->first_where, o.t, o.ida, o.richardson,
       o.difference(), first->unit, o.allowed());
 }
@@ -283,12 +283,13 @@ void VerificationRuns::conclude(const Sequence& here, Verification& result) cons
     result.sentence = fmt::format("the sequences of events differ, and exact agrees with ida: {}; use {}",
                                   here.reason, finer);
   } else if (rough) {
-    result.sentence = "newmark's steps are too coarse, its orders have not converged; use " + finer;
+    result.sentence = "newmark's steps are too coarse: its orders have not converged; use " + finer;
   } else if (here.until < t_end_) {
     result.sentence =
-        fmt::format("they agree until t = {:.9g} {}; {}", here.until, model_.units.time, here.reason);
+        fmt::format("ida and newmark agree until t = {:.9g} {}; {}", here.until, model_.units.time,
+                    here.reason);
   } else if (short_bars) {
-    result.sentence = "newmark's error bars are too short, exact agrees with ida; use " + finer;
+    result.sentence = "newmark's error bars are too short: exact agrees with ida; use " + finer;
   } else {
     result.verdict = Agreement::agree;
     result.sentence = fmt::format("ida and newmark agree to the end, on {} events and {} output times",

@@ -1,4 +1,4 @@
-// verification_runs.hpp: results of IDA, three runs of newmark and exact, for comparison (verify.hpp).
+// verification_runs.hpp: comparison of a run of IDA with three runs of newmark and one of exact (verify.hpp).
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ class VerificationRuns {
   /// The model must outlive the object.
   VerificationRuns(const Model& model, double t_end);
 
-  /// Adds a run of newmark; the last three count.
+  /// Adds a run of newmark; only the last three runs are compared.
   void add(double dt_of_run, ObservedRun run);
-  /// True if the sequence and the orders of the last three runs have settled, as far as IDA's sequence is certain.
+  /// True if the sequence and the orders of the last three runs have settled, up to the end of IDA's certain sequence.
   [[nodiscard]] bool settled();
   /// Sets verdict, sentence, kinds and events of the result.
   void evaluate(Verification& result);
@@ -29,7 +29,7 @@ class VerificationRuns {
   ObservedRun ida;
   const Certificate* certificate = nullptr;
   std::optional<ObservedRun> exact;
-  std::vector<ObservedRun> newmark;  ///< h, h/2, h/4
+  std::vector<ObservedRun> newmark;  ///< runs with the steps h, h/2, h/4
   std::vector<double> dt;
 
  private:
@@ -45,11 +45,11 @@ class VerificationRuns {
     ConvergenceOrder order;
     double scale = 0.0;
   };
-  /// Time up to which three sequences are equal, and equal to IDA's.
+  /// Time up to which the three sequences of newmark are equal, and equal to IDA's sequence.
   struct Sequence {
     double until = 0.0;
-    std::string reason;        ///< empty: to the end
-    bool differs = false;      ///< IDA's sequence is certain to be a different one
+    std::string reason;        ///< reason why the sequences differ afterwards; empty: equal to the end
+    bool differs = false;      ///< true if IDA's sequence certainly differs from newmark's
     double exact_until = 0.0;  ///< time up to which exact's sequence equals IDA's
   };
 
@@ -58,7 +58,7 @@ class VerificationRuns {
   [[nodiscard]] Kind event_times(double until) const;
   /// Adds the series of all columns to their kinds.
   void add_column_series(double until, std::vector<Kind>& kinds) const;
-  /// The times of IDA's events in another run: the event with the same number at the same contact.
+  /// For each event of IDA, the time in another run of the event with the same number at the same contact.
   [[nodiscard]] std::vector<std::optional<double>> times_in(const certify::EventSequence& track) const;
   [[nodiscard]] std::vector<bool> rows_at_events(double until) const;
   [[nodiscard]] Observation observation(const Series& series, std::size_t i, bool is_event,

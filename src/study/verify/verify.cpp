@@ -17,8 +17,8 @@
 namespace signorini::verify {
 namespace {
 
-constexpr double least_seconds_of_step = 1e-6;  // if there is no vibration and the cost is unknown
-constexpr double steps_at_first = 64.0;         // number for the whole run, if no dt is given
+constexpr double least_seconds_of_step = 1e-6;  // assumed least time per step, s
+constexpr double steps_at_first = 64.0;         // number of steps of the first run, if no dt is given
 
 class Study {
  public:
@@ -60,8 +60,8 @@ class Study {
     return run;
   }
 
-  /// Peaks are between the steps of newmark, whose values are at the ends of steps. All step sizes miss the
-  /// same part of a peak, up to |r''| h^2 / 8, since halved steps share their ends. So newmark also reports
+  /// Newmark has values only at the ends of its steps, and peaks are between them. Halved steps share their
+  /// ends, so all step sizes miss the same part of a peak, up to |r''| h^2 / 8. Therefore newmark also reports
   /// its values at the times of ida's peaks; the shift of a peak by O(h^2) changes its value by O(h^4) only.
   void find_peaks() {
     std::vector<double> rows = *run_.output_times;
@@ -74,7 +74,7 @@ class Study {
     std::sort(peaks_.begin(), peaks_.end());
   }
 
-  /// Runs newmark with a step, with the rows of the other runs.
+  /// Runs newmark with the step dt. Its rows at peaks_ are removed, so that it has the rows of the other runs.
   [[nodiscard]] ObservedRun watch_newmark(double dt) const {
     ObservedRun run = observe(model_, newmark(dt), request_.go_on);
     const auto width = static_cast<std::ptrdiff_t>(run.rows.width);
@@ -88,7 +88,7 @@ class Study {
     return run;
   }
 
-  /// Refusals, before anything is computed.
+  /// Refuses scenes that newmark cannot compute, before any run begins. Errors: SceneError.
   void check_newmark() const {
     try {
       run::engine_row(run::engine_for(run::EngineRole::fixed_steps)).refuse(model_, newmark(run_.t_end));
@@ -121,7 +121,7 @@ class Study {
     note(witnesses.exact->report);
   }
 
-  /// Runs newmark with successively halved steps, until everything has settled or the next run would cost too much.
+  /// Runs newmark with successively halved steps, until the results have settled or the next run would cost too much.
   void refine(VerificationRuns& witnesses) {
     double dt = request_.dt.value_or(run_.t_end / steps_at_first);
     while (!result_.interrupted) {
@@ -141,7 +141,7 @@ class Study {
                     least_seconds_of_step * run_.t_end / dt);
   }
 
-  /// Effect of doubling the step on the last step size.
+  /// Records the effect of doubling the last step.
   void test_step(const VerificationRuns& witnesses) {
     if (witnesses.newmark.size() < 2) return;
     const ObservedRun& fine = witnesses.newmark.back();
@@ -160,7 +160,7 @@ class Study {
         {witnesses.dt.back(), whole ? relative : std::numeric_limits<double>::infinity()});
   }
 
-  /// The paper's own criterion, for the finest step.
+  /// The paper's criterion for the step, applied to the finest step.
   [[nodiscard]] bool changes_little() const { return result_.step_tests.back().change < paper_change; }
 
   void find_paper_dt() {

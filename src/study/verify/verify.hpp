@@ -3,19 +3,19 @@
 //   newmark at dt, dt/2, dt/4 -> order, R, bar                 (richardson.hpp)
 //   |ida - R| <= bar + error bound in IDA's certificate
 //
-// This is checked for the times of events and, at VerifyRequest::rows output times, for displacements,
-// velocities, N and T of the contacts, and outputs. Output times that may be before an event in one run and
-// after it in another are omitted. If all runs are complete, extremes of outputs are compared with those of
-// newmark's finest step. All comparisons end at the first instant from which IDA's sequence is not certain,
-// or newmark's changes with its step.
+// This inequality is checked for the times of events and, at VerifyRequest::rows output times, for
+// displacements, velocities, N and T of the contacts, and outputs. Output times that may be before an event
+// in one run and after it in another are omitted. If all runs are complete, extremes of outputs are compared
+// with the extremes of newmark's finest step. All comparisons end at the first instant from which IDA's
+// sequence is not certain, or newmark's sequence changes with its step.
 //
-//   agree      all comparisons hold, to the end
-//   differ     one fails: the result names the event or quantity, the time and the difference
+//   agree      all differences are allowed, to the end of the run
+//   differ     one difference is too large: the result names the event or quantity, the time and the difference
 //   undecided  steps are too coarse, or the sequence is not certain to the end; or newmark's bar is too
-//              small, since the third engine (exact, if it accepts the scene) agrees with IDA
+//              small, because the third engine (exact, if it accepts the scene) agrees with IDA
 //
-// Without a dt, the step is halved from a coarse one until the sequence and the orders have settled, as far as the
-// expected cost allows.
+// Without a dt, the step is halved from a coarse one until the sequence and the orders have settled, or until
+// the next run would exceed VerifyRequest::max_seconds.
 #pragma once
 
 #include <functional>
@@ -29,13 +29,15 @@ namespace signorini::verify {
 
 struct VerifyRequest {
   RunSpec run;
-  std::optional<double> dt;                           ///< the largest of three; absent: found automatically
-  int rows = 200;                                     ///< number of output times
-  double max_seconds = 30.0;                          ///< expected limit for the finest run of newmark
-  std::function<bool()> go_on = [] { return true; };  ///< false: the user asks for a stop
+  /// Largest of newmark's three steps; absent: chosen automatically.
+  std::optional<double> dt;
+  int rows = 200;  ///< number of output times
+  /// Limit for the expected wall time of newmark's finest run.
+  double max_seconds = 30.0;
+  std::function<bool()> go_on = [] { return true; };  ///< returns false if the user interrupts
 };
 
-/// Comparison at one instant: the time of an event, or a column.
+/// Comparison of one value at one instant: the time of an event, or a column.
 struct Observation {
   double t = 0.0;
   double ida = 0.0, ida_error = 0.0;
@@ -60,16 +62,16 @@ struct VerifiedEvent {
 /// "output [UNIT]", "extremes [UNIT]".
 struct VerifiedKind {
   std::string name, unit;
-  std::optional<double> order;  ///< nullopt: differences are rounding
+  std::optional<double> order;  ///< nullopt: differences consist of rounding
   std::size_t compared = 0, disagreeing = 0, exact_agreements = 0;
-  Observation worst;                 ///< largest difference relative to the allowed one
-  std::string where;                 ///< its column; empty for events
-  std::optional<Observation> first;  ///< first one that disagrees
+  Observation worst;                 ///< observation with the largest difference relative to the allowed one
+  std::string where;                 ///< column of `worst`; empty for events
+  std::optional<Observation> first;  ///< first observation that disagrees
   std::string first_where;
   double greatest_bar = 0.0;
 };
 
-/// Doubling the step to dt changes displacements by `change`, relative to the largest.
+/// Doubling the step dt changes displacements by `change`, relative to the largest displacement.
 struct StepTest {
   double dt = 0.0, change = 0.0;
 };
@@ -84,13 +86,14 @@ struct Verification {
   std::vector<VerifiedKind> kinds;
   std::vector<VerifiedEvent> events;
   std::vector<StepTest> step_tests;
-  std::optional<double> paper_dt;  ///< largest dt whose doubling changes less than `paper_change`
-  std::string exact_result;        ///< result of the third engine, exact
+  /// Largest dt whose doubling changes displacements by less than `paper_change`.
+  std::optional<double> paper_dt;
+  std::string exact_result;  ///< result of the third engine, exact
   CertifiedReport ida;
   bool interrupted = false;
 };
 
-/// Change relative to the largest displacement; the paper gives no number.
+/// Limit of StepTest::change in the paper's criterion for the step; the paper gives no number.
 inline constexpr double paper_change = 0.01;
 
 /// Compares IDA with newmark. own: IDA's model, which differs from `model` only in tests. Errors: SceneError

@@ -43,7 +43,7 @@ const std::string& contact_of(const Model& model, const VerifiedEvent& event) {
   return model.contacts[static_cast<std::size_t>(event.contact)].name;
 }
 
-/// Zero differences cannot be shown on a logarithmic axis.
+/// The difference for a logarithmic axis, which cannot show zero.
 double shown(double difference) { return std::max(difference, 1e-18); }
 
 /// Columns of the picture's table of event times.

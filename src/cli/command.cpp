@@ -70,7 +70,7 @@ void print_patterns(const std::string& scene, const std::vector<std::string>& se
                     const std::string& option, const std::vector<std::string>& given) {
   const auto note = [&](const std::vector<Override>& before, const std::string& path,
                         const std::string& text) {
-    if (const std::string met = scene::tables_met_in(scene, before, path); !met.empty())
+    if (const std::string met = scene::count_matching_tables_in(scene, before, path); !met.empty())
       print_note(text + ": " + met);
   };
   std::vector<Override> before;

@@ -23,7 +23,8 @@ struct Segment {
   double end = 0.0;
   const decide::Decision* decision = nullptr;  ///< motion, contact states, jet and guards at the beginning
   const motion::Forcing* forcing = nullptr;
-  bool same_forcing = false;  ///< the forcing equals that of the previous segment, which ended at this segment's beginning
+  bool same_forcing =
+      false;  ///< the forcing equals that of the previous segment, which ended at this segment's beginning
 };
 
 /// Result of advance().

@@ -213,9 +213,8 @@ class GmshReader {
       words_.fail(fmt::format("found node {} twice", number));
     if (content_.nodes.empty()) z_ = z;
     if (z != z_)
-      words_.fail(
-          fmt::format("found z = {:.6g} of node {}, expected {:.6g} for all nodes of a plane mesh", z, number,
-                      z_));
+      words_.fail(fmt::format("found z = {:.6g} of node {}, expected {:.6g} for all nodes of a plane mesh", z,
+                              number, z_));
     content_.nodes.push_back({x, y, number, std::move(place)});
   }
 
@@ -470,7 +469,7 @@ std::pair<double, double> determinants(const PlaneMesh& mesh, const PlaneMesh::E
   return range;
 }
 
-void turn_round(PlaneMesh::Element& element) {
+void reverse_orientation(PlaneMesh::Element& element) {
   const auto corners = static_cast<std::ptrdiff_t>(corner_count(element.shape));
   std::reverse(element.nodes.begin() + 1, element.nodes.begin() + corners);
   std::reverse(element.nodes.begin() + corners, element.nodes.end());
@@ -483,7 +482,7 @@ void check_elements(PlaneMesh& mesh, const std::string& key) {
     return determinants(mesh, element).second < 0.0;
   });
   for (PlaneMesh::Element& element : mesh.elements) {
-    if (clockwise) turn_round(element);
+    if (clockwise) reverse_orientation(element);
     const auto [least, most] = determinants(mesh, element);
     if (least > 0.0) continue;
     throw SceneError(

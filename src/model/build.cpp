@@ -96,8 +96,8 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   if (scene.matrices && !loaded)
     throw SceneError(
         scene.initial.place, "run.initial",
-          "initial = \"static\" finds no load: with [matrices], the weight must be given by loads with a "
-          "constant history; add one");
+        "initial = \"static\" finds no load: with [matrices], the weight must be given by loads with a "
+        "constant history; add one");
   statics::Equilibrium found =
       scene.run.geometric
           ? second_pass(scene, map, model, pressed)
@@ -249,7 +249,7 @@ void resolve_times(double t_end, Model& model) {
 }
 
 /// Subtracts beta K_g from the dampers, so that beta K does not damp the geometric stiffness K_g of the prestress.
-void leave_out_frozen(const Scene& scene, const DofMap& map, Assembly& assembly) {
+void exclude_prestress_damping(const Scene& scene, const DofMap& map, Assembly& assembly) {
   assembly.dampers -= scene.damping.beta * assembly::assemble_geometric_stiffness(scene, map).matrix;
 }
 
@@ -296,7 +296,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, constrain_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
-  if (model.geometric && scene.damping.beta != 0.0) leave_out_frozen(scene, map, assembly);
+  if (model.geometric && scene.damping.beta != 0.0) exclude_prestress_damping(scene, map, assembly);
   set_damping(scene, assembly.dampers, model);
   assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = modes::highest_frequency(model);

@@ -15,8 +15,8 @@ namespace {
 // Smallest eigenvalue of B^T B (columns scaled to length 1) at which the columns are linearly independent.
 constexpr double independent = 1e-9;
 
-[[noreturn]] void refuse_borrowing(const Scene& scene, std::size_t k, const char* key,
-                                   const std::string& why) {
+[[noreturn]] void refuse_compliance_split(const Scene& scene, std::size_t k, const char* key,
+                                          const std::string& why) {
   throw SceneError(scene.contacts[k].place, scene.contacts[k].key(key), why);
 }
 
@@ -44,13 +44,13 @@ std::vector<Row> rows_of(const Scene& scene, const Model& model) {
     const Dof* along_t = c.has_friction() ? first_massless(model, c.tangent) : nullptr;
     if (!along_n && !along_t) continue;
     if (!along_n || (c.has_friction() && !along_t))
-      refuse_borrowing(
+      refuse_compliance_split(
           scene, k, "law",
           fmt::format("{} has no mass, but the contact's {} moves only parts with mass: expected mass along "
                       "both directions, along neither, or law = \"compliant\"",
                       (along_n ? along_n : along_t)->displacement, along_n ? "tangent" : "normal"));
     if (scene.contacts[k].restitution != 0.0 || scene.contacts[k].capture_velocity)
-      refuse_borrowing(
+      refuse_compliance_split(
           scene, k, scene.contacts[k].restitution != 0.0 ? "restitution" : "capture_velocity",
           fmt::format("{} has no mass, so nothing rebounds there: remove this key", along_n->displacement));
     rows.push_back({k, true, along_n});
@@ -82,7 +82,7 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
     Eigen::Index most = 0;
     pairs.vectors.col(0).cwiseAbs().maxCoeff(&most);
     const Row& row = rows[static_cast<std::size_t>(most)];
-    refuse_borrowing(
+    refuse_compliance_split(
         scene, row.contact, "law",
         fmt::format("{} has no mass, and other rigid contacts act there, too, so the share of each in the "
                     "force is undetermined; remove one, or give them law = \"compliant\"",
@@ -101,10 +101,11 @@ void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vec
   const SparseMatrix damped = dampers * s;
   const auto strange = [&](Eigen::Index j, const std::string& what, const char* instead) {
     const Row& row = rows[static_cast<std::size_t>(j)];
-    refuse_borrowing(scene, row.contact, "law",
-                     fmt::format("{} has no mass, and {}; a rigid contact there needs {}: change this, or "
-                                 "give the contact law = \"compliant\"",
-                                 row.dof->displacement, what, instead));
+    refuse_compliance_split(
+        scene, row.contact, "law",
+        fmt::format("{} has no mass, and {}; a rigid contact there needs {}: change this, or "
+                    "give the contact law = \"compliant\"",
+                    row.dof->displacement, what, instead));
   };
   for (Eigen::Index j = 0; j < s.cols(); ++j) {
     if (beta) strange(j, "damping.beta damps it", "beta = 0");
@@ -216,7 +217,7 @@ std::optional<ComplianceSplit> split_compliance(const Scene& scene, const Sparse
     Contact& c = model.contacts[rows[j].contact];
     const double stiffness = l[static_cast<Eigen::Index>(j)];
     if (!(stiffness > 0.0))
-      refuse_borrowing(
+      refuse_compliance_split(
           scene, rows[j].contact, "law",
           fmt::format("{} has neither mass nor stiffness; give it a mass, or the contact law = \"compliant\"",
                       rows[j].dof->displacement));
@@ -274,7 +275,7 @@ void check_unique_forces(const Scene& scene, Model& model) {
     const auto at = static_cast<Eigen::Index>(i);
     const double nn = f.nn(at, at), nt = f.nt(at, at), coupled = std::abs(f.friction[at] * nt);
     if (coupled >= nn)
-      refuse_borrowing(
+      refuse_compliance_split(
           scene, f.contacts[i], "friction",
           fmt::format("the forces of this contact are not unique while it slides: along the normal, its "
                       "friction force displaces it {:.4g} times as far as its normal force (unique below 1); "

@@ -135,7 +135,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
 
 /// True for each degree of freedom whose initial displacement affects the motion, by a damper, or by the
 /// dashpot or friction of a contact.
-std::vector<bool> begins_from(const Model& model) {
+std::vector<bool> initial_displacement_matters(const Model& model) {
   std::vector<bool> result(static_cast<std::size_t>(model.size()), false);
   for (int k = 0; k < model.damping.outerSize(); ++k)
     for (SparseMatrix::InnerIterator it(model.damping, k); it; ++it)
@@ -170,7 +170,7 @@ std::string unused(const Model& model, const GivenPlace& at, double value, const
 std::vector<std::string> unused_values(const Scene& scene, const assembly::DofMap& map, const Model& model) {
   const InitialSpec& spec = scene.initial;
   if (spec.saved || scene.reduction) return {};
-  const std::vector<bool> begins = begins_from(model);
+  const std::vector<bool> begins = initial_displacement_matters(model);
   std::vector<std::string> result;
   const auto check = [&](const GivenPlace& at, double value, const SourcePlace& place,
                          const std::string& key) {

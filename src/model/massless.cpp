@@ -15,7 +15,7 @@ namespace signorini::model {
 namespace {
 
 /// Weight of C relative to K if K alone leaves motions free: half of the digits of a double.
-constexpr double by_far = 1e8;
+constexpr double damping_weight = 1e8;
 
 /// Restricts A to the rows and columns i with position[i] >= 0, which become row position[i]; scaled: s_i A_ij s_j.
 SparseMatrix block(const SparseMatrix& a, const std::vector<int>& position, int size, const Vector& s) {
@@ -107,7 +107,7 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
                             : 1.0;
   Eigen::MatrixXd null = statics::null_motions(SparseMatrix(k + weight * symmetric));
   if (null.cols() == 0) return;
-  null = statics::null_motions(SparseMatrix(k + by_far * weight * symmetric));
+  null = statics::null_motions(SparseMatrix(k + damping_weight * weight * symmetric));
   if (null.cols() == 0) return;
   const Vector motion = null.col(0) / null.col(0).cwiseAbs().maxCoeff();
   const double energy = motion.dot(k * motion);
@@ -160,7 +160,7 @@ SparseMatrix part_of(const SparseMatrix& c, const std::vector<int>& list) {
 
 /// Changes z to another basis of the same space: for each column there is a row with 1 in this column and 0 in all other
 /// columns. Returns these rows, one per column.
-std::vector<Eigen::Index> give_rows(Eigen::MatrixXd& z) {
+std::vector<Eigen::Index> reduce_to_pivot_rows(Eigen::MatrixXd& z) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index j = 0; j < z.cols(); ++j) {
     Eigen::Index row = 0;
@@ -215,7 +215,7 @@ void separate_undamped(Model& model) {
   if (damped.empty()) return;
   Eigen::MatrixXd z = statics::null_motions(part_of(model.damping, damped));
   if (z.cols() == 0) return;
-  const std::vector<Eigen::Index> rows = give_rows(z);
+  const std::vector<Eigen::Index> rows = reduce_to_pivot_rows(z);
   const int n = model.size();
   SparseMatrix basis(n, n);
   Triplets entries;

@@ -29,8 +29,9 @@ namespace signorini::model {
 namespace {
 
 constexpr double greatest_friction = 2.0;
-constexpr double least_drag = 0.01;  // smallest relative change of a velocity in the run that is reported
-constexpr double along = 1e-9;       // smallest component of a motion along a normal, relative to the motion
+constexpr double min_reported_change =
+    0.01;                       // smallest relative change of a velocity in the run that is reported
+constexpr double along = 1e-9;  // smallest component of a motion along a normal, relative to the motion
 constexpr std::size_t most_named = 3;
 
 /// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
@@ -42,7 +43,7 @@ std::string names(const Model& model, const std::vector<std::size_t>& contacts) 
 
 /// True if f has values between the starts of pieces `first` and `last` outside the range of the values before and after.
 /// Times are measured from the start of a piece, because two starts may be rounded to the same time of the run.
-bool leaves_a_peak(const History& f, std::size_t first, std::size_t last) {
+bool has_value_outside_limits(const History& f, std::size_t first, std::size_t last) {
   const std::vector<double>& starts = f.starts();
   struct Known {
     double value, rounding;
@@ -72,7 +73,7 @@ class ModelWarnings {
       : scene_(scene), map_(map), model_(model), weight_(assembly::static_load(model.loads, model.size())) {}
 
   std::vector<std::string> all() {
-    idle_loads();
+    warn_of_loads_without_effect();
     for (std::string& idle : unconnected_rotations(scene_, map_)) found_.push_back(std::move(idle));
     falls();
     sudden_weight();
@@ -85,13 +86,13 @@ class ModelWarnings {
     sudden_heat();
     growth();
     for (std::string& doubt : outputs::hanger_warnings(scene_, model_)) found_.push_back(std::move(doubt));
-    runs_away();
+    warn_of_instability();
     for (std::string& unused : unused_values(scene_, map_, model_)) found_.push_back(std::move(unused));
     return std::move(found_);
   }
 
  private:
-  void idle_loads() {
+  void warn_of_loads_without_effect() {
     if (scene_.run.geometric) return;  // fixed loads may still compress members and bodies
     for (const Load& load : model_.loads) {
       if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support ||
@@ -176,7 +177,7 @@ class ModelWarnings {
   }
 
   void drag() {
-    if (!(model_.alpha * scene_.run.t_end > least_drag)) return;
+    if (!(model_.alpha * scene_.run.t_end > min_reported_change)) return;
     std::vector<bool> closed(model_.contacts.size(), true);
     const statics::StaticProblem problem{model_.stiffness, weight_, model_.contacts, map_};
     const Eigen::MatrixXd free = statics::null_motions(problem.matrix(closed));
@@ -212,7 +213,8 @@ class ModelWarnings {
         next = history::end_of_instant(load.history, first, scene_.run.t_end);
         const double a = starts[first], b = starts[next - 1],
                      least = motion::resolution_at(a, scene_.run.t_end);
-        if (!(a >= 0.0 && b < scene_.run.t_end && leaves_a_peak(load.history, first, next - 1))) continue;
+        if (!(a >= 0.0 && b < scene_.run.t_end && has_value_outside_limits(load.history, first, next - 1)))
+          continue;
         found_.push_back(fmt::format(
             "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} that double precision "
             "resolves at this time: its impulse is lost; make the pulse longer",
@@ -286,7 +288,7 @@ class ModelWarnings {
   void growth() {
     if (!model_.statics.frictional || model_.statics.stages.empty()) return;
     const auto found = slip_growth(model_, model_.statics.stages.back().states);
-    if (!found || !(found->rate * scene_.run.t_end > least_drag)) return;
+    if (!found || !(found->rate * scene_.run.t_end > min_reported_change)) return;
     const double rate = found->rate / model_.unit.time;
     if (found->omega == 0.0)
       throw SceneError(scene_.initial.place, "run.initial",
@@ -300,7 +302,7 @@ class ModelWarnings {
   }
 
   /// Warns if run.geometric gives a motion negative energy while all contacts are open.
-  void runs_away() {
+  void warn_of_instability() {
     if (!model_.geometric) return;
     const auto fastest = modes::fastest_growth(model_.stiffness, model_.mass);
     if (!fastest) return;
@@ -333,15 +335,16 @@ namespace {
 
 /// Loads that last longer than this fraction of 1/w have their full amplitude. Chosen value: scales are only orders of
 /// magnitude.
-constexpr double full_above = 1.0 / 16.0;
+constexpr double full_amplitude_duration = 1.0 / 16.0;
 
 /// w t_end of a free motion, whose phase angle in the run is below 1 rad. Chosen value: a load that acts for a
 /// thousandth of the run then has its full amplitude.
-constexpr double of_free = 64.0;
+constexpr double free_phase = 64.0;
 
 /// Effective amplitude divided by the full amplitude, for an oscillator of frequency omega.
 double share_at(const History& f, double amplitude, double t_end, double omega) {
-  return std::min(1.0, omega * history::max_impulse(f, t_end, 1.0 / omega) / (full_above * amplitude));
+  return std::min(
+      1.0, omega * history::max_impulse(f, t_end, 1.0 / omega) / (full_amplitude_duration * amplitude));
 }
 
 /// Frequencies of oscillations along the static responses to loads; 0 if a load has no static response.
@@ -369,7 +372,7 @@ class HalfPeriods {
 EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::ContactConstraints& holding,
                                          double omega, double t_end) {
   std::optional<HalfPeriods> swings;
-  const auto own = [&](double along) { return along * t_end > 1.0 ? along : of_free / t_end; };
+  const auto own = [&](double along) { return along * t_end > 1.0 ? along : free_phase / t_end; };
   // The share increases with the frequency: if it is 1 at the lowest frequency, it is 1 at all frequencies.
   const double lowest = std::max(omega, 1.0 / t_end);
   const auto lasts = [&](const History& f, double amplitude) {

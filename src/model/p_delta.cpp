@@ -52,10 +52,9 @@ void refuse_buckled(const Scene& scene, const assembly::DofMap& map, const Model
                     const std::vector<State>& states) {
   const std::vector<double> factors = factors_at(scene, map, model, states, 1);
   if (factors.empty() || factors.front() > 1.0) return;
-  const std::string what =
-      factors.front() > 0.0
-          ? fmt::format("the lowest load factor is {:.9g}", factors.front())
-          : std::string("any fraction of the loads makes it buckle (load factor 0)");
+  const std::string what = factors.front() > 0.0
+                               ? fmt::format("the lowest load factor is {:.9g}", factors.front())
+                               : std::string("any fraction of the loads makes it buckle (load factor 0)");
   throw SceneError(scene.run.geometric_place, asked_by,
                    fmt::format("the structure buckles under its static loads: with the contacts that are "
                                "closed at the start, {}; expected a load factor above 1",

@@ -19,9 +19,9 @@ constexpr double shortest_step = 1e-7;  // lower limit for ds, in the norm of br
 // After at most this number of corrections the next step may be longer.
 constexpr int quick = 4;
 // Limit for distance / ds; a longer step has ended at another branch. Chosen value.
-constexpr double longest_way = 10.0;
+constexpr double max_step_ratio = 10.0;
 // Residual / amplitude up to which a shifted orbit is periodic; above the noise. Chosen value.
-constexpr double shifted_to = 1e-3;
+constexpr double shift_residual = 1e-3;
 constexpr double restart_step = 2e-3;  // step of the search beyond a gap, relative to the range of the key
 // Relative difference of amplitudes and multipliers up to which has_passed() regards two orbits as the same.
 // Amplitudes come from sampled rows; multipliers are interpolated between two points. Chosen value.
@@ -214,7 +214,7 @@ CorrectedPoint BranchContinuation::step(const CorrectedPoint& here, const Vector
                                         here.derivative_by_s);
   const auto way = next.done ? newton_.difference({here.pass.begin, here.state.duration, here.state.s}, next)
                              : std::nullopt;
-  if (way && way->norm() > longest_way * ds) {
+  if (way && way->norm() > max_step_ratio * ds) {
     next.done = false;
     next.reason = "Newton's method ends at another part of the branch";
   }
@@ -235,7 +235,7 @@ bool BranchContinuation::is_time_shift(const CorrectedPoint& here, const Vector&
     end.state = orbit_state(to.end);
   }
   const OrbitPass pass = map_.pass(end, false);
-  return pass.done() && orbit_residual(map_.model(), pass) <= shifted_to;
+  return pass.done() && orbit_residual(map_.model(), pass) <= shift_residual;
 }
 
 /// True if the branch already has a point with the parameter, sequence, amplitude and multiplier of `at`.

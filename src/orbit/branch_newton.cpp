@@ -24,19 +24,19 @@ constexpr double of_noise = 4.0;
 constexpr double worth_damping = 1e-3;
 // Lower limit for a direction's part outside all families. Chosen value.
 constexpr double least_left = 1e-6;
-constexpr double held_from = 0.7;    // |t_s| from which corrections fix the parameter. Chosen value.
-constexpr double least_size = 1e-3;  // lower limit for a coordinate in the norm; chosen value
+constexpr double fix_parameter_from = 0.7;  // |t_s| from which corrections fix the parameter. Chosen value.
+constexpr double least_size = 1e-3;         // lower limit for a coordinate in the norm; chosen value
 // Relative limits below which singular values are zero, as in shooting.cpp. The finer limit applies after a
 // correction that reduced the residual by less than half.
 constexpr double singular = 1e-9, finer_singular = 1e-12;
 // Number of amplitudes: a change of the state by so many amplitudes has the same length as the range of the parameter.
-constexpr double amplitudes_a_range = 5.0;
+constexpr double amplitudes_per_range = 5.0;
 // Fraction of the largest amplitude along the branch. Below it the steps no longer shrink with the amplitude,
 // so that the amplitude can reach zero. Chosen value.
 constexpr double vanishing = 0.05;
 // Relative limit for the part of dz/ds that is not along the motion; above the noise of dG/ds. Chosen value;
 // the caller verifies the shifted orbit.
-constexpr double shifts_by = 1e-3;
+constexpr double shift_tolerance = 1e-3;
 
 /// Weights sqrt(m_i/m) of the coordinates at a section, m: largest mass, in scales; 1 for a coordinate without mass.
 Vector mass_weights(const Model& model, const OrbitSection& section) {
@@ -178,7 +178,9 @@ void BranchNewton::close_damped(CorrectedPoint& c, Eigen::Index unknowns) const 
   c.done = true;
 }
 
-bool BranchNewton::fixes_parameter(const Vector& t) { return std::abs(t[t.size() - 1]) >= held_from; }
+bool BranchNewton::fixes_parameter(const Vector& t) {
+  return std::abs(t[t.size() - 1]) >= fix_parameter_from;
+}
 
 Vector BranchNewton::tangent(CorrectedPoint& at, const Vector& before) const {
   if (at.derivative_by_s.size() == 0) at.derivative_by_s = parameter_derivative(at.state, at.pass);
@@ -241,7 +243,7 @@ void BranchNewton::measure(const OrbitPass& pass, Vector* t) {
   }
   greatest_ = std::max(greatest_, std::sqrt(square));
   const double counted = std::max(std::sqrt(square), vanishing * greatest_);
-  const double amplitude = amplitudes_a_range * (counted > 0.0 ? counted : 1.0);
+  const double amplitude = amplitudes_per_range * (counted > 0.0 ? counted : 1.0);
   const Vector by = (section.basis().cwiseAbs2().transpose() * weights.cwiseAbs2()).cwiseSqrt();
   const Vector before = std::exchange(sizes_, amplitude * by.cwiseInverse());
   if (t != nullptr && before.size() == sizes_.size())
@@ -302,9 +304,9 @@ std::optional<double> BranchNewton::shift(const CorrectedPoint& at, const Vector
   const OrbitSection section(map_.model(), at.pass.begin);
   const Vector x = sizes_.cwiseProduct(t.head(section.size()));
   const Vector along = section.basis().transpose() * section.rates(at.pass.begin);
-  if (!(along.norm() > 0.0) || !(t.head(section.size()).norm() > shifts_by)) return std::nullopt;
+  if (!(along.norm() > 0.0) || !(t.head(section.size()).norm() > shift_tolerance)) return std::nullopt;
   const double time = along.dot(x) / along.squaredNorm();
-  if ((x - time * along).norm() > shifts_by * x.norm()) return std::nullopt;
+  if ((x - time * along).norm() > shift_tolerance * x.norm()) return std::nullopt;
   return time / t[t.size() - 1];
 }
 

@@ -26,11 +26,11 @@ constexpr int max_transients = 3;  // number of transients that are tried, one a
 constexpr double beside = 1e-6;
 // Duration, in periods, of the run that records events: more than 1 because a run does not record an event at
 // its beginning.
-constexpr double seen_periods = 1.1;
+constexpr double recorded_periods = 1.1;
 // Largest number of periods after which a transient is checked for repetition.
 constexpr int max_repeats = 6;
 // Distance / amplitude up to which two states repeat each other. Chosen value.
-constexpr double comes_back = 1e-3;
+constexpr double repetition_tolerance = 1e-3;
 // Divisors n of a period T. A search from an initial guess may find any multiple of the period, so the program
 // checks whether a self-excited motion closes after T/n already. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};
@@ -58,7 +58,7 @@ class Search {
   }
   void stability();
   [[nodiscard]] std::string repeated(const orbit::OrbitState& state) const;
-  void see_edge(const Eigen::MatrixXd& phi);
+  void check_family_edge(const Eigen::MatrixXd& phi);
   void report(const orbit::OrbitState& at_section, double section);
   bool stop(std::string reason) {
     orbit_.reason = std::move(reason);
@@ -175,7 +175,7 @@ bool Search::forced() {
       state = orbit::orbit_state(transient.end);
     }
     length = std::max(1, options_.transient) * period_ * (i + 1);
-    const orbit::OrbitPass once = at_phase.pass({state, seen_periods * period_, false});
+    const orbit::OrbitPass once = at_phase.pass({state, recorded_periods * period_, false});
     if (!once.done()) return stop("the run over one period stopped: " + once.outcome.reason);
     const double section = orbit::section_away_from(once.instants, period_);
     orbit::OrbitState at_section = state;
@@ -204,11 +204,11 @@ std::string Search::repeated(const orbit::OrbitState& state) const {
     if (!pass.done()) return {};
     now = orbit::orbit_state(pass.end);
     if (!first) first = pass;
-    if (k == 1 && orbit::orbit_residual(map_->model(), pass) <= comes_back)
+    if (k == 1 && orbit::orbit_residual(map_->model(), pass) <= repetition_tolerance)
       return {};  // the motion is nearly an orbit
     const orbit::OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
-    if (k > 1 && orbit::residual_of(section, *first, gap) <= comes_back)
+    if (k > 1 && orbit::residual_of(section, *first, gap) <= repetition_tolerance)
       return fmt::format("; the transient repeats itself after {} of these periods: use --times {}", k,
                          k * options_.times);
   }
@@ -294,12 +294,12 @@ void Search::stability() {
   orbit::set_multipliers(all, again, orbit_.families.size() + of_time,
                          orbit::error_of(phi, pass.rates_error, closed_), options_.energy.has_value(),
                          orbit_);
-  if (!orbit_.families.empty()) see_edge(phi);
+  if (!orbit_.families.empty()) check_family_edge(phi);
 }
 
 /// Sets orbit_.reason if a contact that never slips in this orbit slips in a neighbouring member of the
 /// family: Phi then is valid on one side only.
-void Search::see_edge(const Eigen::MatrixXd& phi) {
+void Search::check_family_edge(const Eigen::MatrixXd& phi) {
   const orbit::OrbitPass& pass = shot_.pass;
   const orbit::OrbitSection section(map_->model(), pass.begin);
   const Eigen::MatrixXd A = phi - Eigen::MatrixXd::Identity(phi.rows(), phi.cols());
@@ -328,7 +328,7 @@ constexpr double same_instant = 1e-9;
 
 /// Converts times since the section to times since the orbit's time 0, and sorts the events. A run from time
 /// 0 would not record an event at its beginning, and rounding would decide whether it records one at its end.
-std::vector<Event> since_time_0(std::vector<Event> events, double section, double period) {
+std::vector<Event> events_from_time_zero(std::vector<Event> events, double section, double period) {
   for (Event& event : events) {
     event.t += section;
     if (event.t >= period * (1.0 - same_instant)) event.t = std::max(0.0, event.t - period);
@@ -349,7 +349,7 @@ void Search::report(const orbit::OrbitState& at_section, double section) {
   orbit::PassOptions leg{at_section, shot_.duration, false};
   leg.samples = places_recorded;
   const orbit::OrbitPass once = from_section.pass(leg);
-  orbit_.sequence = since_time_0(once.events, orbit_.section, orbit_.period);
+  orbit_.sequence = events_from_time_zero(once.events, orbit_.section, orbit_.period);
   orbit_.cycle = once.cycle_energy;
   orbit_.amplitude = once.amplitude;
 }

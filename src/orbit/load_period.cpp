@@ -132,9 +132,10 @@ LoadPeriod load_period(const Scene& scene, const CountedLoads& count) {
     if (!both)
       throw SceneError(
           d.spec->place, d.key,
-          fmt::format("found the period {}, while earlier histories have the period {}; expected periods with "
-                      "a common multiple of at most {} times the longer period",
-                      base::format_number(own), base::format_number(*found.period), max_multiples));
+          fmt::format(
+              "found the period {}, while earlier histories have the period {}; expected periods with "
+              "a common multiple of at most {} times the longer period",
+              base::format_number(own), base::format_number(*found.period), max_multiples));
     found.period = both;
   }
   return found.period ? check_period(scene, *found.period, count) : found;

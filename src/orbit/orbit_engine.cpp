@@ -12,7 +12,7 @@ namespace {
 // period. Chosen value.
 constexpr double max_decays = 2000.0;
 // Error of a state relative to rtol: errors of steps accumulate over a period; chosen value.
-constexpr double of_tolerance = 100.0;
+constexpr double error_per_rtol = 100.0;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Flow orbit_flow(const Model& model, const RunSpec& run) {
 }
 
 double orbit_state_error(const RunSpec& run) {
-  return engine_info(run.engine).accuracy == Accuracy::tolerance ? of_tolerance * run.rtol : 0.0;
+  return engine_info(run.engine).accuracy == Accuracy::tolerance ? error_per_rtol * run.rtol : 0.0;
 }
 
 }  // namespace signorini::orbit

@@ -126,7 +126,7 @@ namespace {
 
 /// Largest change of the shear of a contact that sticks at the end of the period, relative to the amplitude
 /// of T. The section's coordinates omit this shear if the contact slips at the beginning of the period.
-double shears_left_out(const Model& model, const OrbitPass& pass) {
+double sticking_shear_change(const Model& model, const OrbitPass& pass) {
   double worst = 0.0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (!model.contacts[c].tangential_stiffness || pass.end.states[c].state != State::stick) continue;
@@ -141,7 +141,7 @@ double shears_left_out(const Model& model, const OrbitPass& pass) {
 double orbit_residual(const Model& model, const OrbitPass& pass) {
   const OrbitSection section(model, pass.begin);
   return std::max(residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin)),
-                  shears_left_out(model, pass));
+                  sticking_shear_change(model, pass));
 }
 
 namespace {

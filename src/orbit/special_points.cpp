@@ -73,10 +73,10 @@ constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
 // Near a graze an orbit changes as the square root of the key. If the orbits at both ends of the interval
 // differ by more than this factor times the square root of the interval's relative width, they belong to
 // different branches. Chosen value.
-constexpr double roots_apart = 10.0;
-constexpr double shortest_doubted = 1e-4;  // in the norm: too_long() accepts shorter steps. Chosen value.
+constexpr double graze_jump_factor = 10.0;
+constexpr double max_unchecked_step = 1e-4;  // in the norm: too_long() accepts shorter steps. Chosen value.
 // Two points determine a direction only if their distance is at least this multiple of shortest_part. Chosen value.
-constexpr double parts_apart = 1e3;
+constexpr double min_direction_distance = 1e3;
 
 // Tolerance of a step in s, relative to the largest step: above rounding. Chosen value.
 constexpr double rounded = 1e-9;
@@ -165,12 +165,12 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::end_of_seque
   const auto way_to = newton_.difference(place_of(here), next);
   const auto apart = newton_.difference(other, point.at.done ? point.at : here);
   if (seen && way_to && apart &&
-      apart->norm() > roots_apart * std::sqrt(search.high() - search.low()) * way_to->norm()) {
+      apart->norm() > graze_jump_factor * std::sqrt(search.high() - search.low()) * way_to->norm()) {
     point.kind = other_branch;
     return point;
   }
   if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;
-  if ((point.behind_part - point.part) * ds < parts_apart * enough) point.behind.reset();
+  if ((point.behind_part - point.part) * ds < min_direction_distance * enough) point.behind.reset();
   newton_.examine(point.at, t, here.ones);
   return point;
 }
@@ -203,7 +203,7 @@ bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint&
 /// between its points. At a change of the sequence the branch may have a corner.
 bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& next, const Vector& t,
                                   double length, std::vector<LocatedPoint>& points) const {
-  if (length <= shortest_doubted) return false;
+  if (length <= max_unchecked_step) return false;
   if (std::abs(next.state.s - here.state.s) > options_.step * (1.0 + rounded)) return true;
   if (sequence_of(here.pass) == sequence_of(next.pass)) {
     // Both tangents lead in the same direction of the parameter, but the parameter has changed in the opposite
@@ -215,7 +215,7 @@ bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& ne
   const auto change =
       std::find_if(points.begin(), points.end(), [](const LocatedPoint& p) { return p.kind == "sequence"; });
   if (change == points.end()) return chord_deviates(place_of(here), next, &t, true);
-  const auto doubted = [&](double part) { return part * length > shortest_doubted; };
+  const auto doubted = [&](double part) { return part * length > max_unchecked_step; };
   if (doubted(change->part) && chord_deviates(place_of(here), change->at, &t, false)) return true;
   if (!doubted(1.0 - change->part)) return false;
   const auto folds = [](const LocatedPoint& p) { return p.kind == "fold"; };
@@ -258,7 +258,7 @@ std::vector<BranchContinuation::LocatedPoint> BranchContinuation::located(const 
     take(zero ? std::move(zero) : zero_of(kind, here, next, t, length));
   }
   const bool unseen = changes_unseen(here, next, all) || (change && changes_unseen(here, change->at, all));
-  if (length > shortest_doubted && unseen) {
+  if (length > max_unchecked_step && unseen) {
     next.done = false;
     next.reason = "Newton's method ends at another branch";
     return {};
@@ -299,7 +299,7 @@ std::optional<SecantPoint> BranchContinuation::cross(std::vector<LocatedPoint> p
       next = std::move(*change->behind);
       newton_.examine(next, t);
     }
-    if ((end - change->part) * length >= parts_apart * shortest_part) place = place_of(change->at);
+    if ((end - change->part) * length >= min_direction_distance * shortest_part) place = place_of(change->at);
   }
   folds_ = true;
   for (const LocatedPoint& point : points) {

@@ -324,7 +324,7 @@ std::vector<LoadCase> read_load_cases(const std::vector<fs::path>& directories) 
     for (const LoadCase& other : cases)
       if (other.name == name)
         throw FileError(directory.string(),
-        "has the name \"" + name + "\", which another case has, too; rename a directory");
+                        "has the name \"" + name + "\", which another case has, too; rename a directory");
     cases.push_back({name, read_summary(directory)});
     const base::Json &units = entry_of(cases.back().summary, "units"),
                      &first = entry_of(cases.front().summary, "units");

@@ -300,7 +300,7 @@ struct ContactRow {
   double t = 0.0, N = 0.0, T = 0.0, gap = 0.0;  // gap: NaN for sliders
   std::ptrdiff_t state = 0;
 };
-struct DrawnOf {
+struct DrawnValues {
   std::array<double, 4> operator()(const ContactRow& row) const {
     return {row.N, row.T, std::isfinite(row.gap) ? row.gap : 0.0, static_cast<double>(row.state)};
   }
@@ -323,7 +323,7 @@ std::map<std::string, std::vector<ContactRow>> read_motion(const fs::path& direc
 }
 
 base::Json motion_json(const std::vector<ContactRow>& rows, std::size_t most, double t_end) {
-  base::Downsampled<ContactRow, 4, DrawnOf, 3> thinned(t_end, {.max_rows = most, .crowded = true});
+  base::Downsampled<ContactRow, 4, DrawnValues, 3> thinned(t_end, {.max_rows = most, .crowded = true});
   for (const ContactRow& row : rows) thinned.add(row);
   base::Json t = base::Json::array(), state = base::Json::array(), N = base::Json::array(),
              T = base::Json::array(), gap = base::Json::array();

@@ -57,7 +57,7 @@ bool read_point(const std::string& path, std::size_t& at, Point& point) {
 }
 
 /// Shortens a path that has only commands M x,y and L x,y; any other path stays unchanged.
-std::string slim_path(const std::string& path) {
+std::string shorten_path(const std::string& path) {
   std::string result;
   Point here;
   bool drawing = false;
@@ -114,7 +114,7 @@ std::string compress_svg(const std::string& svg) {
     const std::size_t end = begin == std::string::npos ? begin : svg.find('\'', begin + mark.size());
     if (end == std::string::npos) return result + svg.substr(at);
     result += svg.substr(at, begin + mark.size() - at) +
-              slim_path(svg.substr(begin + mark.size(), end - begin - mark.size())) + "'";
+              shorten_path(svg.substr(begin + mark.size(), end - begin - mark.size())) + "'";
     at = end + 1;
   }
   return result;
@@ -190,8 +190,8 @@ std::string figures(const fs::path& directory, std::size_t room) {
       left_out += (left_out.empty() ? "" : ", ") + all[i].first.stem().string();
   }
   if (!left_out.empty())
-    text += "<p class=hint>In plots/ only, because the page must stay below 3 MB: " +
-            html_text(left_out) + ".</p>\n";
+    text += "<p class=hint>In plots/ only, because the page must stay below 3 MB: " + html_text(left_out) +
+            ".</p>\n";
   return text;
 }
 

@@ -25,7 +25,7 @@ inline constexpr std::array certificate_columns = {
     CertificateColumn{"t_error", "time",
                       "bound of the error of `t`, which includes errors of earlier events; empty: unknown"},
     CertificateColumn{"certain", "",
-    "1: this event and all earlier events are those of the exact motion; 0: not certified"},
+                      "1: this event and all earlier events are those of the exact motion; 0: not certified"},
 };
 
 /// Adds the columns to events.csv, and writes errors.csv. Errors: FileError.

@@ -219,21 +219,21 @@ void subtract_translations(std::vector<Frame>& frames) {
   double greatest = 0.0, left = 0.0;
   for (Frame& frame : frames) {
     for (const auto& p : frame.points) {
-      frame.slid_x += p.at.ux / static_cast<double>(frame.points.size());
-      frame.slid_y += p.at.uy / static_cast<double>(frame.points.size());
+      frame.translation_x += p.at.ux / static_cast<double>(frame.points.size());
+      frame.translation_y += p.at.uy / static_cast<double>(frame.points.size());
     }
     for (const auto& p : frame.points) {
       greatest = std::max(greatest, std::hypot(p.at.ux, p.at.uy));
-      left = std::max(left, std::hypot(p.at.ux - frame.slid_x, p.at.uy - frame.slid_y));
+      left = std::max(left, std::hypot(p.at.ux - frame.translation_x, p.at.uy - frame.translation_y));
     }
   }
   const bool slides = left < 0.5 * greatest;
   for (Frame& frame : frames) {
     if (!slides || frame.points.size() < 2) {
-      frame.slid_x = frame.slid_y = 0.0;
+      frame.translation_x = frame.translation_y = 0.0;
       continue;
     }
-    const double x = frame.slid_x, y = frame.slid_y;
+    const double x = frame.translation_x, y = frame.translation_y;
     for (auto& e : frame.elements) shift(e.a, x, y), shift(e.b, x, y);
     for (auto& p : frame.points) shift(p.at, x, y);
     for (auto& f : frame.forces) f.x += x, f.y += y, f.ux -= x, f.uy -= y;
@@ -281,9 +281,9 @@ FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force) {
 }
 
 FrameScales scales_of(const Frame& frame, const FrameScales& shared) {
-  constexpr double worth_it = 5.0;
+  constexpr double own_scale_ratio = 5.0;
   const FrameScales own = scales_of(std::vector<Frame>{frame}, shared.greatest_force);
-  return own.magnification >= worth_it * shared.magnification ? own : shared;
+  return own.magnification >= own_scale_ratio * shared.magnification ? own : shared;
 }
 
 }  // namespace signorini::result

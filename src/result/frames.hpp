@@ -83,7 +83,7 @@ struct Frame {
   };
   double t = 0.0;
   /// Mean translation of the named nodes, subtracted from displacements and added to positions.
-  double slid_x = 0.0, slid_y = 0.0;
+  double translation_x = 0.0, translation_y = 0.0;
   std::vector<Element> elements;
   std::vector<Point> points;
   std::vector<Force> forces;

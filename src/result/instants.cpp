@@ -199,12 +199,12 @@ void InstantReader::take_impulses(std::size_t contact, std::size_t column, Insta
     const std::size_t first = word.find(':'), second = word.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos)
       fail(column + of_blows, "impulses turn:Pn:Pt separated by blanks");
-      const auto turn = base::parse_number(word.substr(0, first)),
+    const auto turn = base::parse_number(word.substr(0, first)),
                n = base::parse_number(word.substr(first + 1, second - first - 1)),
                t = base::parse_number(word.substr(second + 1));
     if (!turn || !n || !t || !(*turn >= 1.0 && *turn < 1e6) || !std::isfinite(*n) || !std::isfinite(*t))
       fail(column + of_blows, "impulses turn:Pn:Pt separated by blanks");
-      row.impacts.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
+    row.impacts.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
   }
   if (!reader_.cell(column + of_capture_n).empty()) {
     if (row.capture_impulses.size() == 0) row.capture_impulses = Vector::Zero(model_.force_count());

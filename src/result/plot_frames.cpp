@@ -128,12 +128,12 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
 
 /// Subtitle "Shape at t = ...": time, translation and magnification of the picture.
 std::string subtitle(const Frame& frame, const FrameScales& scales, const PlottedRun& run) {
-  const bool slid = frame.slid_x != 0.0 || frame.slid_y != 0.0;
+  const bool slid = frame.translation_x != 0.0 || frame.translation_y != 0.0;
   const auto number = [](double x, int digits) { return fmt::format("{:.{}g}", x, digits); };
   const Units& units = run.facts.units;
   std::string about = translate(run, "Shape at t = {} {}", number(frame.t, 9), units.time) + ", ";
-  about += slid ? translate(run, "slid by ({}, {}) {}, deformation", number(frame.slid_x, 4),
-                            number(frame.slid_y, 4), units.length)
+  about += slid ? translate(run, "slid by ({}, {}) {}, deformation", number(frame.translation_x, 4),
+                            number(frame.translation_y, 4), units.length)
                 : translate(run, "displacements");
   about += " " + (scales.magnification == 1.0
                       ? translate(run, "in true scale")

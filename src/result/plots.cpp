@@ -102,7 +102,7 @@ struct PanelOfLines {
   std::vector<PlottedLine> lines;
   std::string axis = "";  ///< gnuplot lines for a nearly constant curve; else empty
   /// If above 0: number of lines from which those with the largest motion were selected.
-  std::size_t chosen_of = 0;
+  std::size_t candidate_count = 0;
 };
 
 /// Keeps the lines with the largest motion, in the order of the nodes: twenty curves would be illegible.
@@ -116,7 +116,7 @@ void choose_lines(const PlottedRun& run, PanelOfLines& p) {
   for (const PlottedLine& line : p.lines) sizes.push_back(size_of(line));
   std::nth_element(sizes.begin(), sizes.begin() + (chosen_displacements - 1), sizes.end(), std::greater<>());
   const double least = sizes[chosen_displacements - 1];
-  p.chosen_of = p.lines.size();
+  p.candidate_count = p.lines.size();
   std::vector<PlottedLine> chosen;
   for (const PlottedLine& line : p.lines)
     if (size_of(line) >= least && chosen.size() < chosen_displacements) chosen.push_back(line);
@@ -183,9 +183,10 @@ Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canva
   if (shown < p.lines.size())
     panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
                             "(" + translate(run, "first {} of {}", shown, p.lines.size()) + ")"});
-  if (p.chosen_of > 0)
-    panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
-                            "(" + translate(run, "the {} of {} that move most", shown, p.chosen_of) + ")"});
+  if (p.candidate_count > 0)
+    panel.curves.push_back(
+        {"NaN", "", "with lines linecolor '#ffffff'",
+         "(" + translate(run, "the {} of {} that move most", shown, p.candidate_count) + ")"});
   return panel;
 }
 

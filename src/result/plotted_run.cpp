@@ -18,8 +18,8 @@ namespace {
 
 // Limit per contact. Beyond it, bands shorter than 1/5000 of the run are merged: a picture cannot show them.
 constexpr std::size_t max_bands = 5000;
-constexpr double max_marks = 3000;           // per contact and type, over the picture's width
-constexpr const char* close_up = "-events";  // suffix for pictures from the first event to the last
+constexpr double max_marks = 3000;                // per contact and type, over the picture's width
+constexpr const char* events_suffix = "-events";  // suffix for pictures from the first event to the last
 
 std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
   std::vector<std::string> slugs;
@@ -27,9 +27,9 @@ std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contac
   for (const auto& contact : contacts) {
     const std::string slug = base::file_name(contact.name, 80, "-_", '_');
     std::string unique = slug;
-    const auto is_taken = [&] { return taken.contains(unique) || taken.contains(unique + close_up); };
+    const auto is_taken = [&] { return taken.contains(unique) || taken.contains(unique + events_suffix); };
     for (int n = 2; is_taken(); ++n) unique = slug + "-" + std::to_string(n);
-    taken.insert({unique, unique + close_up});
+    taken.insert({unique, unique + events_suffix});
     slugs.push_back(unique);
   }
   return slugs;
@@ -137,7 +137,7 @@ void read_curves(const TableFolder& tables, PlottedRun& run) {
   for (std::size_t row = 0; curves.next(); ++row) {
     count(run.curves[curves.cell(name)], row, curves, "curves");
     if (curves.number(value) != 0.0)
-    run.energies.used.insert(curves.cell(name));  // also displacements, which no energy picture uses
+      run.energies.used.insert(curves.cell(name));  // also displacements, which no energy picture uses
   }
 }
 
@@ -212,7 +212,7 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
 }
 
 /// Reads everything that depends on the time window.
-void read_shown(const TableFolder& tables, PlottedRun& run) {
+void read_time_window(const TableFolder& tables, PlottedRun& run) {
   read_contact_ranges(tables, run);
   read_moves(tables, run);
   if (!run.facts.contacts.empty()) read_marks(tables, run);
@@ -283,7 +283,7 @@ PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts, co
   read_headers(tables, run);
   run.from = window.from.value_or(run.t_first);
   run.to = window.to.value_or(run.t_last);
-  read_shown(tables, run);
+  read_time_window(tables, run);
   run.frames = read_frames(tables, run.from, run.to);
   return run;
 }
@@ -302,10 +302,10 @@ std::optional<PlottedRun> event_window(const TableFolder& tables, const PlottedR
   PlottedRun zoomed = run;
   zoomed.from = std::max(first - air, run.t_first);
   zoomed.to = std::min(last + air, run.t_last);
-  zoomed.suffix = close_up;
+  zoomed.suffix = events_suffix;
   const double part = (zoomed.to - zoomed.from) / (run.t_last - run.t_first);
   if (changes < 4 || !(part > 0.0) || part >= 0.6 || run.bands.size() > most_contacts) return std::nullopt;
-  read_shown(tables, zoomed);
+  read_time_window(tables, zoomed);
   return zoomed;
 }
 

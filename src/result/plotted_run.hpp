@@ -71,7 +71,7 @@ struct PlottedRun {
   double greatest_force = 0.0;                              ///< largest sqrt(N^2 + T^2) of all contacts
   /// Adjacent rows of a table. first: index of the first row after the header, from 0.
   struct Rows {
-  std::size_t first = 0, count = 0;
+    std::size_t first = 0, count = 0;
   };
   std::vector<Rows> motion;  ///< rows of each contact in motion.csv; empty if the run has no such table
   /// Rows of each curve in curves.csv, by its name; empty if the run has no such table.

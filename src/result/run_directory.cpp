@@ -119,7 +119,7 @@ RunDirectory::Writers& RunDirectory::writers() {
   check_run_directory(path_, options_.force);  // again, in case another process created it
   const fs::path created = base::make_directory(path_);
   if (!lock_.take(path_))
-  throw FileError(path_.string(), "another process is writing a run to this directory");
+    throw FileError(path_.string(), "another process is writing a run to this directory");
   try {
     base::remove_manifest(path_);
     // summary.json is written first: a directory without it is no run, and a later --force would refuse to replace the

@@ -115,7 +115,7 @@ class TableReader {
                        base::count_text(table_.times.size(), values_only ? "value" : "row")));
     if (layout_.peer && table_.times.size() != points_)
       fail(fmt::format("found {}, expected {}, the number given by NPTS",
-      base::count_text(table_.times.size(), "value"), points_));
+                       base::count_text(table_.times.size(), "value"), points_));
     return std::move(table_);
   }
 
@@ -170,8 +170,8 @@ class TableReader {
                        numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
     if (!contains_word(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
       fail(
-      "found no NPTS and DT, expected \"NPTS= 5372, DT= .0050\" or similar in the fourth line of a PEER "
-      "file");
+          "found no NPTS and DT, expected \"NPTS= 5372, DT= .0050\" or similar in the fourth line of a PEER "
+          "file");
     points_ = static_cast<std::size_t>(numbers[0]);
     layout_.time_step = numbers[1] * layout_.second;
     heading_allowed_ = false;

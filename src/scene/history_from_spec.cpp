@@ -69,9 +69,8 @@ History table(const HistorySpec& spec, const std::string& key) {
   const auto& t = spec.times;
   const auto& y = spec.values;
   if (t.size() != y.size())
-    throw SceneError(
-        spec.place, key,
-        fmt::format("found {} times and {} values, expected equal numbers", t.size(), y.size()));
+    throw SceneError(spec.place, key,
+                     fmt::format("found {} times and {} values, expected equal numbers", t.size(), y.size()));
   if (t.size() < 2) throw SceneError(spec.place, key, "found fewer than two points, expected at least two");
   for (std::size_t i = 1; i < t.size(); ++i)
     if (!(t[i] >= t[i - 1]))
@@ -86,7 +85,7 @@ History table(const HistorySpec& spec, const std::string& key) {
     from = to;
   }
   if (starts.empty())
-  throw SceneError(spec.place, key, "found equal times only, expected at least two different times");
+    throw SceneError(spec.place, key, "found equal times only, expected at least two different times");
   starts.push_back(t.back());
   pieces.push_back(spec.hold ? polynomial(t.back(), {y.back()}) : Piece{});
   return History(std::move(starts), std::move(pieces));
@@ -95,7 +94,7 @@ History table(const HistorySpec& spec, const std::string& key) {
 /// End of a pulse: a rectangle, triangle or half sine. Errors: SceneError if the history has no end.
 double pulse_end(const HistorySpec& spec, const std::string& key) {
   if (!std::isfinite(spec.end))
-  throw SceneError(spec.place, key, "found no end, expected the end of the pulse");
+    throw SceneError(spec.place, key, "found no end, expected the end of the pulse");
   return spec.end;
 }
 

@@ -370,7 +370,7 @@ constexpr Key table_of_keys[] = {
 // clang-format on
 
 /// True if all rows of each table are consecutive.
-constexpr bool tables_stand_together() {
+constexpr bool rows_of_tables_are_consecutive() {
   for (std::size_t i = 1; i < std::size(table_of_keys); ++i) {
     if (table_of_keys[i].table == table_of_keys[i - 1].table) continue;
     for (std::size_t j = 0; j < i; ++j)
@@ -378,7 +378,7 @@ constexpr bool tables_stand_together() {
   }
   return true;
 }
-static_assert(tables_stand_together());
+static_assert(rows_of_tables_are_consecutive());
 
 /// The table of keys, extended by the laws made of data: `law` gets their names and meanings, and the keys of their
 /// constants follow normal_stiffness.
@@ -439,13 +439,13 @@ std::span<const Key> all_keys() {
 
 namespace {
 
-constexpr std::string_view of_pendulums = "pendulums[]";
+constexpr std::string_view pendulums_table = "pendulums[]";
 /// Keys that a pendulum shares with contacts.
-constexpr std::array<std::string_view, 5> borrowed_by_pendulums = {
+constexpr std::array<std::string_view, 5> contact_keys_of_pendulums = {
     "friction", "tangential_stiffness", "tangential_damping", "initial_shear", "normal_damping"};
 /// Keys that a seam shares with contacts.
-constexpr std::array<std::string_view, 4> borrowed_by_seams = {"friction", "surface_velocity", "restitution",
-                                                               "capture_velocity"};
+constexpr std::array<std::string_view, 4> contact_keys_of_seams = {"friction", "surface_velocity",
+                                                                   "restitution", "capture_velocity"};
 
 template <class Names>
 bool is_among(const Names& names, std::string_view name) {
@@ -455,10 +455,11 @@ bool is_among(const Names& names, std::string_view name) {
 }  // namespace
 
 const Key* find_key(std::string_view table, std::string_view name) {
-  if (table.starts_with(of_pendulums) && (table != of_pendulums || is_among(borrowed_by_pendulums, name)))
-    return find_key("contacts[]" + std::string(table.substr(of_pendulums.size())), name);
+  if (table.starts_with(pendulums_table) &&
+      (table != pendulums_table || is_among(contact_keys_of_pendulums, name)))
+    return find_key("contacts[]" + std::string(table.substr(pendulums_table.size())), name);
   constexpr std::string_view seams = "seams[]";
-  if (table == "seams[].friction" || (table == seams && is_among(borrowed_by_seams, name)))
+  if (table == "seams[].friction" || (table == seams && is_among(contact_keys_of_seams, name)))
     return find_key("contacts[]" + std::string(table.substr(seams.size())), name);
   constexpr std::string_view stops = "stops[]";
   if (table.starts_with(stops) && !(table == stops && (name == "normal" || name == "tangent"))) {
@@ -479,9 +480,10 @@ std::vector<std::string> key_names(std::string_view table) {
   for (const Key& key : all_keys()) {
     if (key.table == table && key.name != "*") names.emplace_back(key.name);
   }
-  if (table == of_pendulums)
-    names.insert(names.end(), borrowed_by_pendulums.begin(), borrowed_by_pendulums.end());
-  if (table == "seams[]") names.insert(names.end(), borrowed_by_seams.begin(), borrowed_by_seams.end());
+  if (table == pendulums_table)
+    names.insert(names.end(), contact_keys_of_pendulums.begin(), contact_keys_of_pendulums.end());
+  if (table == "seams[]")
+    names.insert(names.end(), contact_keys_of_seams.begin(), contact_keys_of_seams.end());
   if (table == "stops[]")
     for (const std::string& name : key_names("contacts[]"))
       if (find_key(table, name) && find_key(table, name)->table != table) names.push_back(name);

@@ -140,14 +140,15 @@ class Change {
   void into_table(toml::table& table, Segments rest) {
     const toml::key key(rest[0], place_);
     if (rest.size() == 1) {
-      const auto erase_other = [&](const auto& pairs) {  // keeping the other key would be a contradiction
-        for (const auto& [a, b] : pairs) {
-          if (rest[0] == a) table.erase(b);
-          if (rest[0] == b) table.erase(a);
-        }
-      };
-      erase_other(alternatives);
-      erase_other(instead);
+      const auto erase_conflicting_key =
+          [&](const auto& pairs) {  // keeping the other key would be a contradiction
+            for (const auto& [a, b] : pairs) {
+              if (rest[0] == a) table.erase(b);
+              if (rest[0] == b) table.erase(a);
+            }
+          };
+      erase_conflicting_key(alternatives);
+      erase_conflicting_key(instead);
       give([&](toml::node&& value) { table.insert_or_assign(key, std::move(value)); });
       return;
     }
@@ -278,7 +279,7 @@ std::vector<std::string> places_of(const toml::table& root, const std::string& p
   return places;
 }
 
-std::string tables_met(const toml::table& root, const std::string& path) {
+std::string count_matching_tables(const toml::table& root, const std::string& path) {
   if (("." + path + ".").find(".*.") == std::string::npos) return {};
   std::size_t met = 0, stops = 0;
   const std::string kind = path.substr(0, path.find('.'));
@@ -288,7 +289,7 @@ std::string tables_met(const toml::table& root, const std::string& path) {
   text += fmt::format(", {} of [[stops]]", stops);
   if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)
     text += fmt::format(" ({} cannot have this key with {} present settings)", others,
-    others == 1 ? "its" : "their");
+                        others == 1 ? "its" : "their");
   return text;
 }
 

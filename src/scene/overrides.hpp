@@ -30,11 +30,12 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 [[nodiscard]] std::vector<std::string> matching_paths(const toml::table& root, const std::string& path);
 /// Number of tables that a path with * selects: "3 of [[contacts]], 6 of [[stops]]"; empty for a path
 /// without *.
-[[nodiscard]] std::string tables_met(const toml::table& root, const std::string& path);
-/// tables_met() for the scene file with the name `scene`, after the overrides `before`. Errors: those of read_scene for
+[[nodiscard]] std::string count_matching_tables(const toml::table& root, const std::string& path);
+/// count_matching_tables() for the scene file with the name `scene`, after the overrides `before`. Errors: those of read_scene for
 /// invalid TOML.
-[[nodiscard]] std::string tables_met_in(const std::string& scene, const std::vector<Override>& before,
-                                        const std::string& path);
+[[nodiscard]] std::string count_matching_tables_in(const std::string& scene,
+                                                   const std::vector<Override>& before,
+                                                   const std::string& path);
 /// True if path a equals path b or continues path b: "run.atol.force" is within "run.atol".
 [[nodiscard]] bool is_within_path(const std::string& a, const std::string& b);
 

@@ -45,7 +45,7 @@ void visit_run(RunSpec& run, const Visit& visit) {
   visit_optional(run.dt, time, visit);
 }
 
-void visit_frozen(Prestress& forces, const Visit& visit) {
+void visit_prestress(Prestress& forces, const Visit& visit) {
   for (Prestress::Element& e : forces.elements)
     for (double* n : {&e.at_from, &e.at_to}) visit(*n, force);
   for (Prestress::Body& body : forces.bodies) visit(body.stiffness, energy);
@@ -69,7 +69,7 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     visit(left.N, force);
     visit(left.T, force);
   }
-  if (initial.saved->prestress) visit_frozen(*initial.saved->prestress, visit);
+  if (initial.saved->prestress) visit_prestress(*initial.saved->prestress, visit);
   if (!initial.saved->scales) return;
   const std::array units{length, plain, velocity, rate, force};
   for (std::size_t i = 0; i < units.size(); ++i) visit((*initial.saved->scales)[i], units[i]);

@@ -148,7 +148,7 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
                                           nearest.name, nearest.x, nearest.y));
     if (!nearest.of_mesh)
       points.fail(entry.name,
-      fmt::format("the node at this place already has the name \"{}\"", nearest.name));
+                  fmt::format("the node at this place already has the name \"{}\"", nearest.name));
     if (!names.add(entry.name))
       points.fail(entry.name, fmt::format("node \"{}\" exists already; expected another name", entry.name));
     nearest.name = entry.name;

@@ -180,7 +180,7 @@ void read_half_sine_end(Table& table, HistorySpec& spec) {
   table.require("duration", " (half_sine: give duration or end)");
   spec.end = spec.start + table.number("duration");
   if (!(spec.end > spec.start))
-  table.fail("duration", "too short: rounding makes the end equal to the start; expected a longer one");
+    table.fail("duration", "too short: rounding makes the end equal to the start; expected a longer one");
 }
 
 void read_span(Table& table, HistorySpec& spec) {

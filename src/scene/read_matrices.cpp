@@ -102,9 +102,9 @@ void check_mass(const Table& table, const MatrixSpec& mass, const std::vector<st
     const auto row = static_cast<std::size_t>(e.row);
     if (diagonal[row] < 0.0 || (diagonal[row] == 0.0 && e.row != e.column)) {
       table.fail("mass",
-      fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
-      base::format_number(diagonal[row]), dofs[row],
-      diagonal[row] < 0.0 ? "" : ", and > 0 in a row with off-diagonal entries"));
+                 fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
+                             base::format_number(diagonal[row]), dofs[row],
+                             diagonal[row] < 0.0 ? "" : ", and > 0 in a row with off-diagonal entries"));
     }
   }
 }
@@ -117,7 +117,7 @@ std::vector<std::string> read_dofs(Table& table, int size) {
     for (const std::string& name : dofs) {
       check_name(name, table.place("dofs"), table.path("dofs"));
       if (!seen.insert(name).second)
-      table.fail("dofs", fmt::format("found \"{}\" twice, expected different names", name));
+        table.fail("dofs", fmt::format("found \"{}\" twice, expected different names", name));
     }
     if (dofs.size() != static_cast<std::size_t>(size)) {
       table.fail("dofs", fmt::format("found {}, expected one for each of the {} rows of the mass matrix",

@@ -68,7 +68,7 @@ void read_quantity(Table& table, OutputSpec& output, const char* known) {
 }
 
 /// True if the output can be part of a combination.
-bool sum_of_motions(const OutputSpec& output) {
+bool can_be_combined(const OutputSpec& output) {
   return output.kind != OutputKind::envelope &&
          !(output.kind == OutputKind::stress && output.fibre == Fibre::both &&
            output.quantity != OutputQuantity::N && !is_of_body(output.quantity));
@@ -124,7 +124,7 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
     const std::size_t i = check_known(entry.name, names, "output", entry.place(), terms.path(entry.name));
     if (scene.outputs[i].quantity == OutputQuantity::loss)
       terms.fail(entry.name, "is a loss, which a combination cannot contain: it has no value between rows");
-    if (!sum_of_motions(scene.outputs[i]))
+    if (!can_be_combined(scene.outputs[i]))
       terms.fail(entry.name,
                  "is a greatest value (envelope or both fibres), which a combination cannot contain");
     output.terms.push_back(read_term(terms, entry, scene));
@@ -170,7 +170,7 @@ void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, cons
   if (!body_of_node(scene, node))
     table.fail("at",
                fmt::format("node \"{}\" belongs to no body: expected a node of a body, or two nodes [A, B] "
-               "of a member",
+                           "of a member",
                            output.at[0]));
   read_quantity(table, output, "\"xx\", \"yy\", \"xy\"");
   output.direction.vector = {1.0, 0.0};
@@ -232,7 +232,7 @@ void read_outputs(Table& top, Scene& scene, ResolvedScene& record) {
     output.place = table.place();
     output.name = table.text("name");
     if (output.name == "t")
-    table.fail("name", "found \"t\", which is the column of times in response.csv; expected another name");
+      table.fail("name", "found \"t\", which is the column of times in response.csv; expected another name");
     if (!names.add(output.name))
       table.fail("name",
                  fmt::format("found \"{}\" twice, expected each output to have its own name", output.name));

@@ -111,12 +111,12 @@ void compare_with_run(Scene& scene) {
     throw SceneError(scene.initial.place, "run.initial.run",
                      fmt::format("found a run in {}, expected one in the units of this scene, {}",
                                  units_of(run), units_of(here)));
-  const bool froze = run.at_path("run.geometric").value_or(false);
-  if (froze && scene.run.geometric && !scene.initial.saved->prestress)
+  const bool had_geometric = run.at_path("run.geometric").value_or(false);
+  if (had_geometric && scene.run.geometric && !scene.initial.saved->prestress)
     throw SceneError(
         scene.initial.place, "run.initial.run",
         fmt::format("found no {}, expected the frozen static forces of that run, which had run.geometric = "
-        "true (run.toml): its stiffness depends on them",
+                    "true (run.toml): its stiffness depends on them",
                     (std::filesystem::path(scene.initial.saved->run) / prestress_file).string()));
   scene.initial.saved->structure_differences = differing_structure(run, here);
 }
@@ -216,12 +216,12 @@ std::vector<std::string> places_in(const std::string& scene, const std::string& 
   return places_of(parse_text(scene_text(scene), scene), path);
 }
 
-std::string tables_met_in(const std::string& scene, const std::vector<Override>& before,
-                          const std::string& path) {
+std::string count_matching_tables_in(const std::string& scene, const std::vector<Override>& before,
+                                     const std::string& path) {
   if (path.find('*') == std::string::npos) return {};  // most paths contain no *
   toml::table root = parse_text(scene_text(scene), scene);
   apply_overrides(root, before);
-  return tables_met(root, path);
+  return count_matching_tables(root, path);
 }
 
 }  // namespace signorini::scene

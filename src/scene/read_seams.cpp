@@ -95,9 +95,9 @@ void read_surfaces(Table& top, Scene& scene, ResolvedScene& record) {
         return scene.surface_nodes[static_cast<std::size_t>(edge.nodes[static_cast<std::size_t>(i)])];
       };
       if (at(0).x == at(1).x && at(0).y == at(1).y)
-        table.fail("x",
-                   fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge, expected two places",
-                   at(0).x, at(0).y));
+        table.fail(
+            "x", fmt::format("found the place [{:.9g}, {:.9g}] at both ends of an edge, expected two places",
+                             at(0).x, at(0).y));
     }
     surface.thickness = table.number("thickness");
     table.finish();
@@ -185,7 +185,8 @@ struct Boundary {
   std::optional<std::size_t> body;
 };
 
-Boundary find_side(const Table& table, std::string_view key, const std::string& name, const Scene& scene) {
+Boundary find_seam_boundary(const Table& table, std::string_view key, const std::string& name,
+                            const Scene& scene) {
   if (!scene.matrices) {
     const BoundaryRef found = find_boundary(table, key, name, scene);
     return {&found.group->edges, scene.bodies[found.body].thickness, found.body};
@@ -229,7 +230,7 @@ std::vector<std::string> mesh_names(const std::vector<int>& nodes, const Scene& 
 }
 
 /// Removes contacts at nodes that both boundaries share (the tip of a crack), because they can never open.
-void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& seam) {
+void remove_shared_nodes(const Table& table, const Scene& scene, mesh::MortarSeam& seam) {
   std::set<int> master;
   for (const mesh::MortarNode& k : seam.nodes)
     for (const auto& [node, weight] : k.master) master.insert(node);
@@ -237,9 +238,9 @@ void leave_out_shared(const Table& table, const Scene& scene, mesh::MortarSeam& 
   std::erase_if(seam.nodes, [&](const mesh::MortarNode& k) { return master.contains(k.node); });
   if (seam.nodes.empty())
     table.fail("master",
-    fmt::format("node {} and all other slave nodes are also master nodes: expected meshes that "
-    "share no nodes there, except at the tip of a crack",
-    first));
+               fmt::format("node {} and all other slave nodes are also master nodes: expected meshes that "
+                           "share no nodes there, except at the tip of a crack",
+                           first));
 }
 
 /// Reads master or line of a seam, and computes its contacts: nodes, weights and gaps.
@@ -258,7 +259,7 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
   } else if (const std::string master = table.text("master"); master == "ground") {
     seam = mesh::mortar_on_ground(*slave.edges, place);
   } else {
-    const Boundary other = find_side(table, "master", master, scene);
+    const Boundary other = find_seam_boundary(table, "master", master, scene);
     if (other.edges == slave.edges)
       table.fail("master", "found the slave boundary itself, expected another boundary");
     seam = mesh::mortar_between(*slave.edges, *other.edges, place, outline_of(slave, scene));
@@ -277,7 +278,7 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
             "the boundary has a corner of more than 45 degrees at node {}: give each side its own seam",
             base::join_quoted(mesh_names(seam.corners, scene), 3)));
   if (seam.nodes.empty()) table.fail("master", "the master faces no part of the slave boundary");
-  leave_out_shared(table, scene, seam);
+  remove_shared_nodes(table, scene, seam);
   return seam;
 }
 
@@ -327,7 +328,7 @@ void read_tied(Table& table, const std::string& name, Scene& scene) {
   static_cast<void>(table.choice("law"));
   if (scene.matrices)
     table.fail("law", "found \"tied\", expected compliant or rigid: with [matrices] a seam cannot be tied");
-  const Boundary slave = find_side(table, "slave", table.text("slave"), scene);
+  const Boundary slave = find_seam_boundary(table, "slave", table.text("slave"), scene);
   if (table.has("line") || is_word(table, "master", "ground"))
     table.fail(
         "law",
@@ -360,7 +361,7 @@ void read_seams(Table& top, Scene& scene, ResolvedScene& record) {
       record.add("seams", "[[seams]]", table.record());
       continue;
     }
-    const Boundary slave = find_side(table, "slave", table.text("slave"), scene);
+    const Boundary slave = find_seam_boundary(table, "slave", table.text("slave"), scene);
     const mesh::MortarSeam mortar = read_mortar(table, slave, scene);
     const SeamLaw law = read_seam_law(table, scene);
     seam.thickness = slave.thickness;

@@ -93,7 +93,7 @@ void read_lines(Table& top, Scene& scene, ResolvedScene& record) {
       const double s = static_cast<double>(i) / pieces;
       const std::string own = fmt::format("{}{}", name, i);
       if (!names.add(own))
-      table.fail("name", fmt::format("node \"{}\" exists already; expected another name", own));
+        table.fail("name", fmt::format("node \"{}\" exists already; expected another name", own));
       scene.nodes.push_back(
           {own, from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1]), table.place("name")});
     }
@@ -214,7 +214,7 @@ namespace {
 /// Cross-section: area, second moment of area, distance of the outermost fibre from the neutral axis.
 struct Shape {
   double area = 0.0, moment = 0.0, reach = 0.0;
-  double more_mass = 0.0;  ///< mass per length in addition to that of the material
+  double additional_mass = 0.0;  ///< mass per length in addition to that of the material
 };
 
 constexpr const char* all_shapes[] = {"pipe", "box", "i", "round"};
@@ -239,10 +239,10 @@ Shape read_pipe(Table& table, Section& section) {
   shape.area = ring(wall, inner);
   shape.moment = shape.area * (outer * outer + inner * inner) / 16.0;
   shape.reach = 0.5 * outer;
-  shape.more_mass = table.number("content") * std::numbers::pi * inner * inner / 4.0;
+  shape.additional_mass = table.number("content") * std::numbers::pi * inner * inner / 4.0;
   if (table.has("insulation")) {
     Table insulation = table.child("insulation");
-    shape.more_mass += insulation.number("density") * ring(insulation.number("thickness"), outer);
+    shape.additional_mass += insulation.number("density") * ring(insulation.number("thickness"), outer);
     insulation.finish();
     table.record("insulation", insulation.record().inline_table());
   }
@@ -287,7 +287,7 @@ void read_shape(Table& table, const std::string& name, Section& section) {
   const double E = dimensions.number("E");
   section.EA = E * shape.area;
   section.EI = E * shape.moment;
-  section.mass_per_length = dimensions.number("density") * shape.area + shape.more_mass;
+  section.mass_per_length = dimensions.number("density") * shape.area + shape.additional_mass;
   section.area = shape.area;
   section.modulus = shape.moment / shape.reach;
   dimensions.finish();
@@ -373,13 +373,13 @@ void read_rigid(Table& top, Scene& scene, ResolvedScene& record) {
     RigidBody body;
     body.name = table.text("name");
     if (!bodies.add(body.name))
-    table.fail("name",
-    fmt::format("found \"{}\" twice, expected each rigid body to have its own name", body.name));
+      table.fail("name",
+                 fmt::format("found \"{}\" twice, expected each rigid body to have its own name", body.name));
     for (const BodySpec& other : scene.bodies)
       if (other.name == body.name)
         table.fail("name",
-        fmt::format("found \"{}\", which is the name of one of [[bodies]]; expected another name",
-        body.name));
+                   fmt::format("found \"{}\", which is the name of one of [[bodies]]; expected another name",
+                               body.name));
     table.require("nodes", "");
     body.place = table.place("nodes");
     body.nodes = read_node_names(table, "nodes", space);

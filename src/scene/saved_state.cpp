@@ -14,7 +14,8 @@
 namespace signorini::scene {
 namespace {
 
-constexpr std::string_view of_shear = ".T", of_state = ".state", of_own = ".own", of_memory = ".memory";
+constexpr std::string_view of_shear = ".T", of_state = ".state", user_law_state_suffix = ".own",
+                           of_memory = ".memory";
 
 /// Name of the contact in the name of a column: "c" for "c.T".
 std::string contact_in(const std::string& name, std::string_view end) {
@@ -22,10 +23,11 @@ std::string contact_in(const std::string& name, std::string_view end) {
 }
 
 /// Reads the state or the memory of a user law from one column. False if the column is neither.
-bool take_own(const std::string& name, double value, std::vector<SavedState::UserLawMemory>& own) {
-  if (!name.ends_with(of_own) && !name.ends_with(of_memory)) return false;
+bool read_user_law_column(const std::string& name, double value,
+                          std::vector<SavedState::UserLawMemory>& own) {
+  if (!name.ends_with(user_law_state_suffix) && !name.ends_with(of_memory)) return false;
   const bool memory = name.ends_with(of_memory);
-  const std::string contact = contact_in(name, memory ? of_memory : of_own);
+  const std::string contact = contact_in(name, memory ? of_memory : user_law_state_suffix);
   auto found = std::find_if(own.begin(), own.end(),
                             [&](const SavedState::UserLawMemory& o) { return o.contact == contact; });
   if (found == own.end()) found = own.insert(own.end(), {contact});
@@ -80,7 +82,7 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
         time = *value;
       else if (names[i].ends_with(of_shear))
         state.shears.emplace_back(contact_in(names[i], of_shear), *value);
-      else if (!take_own(names[i], *value, state.user_law_states))
+      else if (!read_user_law_column(names[i], *value, state.user_law_states))
         state.motions.emplace_back(names[i], *value);
     }
     state.t = time;

@@ -119,9 +119,9 @@ Table::Table(const toml::table* node, std::string kind, std::string path, Source
       kind_(std::move(kind)),
       path_(std::move(path)),
       place_(std::move(place)) {
-  const auto can_stand = [&](const toml::key& name) { return find_key(kind_, name.str()) != nullptr; };
+  const auto is_known_key = [&](const toml::key& name) { return find_key(kind_, name.str()) != nullptr; };
   bool fits = true;
-  for (const auto& [name, value] : *node_) fits = fits && can_stand(name);
+  for (const auto& [name, value] : *node_) fits = fits && is_known_key(name);
   if (fits) return;
   for (const Entry& entry : entries_of(*node_)) {  // the message names the first unknown key in the file
     if (!find_key(kind_, entry.name))

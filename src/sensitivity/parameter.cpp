@@ -100,7 +100,7 @@ double value_of(const Scene& scene, const std::string& path) {
   for (const std::string& meant : scene::matching_paths(root, path))
     numbers_at(root, parts_of(meant), 0, path, found);
   if (found.size() != 1) {
-    const std::string met = scene::tables_met(root, path);
+    const std::string met = scene::count_matching_tables(root, path);
     fail_at(path, fmt::format("found {} numbers that differ, from {} to {}{}, expected one value to vary",
                               found.size(), base::format_number(*found.begin()),
                               base::format_number(*found.rbegin()), met.empty() ? "" : ", in " + met));

@@ -261,7 +261,8 @@ plane = "stress"
           "normal_stiffness");
   refused("[[rigid]]\nname = \"b\"\nnodes = [\"b.left\"]\ncentre = \"b.1\"\nmass = 1.0\ninertia = 1.0\n",
           "found \"b\", which is the name of one of [[bodies]]");
-  refused("points = { p = [1.0, 1.0], q = [1.0, 1.0] }\n", "the node at this place already has the name \"p\"");
+  refused("points = { p = [1.0, 1.0], q = [1.0, 1.0] }\n",
+          "the node at this place already has the name \"p\"");
   refused("[[supports]]\nnodes = [\"b.middle\"]\nfix = [\"ux\"]\n", "b.middle");
   refused("[[supports]]\nnodes = [\"b.left\"]\nfix = [\"rz\"]\nmotion = 0.1\n", "has no rotation");
 }

@@ -24,7 +24,8 @@ void ActiveGuards::update(std::size_t slot, double value, double level) {
 }
 
 namespace {
-constexpr double relative_resolution = 1e-12;  // relative to the step length; the engine then refines the root
+constexpr double relative_resolution =
+    1e-12;  // relative to the step length; the engine then refines the root
 }
 
 void GuardMonitor::start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,

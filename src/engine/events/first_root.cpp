@@ -32,7 +32,7 @@ std::optional<double> first_nonpositive(const Bernstein& p, double from, double 
 /// Value at x by de Casteljau's algorithm. With the degree known at compile time, the coefficients stay in registers, which
 /// avoids slow loads of just stored pairs.
 template <std::size_t degree>
-double by_means(std::array<double, max_degree + 1> c, double x) {
+double de_casteljau(std::array<double, max_degree + 1> c, double x) {
 #pragma GCC unroll 5
   for (std::size_t r = 1; r <= degree; ++r)
 #pragma GCC unroll 5
@@ -58,15 +58,15 @@ Bernstein Bernstein::from_powers(int degree, const std::array<double, max_degree
 double Bernstein::value(double x) const {
   switch (degree) {
     case 1:
-      return by_means<1>(b, x);
+      return de_casteljau<1>(b, x);
     case 2:
-      return by_means<2>(b, x);
+      return de_casteljau<2>(b, x);
     case 3:
-      return by_means<3>(b, x);
+      return de_casteljau<3>(b, x);
     case 4:
-      return by_means<4>(b, x);
+      return de_casteljau<4>(b, x);
     case 5:
-      return by_means<5>(b, x);
+      return de_casteljau<5>(b, x);
     default:
       return b[0];
   }
@@ -219,7 +219,9 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     for (std::size_t i = k; i <= degree; ++i) stack[0].b[i] += a[k] * row[i - k];
 
   FirstRoot result;  // Kind::none, or the first touch so far
-  const auto falls_at = [&](double x) { return FirstRoot{FirstRoot::Kind::crossing, x, result.intervals}; };
+  const auto crossing_at = [&](double x) {
+    return FirstRoot{FirstRoot::Kind::crossing, x, result.intervals};
+  };
   const auto touch = [&](double x) {
     if (result.kind == FirstRoot::Kind::none) result = {FirstRoot::Kind::touch, x, result.intervals};
   };
@@ -240,11 +242,11 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
       --count;
       continue;
     }
-    if (below == degree + 1) return falls_at(now.lo);
+    if (below == degree + 1) return crossing_at(now.lo);
     one_change = one_change && above + below == degree + 1 && now.b[0] > slack;
-    if (one_change) return falls_at(only_zero(a, degree, now.lo, now.hi, guess(degree, now)));
+    if (one_change) return crossing_at(only_zero(a, degree, now.lo, now.hi, guess(degree, now)));
     if (rises == degree) {  // p is monotone in the interval: the values at the ends decide
-      if (now.b[0] < -slack) return falls_at(now.lo);
+      if (now.b[0] < -slack) return crossing_at(now.lo);
       if (now.b[0] <= slack && now.lo > 0.0) touch(now.lo);
       --count;
       continue;
@@ -252,7 +254,8 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     if (falls == degree) {
       const double right = now.b[degree];
       if (right < -slack)
-        return falls_at(now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now)) : now.lo);
+        return crossing_at(now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now))
+                                          : now.lo);
       // At the end of the step the next step decides whether the guard crosses zero.
       if (right <= slack && now.hi < 1.0) touch(now.hi);
       --count;

@@ -63,7 +63,8 @@ void GrazeDetector::record(std::size_t slot) {
 namespace {
 
 constexpr double near_levels = 1e4;  // chosen: possible error of a run of 1e4 steps, in levels
-constexpr int looks_a_step = 8;      // sample intervals per step; the polynomial of a step has degree 5 at most
+constexpr int samples_per_step =
+    8;  // sample intervals per step; the polynomial of a step has degree 5 at most
 constexpr std::size_t max_near_hits = 100000;
 
 }  // namespace
@@ -86,8 +87,8 @@ void NearHitDetector::update(const StepHistory& history, double limit) {
       continue;
     }
     const Bernstein p = history.polynomial(gap.slot);
-    for (int i = gap.sample_count == 0 ? 0 : 1; i <= looks_a_step; ++i) {
-      const double x = limit * i / looks_a_step;
+    for (int i = gap.sample_count == 0 ? 0 : 1; i <= samples_per_step; ++i) {
+      const double x = limit * i / samples_per_step;
       update_gap(gap, {history.begin() + x * (history.end() - history.begin()), p.value(x)});
     }
   }

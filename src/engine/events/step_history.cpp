@@ -25,8 +25,9 @@ template <class T>
 }
 
 /// Computes for n scalars: bent = twice_bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b.
-SIGNORINI_WIDE_LANES void look_at_all(const Kept& rows, int order, double twice_bend, int degree,
-                                      const double* weights, std::size_t n, double* bent, double* mean) {
+SIGNORINI_WIDE_LANES void variations_and_means(const Kept& rows, int order, double twice_bend, int degree,
+                                               const double* weights, std::size_t n, double* bent,
+                                               double* mean) {
   std::size_t s = 0;
   for (; s + 3 < n; s += 4) look_at<base::Double4>(rows, order, twice_bend, degree, weights, s, bent, mean);
   for (; s < n; ++s) look_at<double>(rows, order, twice_bend, degree, weights, s, bent, mean);
@@ -57,8 +58,8 @@ void StepHistory::prepare(int order) {
   if (!one_basis_) prepare(order_basis_, order);
   Kept rows{};
   for (int b = 0; b < filled_; ++b) rows[z(b)] = values_.data() + z(slot_[z(b)]) * scalars_;
-  look_at_all(rows, order_basis().degree, 2.0 * order_basis().variation_factor, powers_basis_.degree,
-              powers_basis_.integral.data(), scalars_, variation_bounds_.data(), mean_.data());
+  variations_and_means(rows, order_basis().degree, 2.0 * order_basis().variation_factor, powers_basis_.degree,
+                       powers_basis_.integral.data(), scalars_, variation_bounds_.data(), mean_.data());
 }
 
 void StepHistory::prepare(Basis& basis, int degree) const {

@@ -40,7 +40,7 @@ class Slope {
 
 /// Place of an extreme between `end` and `next`, by bisection and then Newton steps. Newton steps from `end` alone would not
 /// leave `end` if the slope is zero there, as after an impact that stops a slip.
-double turned_beside(const double* a, std::size_t degree, double end, double next, double inward) {
+double extreme_near_end(const double* a, std::size_t degree, double end, double next, double inward) {
   const Slope slope(a, degree);
   const double forth = next > end ? inward : -inward;  // sign of the slope at `next`
   double near = end, far = next;
@@ -169,7 +169,7 @@ void TurningPointDetector::find_near_end(std::size_t end, const Path& path, std:
   // the end. The limit is four times as large, plus `inward`, because the curve is not exactly a parabola.
   const double beyond = std::abs(inward) + 0.5 * std::abs(value[third] - value[end]);
   if (inward > 0.0 ? value[end] - beyond >= range.least : value[end] + beyond <= range.greatest) return;
-  record(path, place, turned_beside(path.a, path.degree, x[end], x[next], inward));
+  record(path, place, extreme_near_end(path.a, path.degree, x[end], x[next], inward));
 }
 
 /// True if a bound proves that f stays within its earlier range. First bound: |f - f(0)| <= sum of |a_k| x_end^k. Second bound:

@@ -17,8 +17,9 @@ namespace signorini::exact {
 namespace {
 
 constexpr int min_levels = 12, more_levels = 3;
-constexpr double least_share = 1e-6;    // of the greatest motion; larger degrees of freedom keep all digits
-constexpr std::size_t first_terms = 4;  // number of first terms; several, because they may be zero after a rest
+constexpr double least_share = 1e-6;  // of the greatest motion; larger degrees of freedom keep all digits
+constexpr std::size_t first_terms =
+    4;  // number of first terms; several, because they may be zero after a rest
 constexpr double flights_a_step = 3.0;
 constexpr double longer = 1.5, much_longer = 4.0;  // limits of the step length, relative to the previous step
 constexpr double least_step = 1.0 / longer;        // lower limit of share_of_step(): steps can still grow
@@ -29,8 +30,8 @@ constexpr double times_pace = 2.0, shortest_turn = 0.3;
 // With local updates one series serves several events. Beyond the phase angle `longest_turn` (rad), the additional levels take
 // longer than they save.
 constexpr double events_a_series = 12.0, longest_turn = 2.0;
-constexpr double least_left = 0.5;     // a local update must be valid for this part of the remaining series
-constexpr double fresh = 0.25;         // weight of the last interval in the mean interval between events; chosen
+constexpr double least_left = 0.5;  // a local update must be valid for this part of the remaining series
+constexpr double fresh = 0.25;      // weight of the last interval in the mean interval between events; chosen
 constexpr double max_cancelled = 0.9;  // limit of later terms, relative to the greatest of the first terms
 constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound
 constexpr int max_touches = 5;                    // number of warnings about touches
@@ -123,10 +124,10 @@ void ExactEngine::choose_first_step() {
     event_interval_ += (event_interval_ > 0.0 ? fresh : 1.0) * (t_ - segment_begin_ - event_interval_);
   segment_begin_ = t_;
   const double flights = flights_limit();
-  paced_ = !(flights > 0.0) && event_interval_ > 0.0;
-  max_next_step_ = flights > 0.0 ? longer * flights
-                   : paced_      ? paced_length()
-                                 : std::numeric_limits<double>::infinity();
+  limited_by_events_ = !(flights > 0.0) && event_interval_ > 0.0;
+  max_next_step_ = flights > 0.0        ? longer * flights
+                   : limited_by_events_ ? paced_length()
+                                        : std::numeric_limits<double>::infinity();
 }
 
 double ExactEngine::paced_length() const {
@@ -444,8 +445,8 @@ void ExactEngine::update_unarmed(double x) {
 /// Expands the series of the whole structure about t_.
 void ExactEngine::begin_series(double scale) {
   double x = expand(scale);
-  paced_ = paced_ && x == 1.0;
-  max_next_step_ = (paced_ ? much_longer : longer) * scale * x;
+  limited_by_events_ = limited_by_events_ && x == 1.0;
+  max_next_step_ = (limited_by_events_ ? much_longer : longer) * scale * x;
   reach_time_ = t_ + scale * x;
   if (reach_time_ > segment_.end || segment_.end - reach_time_ < 0.01 * scale * x) reach_time_ = segment_.end;
   begin_x_ = 0.0;

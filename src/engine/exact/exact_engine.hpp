@@ -101,8 +101,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   std::size_t degree_ = 0;  // degree of all polynomials on the last step
   engine::Segment segment_;
   PatchedSeries motion_;
-  std::optional<motion::LocalSeries>
-      local_series_;               // nullopt: no local updates
+  std::optional<motion::LocalSeries> local_series_;  // nullopt: no local updates
   contact::ContactStates states_;  // contact states of the segment, if local_series_ is used
   bool series_continued_ = false;  // the segment begins within motion_
   double begin_x_ = 0.0;           // beginning of the step, as a place in motion_
@@ -133,8 +132,9 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   double max_next_step_ = 0.0;   // limit of the length of the next step
   double segment_begin_ = 0.0;   // beginning of the segment
   double event_interval_ = 0.0;  // mean time between recent events; 0: none
-  bool paced_ = false;           // event_interval_ limits the steps, because all series of this segment were long enough
-  double end_x_ = 0.0;           // end of the last step, as a place in its series
+  bool limited_by_events_ =
+      false;  // event_interval_ limits the steps, because all series of this segment were long enough
+  double end_x_ = 0.0;  // end of the last step, as a place in its series
   engine::Step step_;
   SeriesWorkIntegrals works_;
   events::TurningPointDetector turns_;

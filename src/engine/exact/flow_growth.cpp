@@ -12,7 +12,8 @@ namespace signorini::exact {
 namespace {
 
 constexpr int probe_levels = 20;
-constexpr double max_beside = 0.1;  // limit of the sum, relative to W_0^2: steps are at most 5 % shorter; chosen
+constexpr double max_bound_increase =
+    0.1;  // limit of the sum, relative to W_0^2: steps are at most 5 % shorter; chosen
 
 }  // namespace
 
@@ -69,7 +70,7 @@ std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& sys
         contact.sticks_rigidly() || contact.friction.is_rate_dependent())
       return std::nullopt;
     more += margin * margin * stiffening(system, c);
-    if (!(more <= max_beside * square)) return std::nullopt;
+    if (!(more <= max_bound_increase * square)) return std::nullopt;
   }
   return std::sqrt(square + more);
 }

@@ -35,9 +35,11 @@ constexpr double rehearsed_part = 0.2;
 constexpr double longest_rehearsed = 0.0625;
 constexpr double least_rehearsed =
     1e3 * std::numeric_limits<double>::epsilon();  // shortest step relative to the time; IDA requires 100 eps
-constexpr double no_error_test = 1e-15;            // factor on the weights before a segment, so that no error test fails
+constexpr double no_error_test =
+    1e-15;  // factor on the weights before a segment, so that no error test fails
 
-constexpr double sharp_newton = 1e-3;  // Newton's convergence limit relative to the tolerance; IDA's default is 1/3
+constexpr double sharp_newton =
+    1e-3;  // Newton's convergence limit relative to the tolerance; IDA's default is 1/3
 
 void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(fmt::format("{} failed ({})", what, flag));
@@ -233,7 +235,7 @@ struct BdfIntegrator::Memory {
   /// Reason: the derivative of a step's polynomial is one order less accurate than the polynomial; after a restart its error is
   /// h u''/2. Solving C v = P - K u - ... for v alone would amplify the error of u by K/C. The Newton step avoids this: for
   /// C < h K it hardly changes the derivative.
-  void settle_massless(double t) {
+  void correct_massless_rates(double t) {
     double *derivative = NV_DATA_S(yp), *change = NV_DATA_S(work);
     const double cj = problem.linear().cj();
     problem.residual(t, 1.0 / cj, NV_DATA_S(y), derivative, change);
@@ -294,11 +296,11 @@ struct BdfIntegrator::Memory {
   const motion::Jet* start = nullptr;  // jet at the segment's beginning
   std::string message;
   double unit_of_time;
-  double t_previous = 0.0;    // beginning of the last accepted step
-  double reported_end = 0.0;  // end of the last returned step
-  double held_time = 0.0;     // time of y and yp
-  bool rehearsing = false;    // IDA takes steps before the segment: solutions are those of the jet
-  bool rooted = false;        // the last returned step ended at a root
+  double t_previous = 0.0;      // beginning of the last accepted step
+  double reported_end = 0.0;    // end of the last returned step
+  double evaluated_time = 0.0;  // time of y and yp
+  bool rehearsing = false;      // IDA takes steps before the segment: solutions are those of the jet
+  bool rooted = false;          // the last returned step ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
   std::array<long, events::max_degree + 1> steps_by_order{};  // steps since the last count()
@@ -363,7 +365,7 @@ BdfStep BdfIntegrator::advance() {
   m_->reported_end = end;
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
   // IDA's y' does not contain accurate velocities of massless degrees of freedom: NaN makes evaluate() compute them.
-  m_->held_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
+  m_->evaluated_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
   m_->rooted = flag == IDA_ROOT_RETURN;
   if (m_->rooted) {
     step.kind = BdfStep::Kind::root;
@@ -379,13 +381,13 @@ BdfStep BdfIntegrator::advance() {
 }
 
 void BdfIntegrator::evaluate(double t, motion::Point& point) {
-  if (t != m_->held_time) {
+  if (t != m_->evaluated_time) {
     check(IDAGetDky(m_->ida, t, 0, m_->y), "IDAGetDky");
     if (m_->massless()) {
       check(IDAGetDky(m_->ida, t, 1, m_->yp), "IDAGetDky");
-      m_->settle_massless(t);
+      m_->correct_massless_rates(t);
     }
-    m_->held_time = t;
+    m_->evaluated_time = t;
   }
   m_->problem.read(NV_DATA_S(m_->y), NV_DATA_S(m_->yp), point);
 }
@@ -409,7 +411,7 @@ double BdfIntegrator::residual() {
   IDAGetDky(m_->ida, end, 0, m_->y);
   N_VLinearSum(cj, m_->y, -cj, y_predicted, m_->yp);
   N_VLinearSum(1.0, m_->yp, 1.0, yp_predicted, m_->yp);
-  m_->held_time = std::numeric_limits<double>::quiet_NaN();
+  m_->evaluated_time = std::numeric_limits<double>::quiet_NaN();
   return m_->problem.imbalance(end, NV_DATA_S(m_->y), NV_DATA_S(m_->yp));
 }
 

@@ -66,7 +66,8 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t, point);
     const double still = segment_.forcing->surface_moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
-    const double ut = contact.body_tangent().dot(point.u) - still;  // without a moving surface's s(t), see locate.hpp
+    const double ut =
+        contact.body_tangent().dot(point.u) - still;  // without a moving surface's s(t), see locate.hpp
     for (const double value : {m.N, m.T, m.gap, ut})
       *shown++ = value;  // in the order of TurningPointDetector::watched_fields
     const GuardForm* guard = decision.forms[k].data();
@@ -206,7 +207,9 @@ engine::Step IdaEngine::advance() {
   }
   if (!(bdf.end > bdf.begin)) {
     step.kind = engine::Step::Kind::failed;
-    step.reason = "the step size has fallen below the resolution of time, so the tolerance cannot be met; a larger rtol may help";
+    step.reason =
+        "the step size has fallen below the resolution of time, so the tolerance cannot be met; a larger "
+        "rtol may help";
     return step;
   }
   bdf_.evaluate(bdf.end, point_);
@@ -250,13 +253,13 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     if (!is_touch(c.slot, (c.time - step.begin) / h)) return false;
     guard_monitor_.set_waiting(c.slot, allowance(c.slot));
     if (!std::exchange(touch_warned_, true))
-      warnings.push_back(
-          fmt::format("contact '{}': its {} touches zero at {:.9g}, and falls below zero by less than the error of "
-                      "the steps; no event is recorded, and later touches are not reported; a smaller "
-                      "{}, or engine exact, decides whether it crosses zero",
-                      model_.contacts[model_.layout.contact_of_guard(c.slot)].name,
-                      contact::to_string(guards[c.slot].kind), model::time_in_scene_units(model_, c.time),
-                      tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
+      warnings.push_back(fmt::format(
+          "contact '{}': its {} touches zero at {:.9g}, and falls below zero by less than the error of "
+          "the steps; no event is recorded, and later touches are not reported; a smaller "
+          "{}, or engine exact, decides whether it crosses zero",
+          model_.contacts[model_.layout.contact_of_guard(c.slot)].name,
+          contact::to_string(guards[c.slot].kind), model::time_in_scene_units(model_, c.time),
+          tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
     return true;
   });
   if (candidates.empty()) return std::nullopt;

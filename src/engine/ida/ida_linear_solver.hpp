@@ -28,7 +28,8 @@ struct Layout {
 
   int dofs = 0, massive = 0, forces = 0;
   ForceLayout contacts;
-  std::vector<int> velocity;  ///< index of v_i; -1 for a degree of freedom without mass, whose velocity is u_i'
+  std::vector<int>
+      velocity;  ///< index of v_i; -1 for a degree of freedom without mass, whose velocity is u_i'
   [[nodiscard]] int normal(std::size_t contact) const { return force(contacts.normal(contact)); }
   [[nodiscard]] int tangent(std::size_t contact) const { return force(contacts.tangent(contact)); }
   /// Index in y of a contact force. place: its index among the forces of all contacts.

@@ -23,7 +23,7 @@ constexpr double local_part = 0.2;
 constexpr double rounding_floor = 20.0 * rounding::eps;
 // Factor on rounding_floor for T of a shear element in series with rate-dependent friction: T has the rounding of ut - p and of
 // ut' - p', and Newton's method must converge to a thousandth of the tolerance (sharp_newton in bdf_integrator.cpp).
-constexpr double above_sharp_newton = 100.0;
+constexpr double newton_rounding_factor = 100.0;
 
 /// Computes r = yp - v and u = y - step r.
 SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y, const double* v,
@@ -260,7 +260,7 @@ void IdaProblem::weights(const double* y, double rate, double* w) const {
     limit(layout_.tangent(k), contact.tangential_stiffness.value_or(0.0) * ut);
     if (contact.sliding_point() && contact.friction.is_rate_strengthening()) {
       const ShearElement& element = *contact.sliding_point();
-      limit(layout_.tangent(k), above_sharp_newton * (element.stiffness + element.damping * rate) *
+      limit(layout_.tangent(k), newton_rounding_factor * (element.stiffness + element.damping * rate) *
                                     (element.body.magnitude(y) + contact.tangent.magnitude(y)));
     }
   }

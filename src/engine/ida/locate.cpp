@@ -52,7 +52,7 @@ std::array<double, events::max_degree + 1> powers_of(events::Bernstein p) {
   return a;
 }
 
-bool goes_one_way(const events::Bernstein& p) {
+bool is_monotone(const events::Bernstein& p) {
   bool rises = false, falls = false;
   for (int i = 0; i < p.degree; ++i) {
     rises = rises || p.b[events::z(i + 1)] > p.b[events::z(i)];
@@ -113,7 +113,7 @@ void HistoryTurningPoints::search(std::size_t shown, const events::StepHistory& 
   const double last = history.last(i);
   if (x_end == 1.0 && history.clearly_monotone(i)) return detector_.extend_range(c, field, last);
   const events::Bernstein p = history.polynomial(i);
-  if (goes_one_way(p)) return detector_.extend_range(c, field, x_end == 1.0 ? last : p.value(x_end));
+  if (is_monotone(p)) return detector_.extend_range(c, field, x_end == 1.0 ? last : p.value(x_end));
   const std::array<double, events::max_degree + 1> a = powers_of(p);
   detector_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
                  history.end() - history.begin());

@@ -17,8 +17,8 @@ namespace signorini::newmark {
 namespace {
 
 constexpr double unchanged = 1e-12;  // limit of the change of a bound, relative to the greatest contact force
-constexpr int slips = 100;           // key of a slipping contact: T is a load, so both directions have the same matrix
-constexpr int stops = 101;           // key of a contact without tangential stiffness that stops within the step
+constexpr int slips = 100;  // key of a slipping contact: T is a load, so both directions have the same matrix
+constexpr int stops = 101;  // key of a contact without tangential stiffness that stops within the step
 
 }  // namespace
 
@@ -214,7 +214,8 @@ engine::Step FrictionIteration::advance() {
   const bool whole = std::abs(h - segment_dt_) <= length_tolerance * segment_dt_;
   if (whole) h = segment_dt_;
   ++counters.steps;
-  std::string failure = t1_ > t0_ ? iterate(h, whole) : "the step is shorter than the resolution of time; a larger dt may help";
+  std::string failure =
+      t1_ > t0_ ? iterate(h, whole) : "the step is shorter than the resolution of time; a larger dt may help";
   step_.count(counters);
   if (!failure.empty()) {
     step.kind = engine::Step::Kind::failed;

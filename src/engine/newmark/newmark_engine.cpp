@@ -18,8 +18,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_halvings = 60;
 constexpr double rounding_of_guard = 1.0 / 16.0;  // part of level() up to which a guard is regarded as zero
-constexpr int max_tangents = 4;                   // after these tangents and secants the crossing is bracketed
-constexpr double spare = 1.0 / 16.0;              // step doubling: part of the tolerance below which steps grow
+constexpr int max_tangents = 4;       // after these tangents and secants the crossing is bracketed
+constexpr double spare = 1.0 / 16.0;  // step doubling: part of the tolerance below which steps grow
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
 constexpr double least_part = 1e-12;  // step doubling: shortest step, relative to dt
 constexpr double forcing_step = 0.5;  // step doubling: largest phase angle of a load per step, rad
@@ -346,7 +346,8 @@ engine::Step NewmarkEngine::advance() {
   t1_ = last ? segment_.end : grid_begin_ + static_cast<double>(++grid_steps_) * h;
   if (!(t1_ > t0_)) return failed("the step is shorter than the resolution of time; a larger dt may help");
   if (!take(h, t1_, !last, end_)) return failed(singular);
-  if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows and is no longer finite");
+  if (!end_.u.allFinite() || !end_.v.allFinite())
+    return failed("the motion overflows and is no longer finite");
   guards_.evaluate(end_, t1_);
 
   engine::Step step;

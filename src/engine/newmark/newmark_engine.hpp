@@ -96,16 +96,18 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   NewmarkWorkIntegrals works_;
   engine::Segment segment_;
   StepGuards guards_;
-  bool solves_massless_velocities_ = false;  // there are massless parts; their velocities follow from the equations
+  bool solves_massless_velocities_ =
+      false;  // there are massless parts; their velocities follow from the equations
   motion::Point begin_, end_, inner_, fine_, coarse_;
-  Vector a_before_;                  // accelerations at the beginning of the previous step; empty if there is none
-  double inner_time_ = 0.0;          // time of inner_; NaN: not set
-  double tried_ = 0.0;               // length of the step from begin_ to inner_; 0: inner_ is not set
-  double t0_ = 0.0, t1_ = 0.0;       // beginning and end of the last step
+  Vector a_before_;             // accelerations at the beginning of the previous step; empty if there is none
+  double inner_time_ = 0.0;     // time of inner_; NaN: not set
+  double tried_ = 0.0;          // length of the step from begin_ to inner_; 0: inner_ is not set
+  double t0_ = 0.0, t1_ = 0.0;  // beginning and end of the last step
   double h_ = 0.0, h_before_ = 0.0;  // length of the last step and of the previous step (0: none)
   double regular_ = 0.0;             // length of steps without events
   double segment_dt_ = 0.0;          // fixed steps: dt, or less in a short pulse
-  double grid_begin_ = 0.0;  // fixed steps end at grid_begin_ + grid_steps_ grid_length_, so that rounding does not add up
+  double grid_begin_ =
+      0.0;  // fixed steps end at grid_begin_ + grid_steps_ grid_length_, so that rounding does not add up
   double grid_length_ = 0.0;
   long grid_steps_ = 0;
   /// A guard that started at zero and never became positive at a tried step length.

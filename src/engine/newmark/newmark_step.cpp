@@ -367,7 +367,8 @@ void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::Co
 
 namespace {
 
-constexpr std::size_t finest = 1024;  // number of parts: T of a half wave then has a relative error of pi^2 / 12 / 1024^2
+constexpr std::size_t finest =
+    1024;  // number of parts: T of a half wave then has a relative error of pi^2 / 12 / 1024^2
 // Error limit relative to int |f|, for steps of length dt. Four steps over a half sine have a smaller error, three steps a
 // larger one.
 constexpr double lost = 1.0 / 16.0;
@@ -394,7 +395,7 @@ double trapezoid(const Values& f, std::size_t stride) {
 }
 
 /// Mean of f over the segment by the trapezoidal rule on steps of length dt and a shorter last step.
-double of_own_steps(const Piece& piece, double begin, double end, double dt) {
+double trapezoid_by_dt(const Piece& piece, double begin, double end, double dt) {
   double sum = 0.0, from = begin, before = piece.value(begin);
   for (int i = 1; from < end; ++i) {
     const double next = begin + i * dt, to = end - next <= length_tolerance * dt ? end : next;
@@ -419,16 +420,16 @@ bool between_rows(const Piece& piece, double begin, double end) {
 
 /// True if dt is proved short enough without the integral of |f|: for a sine plus a straight line, steps of length h have an
 /// error of at most h^2/12 |f''|, and int |f| >= |J|.
-bool clearly_passed(const Piece& piece, double begin, double end, double dt) {
+bool dt_clearly_suffices(const Piece& piece, double begin, double end, double dt) {
   if (piece.function || curves(piece.coefficients)) return false;
   const double turn = piece.omega * std::min(dt, end - begin);
   const double error = turn * turn / 12.0 * std::abs(piece.amplitude);
-  return error <= lost * (std::abs(of_own_steps(piece, begin, end, dt)) - error);
+  return error <= lost * (std::abs(trapezoid_by_dt(piece, begin, end, dt)) - error);
 }
 
 /// Number of equal steps that this piece of a history needs, or 1 if dt is short enough.
 std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
-  if (between_rows(piece, begin, end) || clearly_passed(piece, begin, end, dt)) return 1;
+  if (between_rows(piece, begin, end) || dt_clearly_suffices(piece, begin, end, dt)) return 1;
   Values f, size;
   for (std::size_t i = 0; i <= finest; ++i) {
     f[i] = piece.value(
@@ -436,7 +437,7 @@ std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
     size[i] = std::abs(f[i]);
   }
   const double impulse = trapezoid(f, 1), whole = trapezoid(size, 1);
-  if (std::abs(of_own_steps(piece, begin, end, dt) - impulse) <= lost * whole) return 1;
+  if (std::abs(trapezoid_by_dt(piece, begin, end, dt) - impulse) <= lost * whole) return 1;
   std::size_t parts = 2;
   const auto too_few = [&] {
     return end - begin > dt * static_cast<double>(parts) ||

@@ -141,7 +141,8 @@ void StepGuards::evaluate_general(std::size_t k, const motion::Point& point, dou
   const Rows& rows = segment_.decision->system->rows()[k];
   d.N = -(rows.normal.gap * d.gap + rows.normal.vn * d.vn +
           rows.normal.applied_normal_force * d.applied_normal_force);
-  d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // if rates_known(): no row of T contains velocities
+  d.T =
+      -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // if rates_known(): no row of T contains velocities
   for (std::size_t slot = model_.layout.guard(k); slot < model_.layout.guard_end(k); ++slot) {
     if (active_guards_.idle(slot)) continue;
     const Form& form = segment_.decision->form(slot);

@@ -56,8 +56,9 @@ class StepGuards {
   };
   /// Data of a contact for candidate_slots().
   struct ContactGuards {
-    bool watched = false;              // at least one guard is active
-    bool is_linear = false;            // guards and rows are plain forms, and nothing prescribes the motion of the contact
+    bool watched = false;  // at least one guard is active
+    bool is_linear =
+        false;  // guards and rows are plain forms, and nothing prescribes the motion of the contact
     bool needs_accelerations = false;  // a rate needs accelerations
     double gap = 0.0, surface = 0.0;   // initial gap; displacement of the surface
     double normal_gap = 0.0, tangent_N = 0.0, tangent_ut = 0.0;

@@ -25,7 +25,7 @@ Combination form_of(const Vector& v, double factor) {
 }
 
 /// True for a constant history without `start`: such a load has always acted.
-bool holds_since_ever(const HistorySpec& spec, const History& history) {
+bool acts_from_the_beginning(const HistorySpec& spec, const History& history) {
   return spec.type == HistoryType::constant && history.is_constant();
 }
 
@@ -87,7 +87,7 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
   load.name = name_of(spec, number);
   load.history = finite(scene::make_history(spec.history, key + ".history").scaled(spec.amplitude),
                         spec.place, key + ".amplitude");
-  load.is_static = holds_since_ever(spec.history, load.history);
+  load.is_static = acts_from_the_beginning(spec.history, load.history);
   load.history_unit = unit_of_history(spec.type);
   switch (spec.type) {
     case LoadType::force:
@@ -113,7 +113,7 @@ Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std
 }
 
 /// Relative rounding error of an element's direction (a difference of coordinates), in multiples of eps.
-double rounded_by_places(const DofMap& map, const element::FiniteElement& e) {
+double coordinate_roundoff(const DofMap& map, const element::FiniteElement& e) {
   double reach = 0.0, least = std::numeric_limits<double>::infinity();
   for (const int i : e.nodes()) {
     const element::MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(i)];
@@ -134,7 +134,7 @@ Combination strain_form(const DofMap& map, int member) {
     const element::FiniteElement& e = map.mesh.element(i);
     if (e.member() != member || map.within_body(e)) continue;
     const element::ElementVector forces = e.strain_forces();
-    const double known = 1.0 + rounded_by_places(map, e);
+    const double known = 1.0 + coordinate_roundoff(map, e);
     add_to(form, forces, map, i);
     const std::vector<int> numbers = map.element_numbers(i);
     for (std::size_t j = 0; j < numbers.size(); ++j)
@@ -154,7 +154,7 @@ void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>
     if (history.is_constant() && history.value(0.0) == 0.0) continue;
     const auto owner = static_cast<int>(scene.members.size() + i);
     Load load{fmt::format("temperature of body {}", body.name), strain_form(map, owner), history,
-              holds_since_ever(body.temperature, history)};
+              acts_from_the_beginning(body.temperature, history)};
     load.kind = LoadKind::temperature;
     load.direction_unit = unit::force;
     load.history_unit = unit::plain;
@@ -170,7 +170,7 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
       const History history = finite(scene::make_history(spec, path).scaled(factor), member.place, path);
       if (history.is_constant() && history.value(0.0) == 0.0) return;
       Load load{name_of_strain(kind, static_cast<int>(i)), strain_form(map, static_cast<int>(i)), history,
-                holds_since_ever(spec, history)};
+                acts_from_the_beginning(spec, history)};
       load.kind = kind;
       load.direction_unit = unit::force;
       load.history_unit = unit::plain;

@@ -52,8 +52,8 @@ class PrestressAssembly {
     }
     for (std::size_t k = 0; k < model.contacts.size(); ++k) {
       const Contact& contact = model.contacts[k];
-      bowls_.push_back(contact::extra_stiffness(scene.contacts[k], contact) *
-                       contact.tangent.dot(standing.u));
+      restoring_forces_.push_back(contact::extra_stiffness(scene.contacts[k], contact) *
+                                  contact.tangent.dot(standing.u));
     }
   }
 
@@ -180,7 +180,7 @@ class PrestressAssembly {
       for (std::size_t c = 0; c < 2; ++c) force[c] -= size * d[c];
     };
     if (const Direction* normal = spec.bearing_normal()) take(normal->vector, standing_.N[k]);
-    take(sliding_direction(spec), standing_.T[k] + bowls_[k]);
+    take(sliding_direction(spec), standing_.T[k] + restoring_forces_[k]);
     add(at->node, force, 1.0);
     for (const auto& [name, weight] : at->against) add(name, force, -weight);
   }
@@ -235,7 +235,7 @@ class PrestressAssembly {
   const StaticForces& standing_;
   std::vector<Plane> on_node_, uniform_;                   // forces per node; forces per length, per element
   std::vector<double> supports_;                           // positions of moving supports
-  std::vector<double> bowls_;                              // per contact: restoring force of a pendulum
+  std::vector<double> restoring_forces_;                   // per contact: restoring force of a pendulum
   Plane pull_{0.0, 0.0};                                   // acceleration of gravity minus that of the base
   std::map<std::pair<bool, std::string>, double> values_;  // factors of loads and strains, by name
 };

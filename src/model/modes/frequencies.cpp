@@ -18,14 +18,14 @@ namespace {
 // Null motions whose inertia is below this fraction of the largest one have no mass.
 constexpr double without_mass = 1e-12;
 // Values 1/omega^2 below this fraction of the largest one are rounding errors of motions without mass.
-constexpr double hardly_any = 1e-13;
-constexpr double no_part = 1e-9;  // smaller entries of a motion, relative to its largest, are zero
+constexpr double massless_share = 1e-13;
+constexpr double negligible_entry = 1e-9;  // smaller entries of a motion, relative to its largest, are zero
 // Shift for free motions, relative to the largest K_ii/M_ii: half of the digits remain.
 constexpr double shift_of_free = 1e-8;
 // Converged with shifts: relative change of omega^2 in one round.
-constexpr double still_near = 1e-11;
+constexpr double shifted_tolerance = 1e-11;
 // Converged without shifts: change in one round, relative to the largest value, and to each value.
-constexpr double still_high = 1e-12, still_each = 1e-9;
+constexpr double largest_value_tolerance = 1e-12, each_value_tolerance = 1e-9;
 
 NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
                     const SparseMatrix& damping) {
@@ -106,7 +106,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
   count = std::min(count, with_mass);
   for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
-    if (!(pairs.values[j] > hardly_any * pairs.values[pairs.values.size() - 1])) break;
+    if (!(pairs.values[j] > massless_share * pairs.values[pairs.values.size() - 1])) break;
     result.modes.push_back(
         mode_of(1.0 / std::sqrt(pairs.values[j]), q * (rest * pairs.vectors.col(j)), mass, damping));
   }
@@ -114,13 +114,13 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
 }
 
 /// Fixes motions that have neither mass nor stiffness; their degrees of freedom belong to no other motion.
-SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
+SparseMatrix fix_massless_null_motions(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
   std::vector<Combination> forms;
   for (Eigen::Index j = 0; j < motions.cols(); ++j) {
     Combination form;
     const double size = motions.col(j).cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < motions.rows(); ++i)
-      if (std::abs(motions(i, j)) > no_part * size)
+      if (std::abs(motions(i, j)) > negligible_entry * size)
         form.terms.emplace_back(static_cast<int>(i), motions(i, j));
     forms.push_back(std::move(form));
   }
@@ -194,7 +194,7 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
                    const std::vector<Combination>& fixed, int count) {
   const auto n = static_cast<int>(k0.rows());
   const FreeMotions free = free_motions(with_constraint_springs(k0, fixed), mass);
-  const SparseMatrix k = free.massless.cols() > 0 ? hold_undecided(k0, free.massless) : k0;
+  const SparseMatrix k = free.massless.cols() > 0 ? fix_massless_null_motions(k0, free.massless) : k0;
   Frequencies result;
   result.free_motions = static_cast<int>(free.heavy.cols());
   result.unstable = free.unstable;
@@ -216,10 +216,10 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
     const Eigen::ArrayXd change = (now - before).cwiseAbs().array();
     before = now;
     if (approaches) {
-      if ((change <= still_near * now.cwiseAbs().array() + 4.0 * space.noise()).all()) break;
+      if ((change <= shifted_tolerance * now.cwiseAbs().array() + 4.0 * space.noise()).all()) break;
       if (round % 4 == 0) space.approach(std::min(size, std::max(wanted, 5)));
-    } else if (change.maxCoeff() <= still_high * now.cwiseAbs().maxCoeff() &&
-               (change <= still_each * now.array()).all()) {
+    } else if (change.maxCoeff() <= largest_value_tolerance * now.cwiseAbs().maxCoeff() &&
+               (change <= each_value_tolerance * now.array()).all()) {
       break;
     }
   }

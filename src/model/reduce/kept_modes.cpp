@@ -18,7 +18,7 @@ constexpr double roundings = 1e-12;    // sums below this fraction of their term
 constexpr double shift_share = 1e-3;   // shift, relative to omega^2 of the first truncated or highest mode
 constexpr double least_shift = 1e-11;  // smallest shift with free motions, relative to the largest K_ii/M_ii
 constexpr int corrections = 6;         // iterations; each reduces the error by shift/omega^2 < shift_share
-constexpr double margin = 1e-6;  // relative distance in omega^2 below a mode at which modes are counted
+constexpr double margin = 1e-6;        // relative distance in omega^2 below a mode at which modes are counted
 
 double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   double greatest = 0.0;

@@ -66,9 +66,9 @@ void check_frozen(const Scene& scene, const Model& model) {
 }
 
 bool normal_needs_mass(const Contact& c) {
-  const bool tells_rate = contact::friction_varies(c) && c.tangential_stiffness;
+  const bool needs_normal_rate = contact::friction_varies(c) && c.tangential_stiffness;
   return !c.normal_force_given() &&
-         (c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.curved_surface());
+         (c.takes_impulses() || c.normal_damping > 0.0 || needs_normal_rate || c.curved_surface());
 }
 
 bool tangent_needs_mass(const Contact& c, double tangential_damping) {

@@ -30,7 +30,7 @@ namespace signorini::statics {
 /// Loads of one stage; they grow linearly during the stage, in addition to the loads of earlier stages.
 struct Stage {
   std::string name;
-  Vector load;  ///< dP; one entry per degree of freedom
+  Vector load;    ///< dP; one entry per degree of freedom
   int steps = 1;  ///< equal steps of the load factor; one StageEnd each
 };
 

@@ -88,7 +88,7 @@ std::vector<assembly::LineSpring> ConstraintRows::springs() const {
 
 namespace {
 
-constexpr double min_norm_friction = 1e-3;  // smallest pivot, relative to a row's largest entry
+constexpr double static_pivot_limit = 1e-3;  // smallest pivot, relative to a row's largest entry
 // Smallest slip by a motion of size 1 with which a contact can fix the motion.
 constexpr double holds = 1e-6;
 // Multiple of a negative stiffness of K that a row balances; enough even if two negative stiffnesses share the row.
@@ -105,7 +105,7 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     Eigen::Index pivot = 0;
-    while (std::abs(rows(i, pivot)) < min_norm_friction * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
+    while (std::abs(rows(i, pivot)) < static_pivot_limit * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
     taken[static_cast<std::size_t>(pivot)] = true;
     for (Eigen::Index k = i + 1; k < rows.rows(); ++k) {
       rows.row(k) -= rows(k, pivot) / rows(i, pivot) * rows.row(i);
@@ -198,9 +198,10 @@ struct Turning {
 };
 
 /// Free motions of one part of the structure, each with the contact that fixes it.
-std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::MatrixXd& motions,
-                                  const std::vector<int>& dofs, const std::vector<std::size_t>& contacts,
-                                  const std::vector<bool>& closed, bool pressed_only) {
+std::vector<FreeMotion> fix_free_motions_of_part(const StaticProblem& problem, const Eigen::MatrixXd& motions,
+                                                 const std::vector<int>& dofs,
+                                                 const std::vector<std::size_t>& contacts,
+                                                 const std::vector<bool>& closed, bool pressed_only) {
   Turning turning(motions, dofs, problem.map);
   Eigen::MatrixXd null = simple_motions(turning.others, problem.map, turning.dofs);
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
@@ -249,7 +250,7 @@ std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem, con
   if (problem.size() <= together_up_to) {
     std::vector<int> dofs(static_cast<std::size_t>(problem.size()));
     std::iota(dofs.begin(), dofs.end(), 0);
-    return hold_part(problem, motions, dofs, all, closed, pressed_only);
+    return fix_free_motions_of_part(problem, motions, dofs, all, closed, pressed_only);
   }
   std::vector<Combination> tangents;
   for (const Contact& c : problem.contacts) tangents.push_back(c.tangent);
@@ -269,7 +270,7 @@ std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem, con
   for (const assembly::Part& part : parts) {
     const Eigen::MatrixXd own = motions(Eigen::all, own_motions[number]);
     std::vector<FreeMotion> held =
-        hold_part(problem, own, part.dofs(), own_contacts[number++], closed, pressed_only);
+        fix_free_motions_of_part(problem, own, part.dofs(), own_contacts[number++], closed, pressed_only);
     std::move(held.begin(), held.end(), std::back_inserter(result));
   }
   return result;

@@ -122,7 +122,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
 }
 
 /// True if the reaction is zero up to rounding: its work along the normal is below no_reaction times the largest work.
-bool carries_nothing(const StaticProblem& problem, std::size_t k, double reaction) {
+bool has_no_reaction(const StaticProblem& problem, std::size_t k, double reaction) {
   const double greatest = problem.size() == 0 ? 0.0 : problem.load.cwiseAbs().maxCoeff();
   double squares = 0.0, sum = 0.0;
   for (const auto& [dof, factor] : problem.contacts[k].normal.terms) {
@@ -180,7 +180,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
       if (!problem.is_support(k)) continue;
       const double g = problem.gap(k, trial.u);
       // A contact that barely touches may have either state.
-      if (closed[k] && carries_nothing(problem, k, trial.reactions[k])) {
+      if (closed[k] && has_no_reaction(problem, k, trial.reactions[k])) {
         next[k] = opened[k];
         opened[k] = true;
       } else if (closed[k] && contacts[k].takes_impulses()) {

@@ -158,8 +158,8 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
   if (limits.empty()) return list;
   for (const RunFigures* run : {&reference, &other}) {
     if (run->done()) continue;
-    list.push_back(fmt::format("{}: {} at t = {:.9g}, so limits cannot be checked beyond that time", run->name,
-                               run->facts.outcome, run->t));
+    list.push_back(fmt::format("{}: {} at t = {:.9g}, so limits cannot be checked beyond that time",
+                               run->name, run->facts.outcome, run->t));
   }
   const bool whole = reference.done() && other.done();
   if (whole && comparison.ends_differ)
@@ -179,9 +179,9 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
     if (limit.name == sequence) {
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
-      list.push_back(fmt::format("{}: sequence differs from t = {:.9g} on, {} from then on exceed the limit {}",
-                                 other.name, split->t, base::count_text(unaligned, "event"),
-                                 base::format_number(limit.value)));
+      list.push_back(fmt::format(
+          "{}: sequence differs from t = {:.9g} on, {} from then on exceed the limit {}", other.name,
+          split->t, base::count_text(unaligned, "event"), base::format_number(limit.value)));
       continue;
     }
     const std::vector<Quantity> known = quantities(comparison, reference.facts.units);

@@ -199,7 +199,7 @@ class DirectoryLawChecker {
         add({row.t, to_string(event.type), event.contact, "row", 1.0, 0.0, {}, true});
     }
     for (Violation& v : law_checker_.check_instant(record)) add(std::move(v));
-    beside_others(row, record);
+    check_transition(row, record);
     rows_.instant(row, record);
     motion_.finish_instant(motion::Forcing(model_, row.t, motion::Side::after), row.t);
     for (std::size_t k = 0; k < model_.contacts.size() && !row.start; ++k)
@@ -209,7 +209,7 @@ class DirectoryLawChecker {
 
   /// Checks that are not made during a run: continuity from the previous instant, the start of the scene, and
   /// the forces on the structure.
-  void beside_others(const InstantRow& row, const law_check::InstantRecord& record) {
+  void check_transition(const InstantRow& row, const law_check::InstantRecord& record) {
     if (row.start) given_start(row);
     if (last_ && engine_.located) {
       law_check::CheckedSide from = record.before;

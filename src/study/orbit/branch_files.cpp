@@ -72,8 +72,9 @@ std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outp
     points.push_back(std::move(p));
   }
   if (points.size() < rows)
-    throw FileError((directory / "branch.csv").string(),
-                    fmt::format("has {} rows, expected {} up to the checkpoint in last/", points.size(), rows));
+    throw FileError(
+        (directory / "branch.csv").string(),
+        fmt::format("has {} rows, expected {} up to the checkpoint in last/", points.size(), rows));
   return points;
 }
 
@@ -158,9 +159,10 @@ BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, c
     std::ifstream orbit_stream(last / "orbit.json", std::ios::binary);
     const base::Json saved = base::parse_json(stream);
     if (saved.at("path") != options.path || saved.at("from") != options.from || saved.at("to") != options.to)
-      throw UsageError(fmt::format(
-          "--resume: the branch in {} follows {} from {} to {}; --over requests another branch", directory.string(),
-          saved.at("path").get<std::string>(), saved.at("from").get<double>(), saved.at("to").get<double>()));
+      throw UsageError(
+          fmt::format("--resume: the branch in {} follows {} from {} to {}; --over requests another branch",
+                      directory.string(), saved.at("path").get<std::string>(), saved.at("from").get<double>(),
+                      saved.at("to").get<double>()));
     check_owner(directory, saved.at("scene"), read, options);
     mark.parameter = saved.at("parameter");
     mark.towards_to = saved.at("towards_to");

@@ -136,18 +136,18 @@ namespace {
 
 constexpr Eigen::Index min_modes = 6;  // number of modes with stiffness in the first trial; chosen value
 // Phase of the cutoff frequency per sample: an oscillation at twice the cutoff exceeds its samples by at most 1 %.
-constexpr double radians_a_sample = 0.15;
+constexpr double phase_per_sample = 0.15;
 constexpr double max_growth = 4.0;    // growth of the cutoff from one trial to the next
 constexpr double least_growth = 2.0;  // smallest growth: the next trial then adds most of the missing part
 // Limit for the phase in apart() if few instants are compared: a factor of 1.85.
 constexpr double max_radians = 1.0;
 // Error of a trial if the finer trial misses as much or more: the whole displacement.
-constexpr double nothing_known = 1.0;
+constexpr double unknown_error = 1.0;
 // Order of `missed` in 1/cutoff, assumed until two trials show it.
 constexpr double usual_order = 2.0;
 constexpr int max_failures = 4;              // limit for successive trials that cannot run
 constexpr int max_moves = 8;                 // limit for moves of a cutoff if modes cannot be counted
-constexpr double move_by = 1.01;             // factor by which a cutoff is moved
+constexpr double cutoff_shift = 1.01;        // factor by which a cutoff is moved
 constexpr double raised = 1.5;               // factor for a cutoff with too few modes below it
 constexpr Eigen::Index min_compared = 2048;  // smallest number of compared instants; chosen value
 // Number of displacements that a trial stores for the comparison: 32 MB.
@@ -159,7 +159,7 @@ constexpr Eigen::Index max_compared = 1 << 22;
 
 /// Restricts a reduced model's displacements to the requested places. A run then computes the same motion, but its
 /// samples have only a few rows. Parts of the model that refer to the structure's degrees of freedom are removed.
-void see_places_alone(const std::vector<RequestedPlace>& asked, Model& model) {
+void restrict_to_places(const std::vector<RequestedPlace>& asked, Model& model) {
   const auto count = static_cast<Eigen::Index>(asked.size());
   Reduction& reduction = *model.reduction;
   Eigen::MatrixXd forms(count, reduction.shapes.rows());
@@ -251,7 +251,7 @@ class SystemMatrices {
       const int below = modes::count_modes_below(model.mass, model.stiffness, omega * omega);
       if (below >= least) return {omega, below};
       failures += below < 0;
-      omega *= below < 0 ? move_by : raised;
+      omega *= below < 0 ? cutoff_shift : raised;
     }
     return {omega, -1};
   }
@@ -288,7 +288,7 @@ struct Trial {
 /// Number of time steps that resolve this circular frequency.
 Eigen::Index samples_for(double omega, double t_end) {
   Eigen::Index samples = min_compared;
-  while (static_cast<double>(samples) < t_end * omega / radians_a_sample) samples *= 2;
+  while (static_cast<double>(samples) < t_end * omega / phase_per_sample) samples *= 2;
   return samples;
 }
 
@@ -300,7 +300,7 @@ Trial trial(const Scene& scene, const SystemMatrices& structure, const SystemMat
   const double step = scene.run.t_end / static_cast<double>(samples);
   TruncationError left_out = structure.left_out(cutoff, step);
   const std::vector<RequestedPlace> asked = requested_places(structure.model);
-  see_places_alone(asked, model);
+  restrict_to_places(asked, model);
   RunSpec run = scene.run;
   run.output_times.reset();
   run.frames.clear();
@@ -353,7 +353,7 @@ void judge(Trial& trial, const Trial& finer, double t_end) {
   trial.reported.error = moved + finer.missed;
   if (finer.missed == 0.0 || trial.missed == 0.0) return;
   const double left = finer.missed / trial.missed;
-  trial.reported.error = std::max(trial.reported.error, left < 1.0 ? moved / (1.0 - left) : nothing_known);
+  trial.reported.error = std::max(trial.reported.error, left < 1.0 ? moved / (1.0 - left) : unknown_error);
 }
 
 /// Runs trials with increasing numbers of modes, until the first one that is accurate enough.
@@ -408,7 +408,7 @@ class Search {
         failed.failure = e.what();
       }
       if (structure_.all() <= reduce::all_modes_up_to || cutoff_.kept == structure_.all()) break;
-      cutoff_ = structure_.cutoff_above(move_by * cutoff_.omega, cutoff_.kept);
+      cutoff_ = structure_.cutoff_above(cutoff_shift * cutoff_.omega, cutoff_.kept);
     }
     return failed;
   }

@@ -32,7 +32,7 @@ constexpr double tightest_rtol = 1e-14;
 
 /// A run is skipped if its expected duration exceeds this multiple of the time limit. Expected durations are
 /// only orders of magnitude.
-constexpr double hopeless = 30.0;
+constexpr double max_expected_ratio = 30.0;
 
 constexpr const char* flow_key = "run.flow";
 
@@ -318,7 +318,7 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
   WorkRow row;
   row.point = point;
   try {
-    if (const double seconds = seconds_of(point); seconds > hopeless * request_.limits.seconds) {
+    if (const double seconds = seconds_of(point); seconds > max_expected_ratio * request_.limits.seconds) {
       row.outcome = "too slow";
       row.reason = fmt::format("not tried: it would take {} s", run::seconds_text(seconds));
       report_.rows.push_back(std::move(row));

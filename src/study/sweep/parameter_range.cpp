@@ -158,9 +158,9 @@ std::vector<std::size_t> in_step(const std::vector<ParameterRange>& varied, std:
     if (j < i) return {};
     members.push_back(j);
     if (varied[j].values.size() != varied[i].values.size())
-      throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected equal numbers", varied[i].path,
-                                   base::count_text(varied[i].values.size(), "value"), varied[j].path,
-                                   varied[j].values.size()));
+      throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected equal numbers",
+                                   varied[i].path, base::count_text(varied[i].values.size(), "value"),
+                                   varied[j].path, varied[j].values.size()));
   }
   return members;
 }

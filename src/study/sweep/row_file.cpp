@@ -115,9 +115,9 @@ struct Place {
 
 void check(const Place& place, const char* names) {
   if (place.rank < place.size) return;
-  throw UsageError(
-      fmt::format("--share auto: {} give rank {} of {} processes, expected a rank below the number of processes",
-                  names, place.rank, place.size));
+  throw UsageError(fmt::format(
+      "--share auto: {} give rank {} of {} processes, expected a rank below the number of processes", names,
+      place.rank, place.size));
 }
 
 std::optional<Place> launcher(const Environment& environment) {

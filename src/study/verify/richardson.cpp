@@ -46,7 +46,7 @@ constexpr double second_order = 3.0;  // denominator of the extrapolation, 2^2 -
 // Number of later values that an error bar includes.
 constexpr std::size_t ahead = 5;
 /// Part of the last difference that a bar includes: errors of third order that vary from step to step.
-constexpr double by_chance = 0.02;
+constexpr double third_order_part = 0.02;
 /// Largest deviations from order two, for is_second_order() and for usable().
 constexpr double settled_within = 0.1, usable_within = 0.6;
 
@@ -91,7 +91,8 @@ Extrapolation extrapolate(const std::vector<StepTriple>& series, const SeriesKin
     const double fine = x[2] + (x[2] - x[1]) / second_order, coarse = x[1] + (x[1] - x[0]) / second_order;
     result.value.push_back(fine);
     const double last = std::abs(x[2] - x[1]);
-    off.push_back(is_second_order(kind.order) ? 2.0 * std::abs(fine - coarse) + by_chance * last : last);
+    off.push_back(is_second_order(kind.order) ? 2.0 * std::abs(fine - coarse) + third_order_part * last
+                                              : last);
   }
   result.error_bound = greatest_so_far(off);
   for (double& bar : result.error_bound)

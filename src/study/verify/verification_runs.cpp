@@ -285,9 +285,8 @@ void VerificationRuns::conclude(const Sequence& here, Verification& result) cons
   } else if (rough) {
     result.sentence = "newmark's steps are too coarse: its orders have not converged; use " + finer;
   } else if (here.until < t_end_) {
-    result.sentence =
-        fmt::format("ida and newmark agree until t = {:.9g} {}; {}", here.until, model_.units.time,
-                    here.reason);
+    result.sentence = fmt::format("ida and newmark agree until t = {:.9g} {}; {}", here.until,
+                                  model_.units.time, here.reason);
   } else if (short_bars) {
     result.sentence = "newmark's error bars are too short: exact agrees with ida; use " + finer;
   } else {

@@ -124,8 +124,8 @@ TEST_SUITE("unit/report/load_cases") {
     const auto one = runs.add("one", summary("1", "-1", "0"));
     CHECK_THROWS_WITH_AS(report::read_load_cases({one, runs.path / "none"}),
                          doctest::Contains("not a directory"), FileError);
-    CHECK_THROWS_WITH_AS(report::read_load_cases({one, one}), doctest::Contains("which another case has, too"),
-                         FileError);
+    CHECK_THROWS_WITH_AS(report::read_load_cases({one, one}),
+                         doctest::Contains("which another case has, too"), FileError);
     const auto newtons = runs.add("newtons", summary("1", "-1", "0", "N"));
     CHECK_THROWS_WITH_AS(report::read_load_cases({one, newtons}),
                          doctest::Contains("has the units N, m, s, but "), FileError);

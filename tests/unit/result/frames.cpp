@@ -92,7 +92,7 @@ TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnif
   frame.elements = {{"bar", frame.points[0].at, frame.points[1].at}};
   std::vector<result::Frame> frames{frame};
   result::subtract_translations(frames);
-  CHECK(frames[0].slid_x == doctest::Approx(0.5));
+  CHECK(frames[0].translation_x == doctest::Approx(0.5));
   CHECK(frames[0].points[0].at.x == doctest::Approx(0.5));
   CHECK(frames[0].points[0].at.ux == doctest::Approx(0.01));
   CHECK(frames[0].elements[0].b.ux == doctest::Approx(-0.01));
@@ -100,7 +100,7 @@ TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnif
   frame.points[1].at.ux = -0.4;  // a deformation as large as the motion: nothing is taken out
   frames = {frame};
   result::subtract_translations(frames);
-  CHECK(frames[0].slid_x == 0.0);
+  CHECK(frames[0].translation_x == 0.0);
   CHECK(frames[0].points[0].at.ux == 0.51);
 }
 

@@ -146,8 +146,8 @@ TEST_CASE("run directory: two runs at once do not share it") {
     feed(first, 0.0);
     (void)first.finish(report());
     result::RunDirectory third(folder / "run", s, m, {.force = true, .command_line = {}});
-    CHECK_THROWS_WITH_AS(feed(third, 0.0), doctest::Contains("another process is writing a run to this directory"),
-                         FileError);
+    CHECK_THROWS_WITH_AS(feed(third, 0.0),
+                         doctest::Contains("another process is writing a run to this directory"), FileError);
     CHECK_THROWS_AS(feed(second, 0.0), FileError);
     CHECK(json::parse(slurp(folder / "run" / "summary.json"))["outcome"]["kind"] == "done");
   }

@@ -113,15 +113,15 @@ TEST_CASE("contacts.* are those of [[stops]], too") {
 
 TEST_CASE("a path with * says how many tables it met") {
   const toml::table root = toml::parse(guided("tangential_stiffness = 1e3\n"));
-  CHECK(scene::tables_met(root, "contacts.*.friction") == "3 of [[contacts]], 2 of [[stops]]");
-  CHECK(scene::tables_met(root, "stops.*.friction") == "2 of [[stops]]");
-  CHECK(scene::tables_met(root, "masses.*.mass") == "3 of [[masses]]");
-  CHECK(scene::tables_met(root, "contacts.under-a.friction").empty());
-  CHECK(scene::tables_met(root, "contacts.*.tangent") ==
+  CHECK(scene::count_matching_tables(root, "contacts.*.friction") == "3 of [[contacts]], 2 of [[stops]]");
+  CHECK(scene::count_matching_tables(root, "stops.*.friction") == "2 of [[stops]]");
+  CHECK(scene::count_matching_tables(root, "masses.*.mass") == "3 of [[masses]]");
+  CHECK(scene::count_matching_tables(root, "contacts.under-a.friction").empty());
+  CHECK(scene::count_matching_tables(root, "contacts.*.tangent") ==
         "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   // A guide without a tangential stiffness stays without friction, and is told.
   const std::string smooth = guided("");
-  CHECK(scene::tables_met(toml::parse(smooth), "contacts.*.friction") ==
+  CHECK(scene::count_matching_tables(toml::parse(smooth), "contacts.*.friction") ==
         "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   const Scene scene = parse_scene(smooth, "test.toml", {{"contacts.*.friction", "0.7"}});
   CHECK(scene.contacts[0].friction.static_ == 0.7);

@@ -45,8 +45,8 @@ TEST_CASE("a record of PEER, in g") {
   const scene::TimeTable table = scene::read_time_table(older, "file", "key", {0, 0.0, true});
   CHECK(table.in_g);
   CHECK(table.times == std::vector<double>{0.0, 0.01, 0.02});
-  CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", {0, 0.0, true}).find("expected 4, the number given by NPTS") !=
-        std::string::npos);
+  CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", {0, 0.0, true})
+            .find("expected 4, the number given by NPTS") != std::string::npos);
   CHECK(refusal(heading + "no numbers\n1 2 3\n", {0, 0.0, true}).find("or similar in the fourth line") !=
         std::string::npos);
 }

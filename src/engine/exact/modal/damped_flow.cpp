@@ -34,7 +34,7 @@ void DampedFlow::forces(const ModalPoint& at, motion::Point& point) const {
 
 namespace {
 
-constexpr double worst_loss_of_trip = 1e-12, worst_dependence = 1e4;  // limits as in spectrum.cpp
+constexpr double max_round_trip_error = 1e-12, worst_dependence = 1e4;  // limits as in spectrum.cpp
 
 }  // namespace
 
@@ -75,7 +75,7 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
   const double scale =
       std::max({1.0, place.cwiseProduct(size).cwiseAbs().maxCoeff(), rate.cwiseAbs().maxCoeff()});
   out.round_trip = std::sqrt(back.cwiseProduct(size).squaredNorm() + rate_back.squaredNorm()) / scale;
-  if (!(out.round_trip < worst_loss_of_trip))
+  if (!(out.round_trip < max_round_trip_error))
     out.failure =
         "the modes of the contact state do not reproduce a motion that is converted to them and back";
   else if (!(out.condition < worst_dependence))

@@ -34,8 +34,8 @@ class Search {
   };
   [[nodiscard]] bool find_roots();
   void merge_roots();
-  [[nodiscard]] bool add_seen(const Root& root, DampedModes& out);
-  [[nodiscard]] bool add_unseen(Index j, DampedModes& out);
+  [[nodiscard]] bool add_coupled_root(const Root& root, DampedModes& out);
+  [[nodiscard]] bool add_uncoupled_roots(Index j, DampedModes& out);
   void spread(const Local& local, Wide l, const SmallVector<Wide>* right, const SmallVector<Wide>& left,
               Vectors& out) const;
   [[nodiscard]] Wide product(Wide l, const Vectors& left, const Vectors& right) const;
@@ -165,7 +165,7 @@ void Search::keep(Wide l, const Vectors& v, Wide product, DampedModes& out) {
       std::max(out.condition, static_cast<double>(std::sqrt(from) + size_of(l) * std::sqrt(left)));
 }
 
-bool Search::add_seen(const Root& root, DampedModes& out) {
+bool Search::add_coupled_root(const Root& root, DampedModes& out) {
   Local local;
   if (!pencil_.assemble_at(root.l, local)) return false;
   const SmallLu<Wide> lu(local.t, local.size);
@@ -209,7 +209,7 @@ bool Search::add_seen(const Root& root, DampedModes& out) {
 }
 
 /// Adds the two roots of mode j, which is coupled to no term but may be excited by the forces of terms.
-bool Search::add_unseen(Index j, DampedModes& out) {
+bool Search::add_uncoupled_roots(Index j, DampedModes& out) {
   const Long c = pencil_.decay()[j], d = pencil_.omega_squared()[j], inside = c * c / 4 - d;
   std::vector<Wide> roots;
   if (inside < Long(0)) {
@@ -266,9 +266,9 @@ DampedModes Search::run() {
   out.from_q.setZero(count, n_);
   out.from_rate = out.from_q;
   for (const Root& root : roots_)
-    if (!add_seen(root, out)) failure_ = "frequencies of the contact state that are nearly equal";
+    if (!add_coupled_root(root, out)) failure_ = "frequencies of the contact state that are nearly equal";
   for (const Index j : pencil_.uncoupled_modes())
-    if (failure_.empty() && !add_unseen(j, out) && failure_.empty())
+    if (failure_.empty() && !add_uncoupled_roots(j, out) && failure_.empty())
       failure_ = "an uncoupled mode resonates with another mode";
   if (!failure_.empty()) {
     out.failure = failure_;

@@ -79,7 +79,7 @@ std::string DampedMotion::start(const engine::Segment& segment, const Vector& q,
   if (!modes.failure.empty()) return modes.failure;
   lengths_ = modes.shape.colwise().norm();
   const Eigen::VectorXd omega = basis_.omega_squared().cwiseMax(0.0).cwiseSqrt();
-  swings_ = (omega.asDiagonal() * modes.shape).colwise().norm().transpose();
+  omega_shape_norms_ = (omega.asDiagonal() * modes.shape).colwise().norm().transpose();
   const double t = decision_->jet.t;
   time_ = TimeBasis(model_, t);
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
@@ -194,7 +194,7 @@ SumTerms DampedMotion::terms(const ModalPoint& at) const {
   const Eigen::VectorXd y = at.y.cwiseAbs(), b = time_.at(at.time).cwiseAbs();
   return {lengths_.dot(y) + place_lengths_.dot(b),
           lengths_.cwiseProduct(root().cwiseAbs()).dot(y) + rate_lengths_.dot(b),
-          swings_.dot(y) + place_swings_.dot(b)};
+          omega_shape_norms_.dot(y) + place_swings_.dot(b)};
 }
 
 void DampedMotion::advance(const ModalPoint& from, double time, ModalPoint& to) const {

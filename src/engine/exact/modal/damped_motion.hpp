@@ -107,7 +107,7 @@ class DampedMotion {
   const decide::Decision* decision_ = nullptr;
   TimeBasis time_;
   Eigen::MatrixXd forced_response_, forced_response_rate_, change_;
-  Eigen::VectorXd lengths_, swings_;  // norms of the shapes, and of omega times the shapes
+  Eigen::VectorXd lengths_, omega_shape_norms_;  // norms of the shapes, and of omega times the shapes
   Eigen::VectorXd place_lengths_, rate_lengths_, place_swings_;
   std::vector<ContactQuantities> contacts_;
 };

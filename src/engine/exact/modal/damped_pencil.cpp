@@ -14,8 +14,9 @@ using Long = DampedPencil::Long;
 constexpr Long near_pole = 0.03L;      // modes with |P_j| below this part of |l|^2 + d_j are in G; chosen
 constexpr std::size_t max_near = 3;    // largest number of modes in G
 constexpr double equal_poles = 1e-13;  // relative distance below which poles are regarded as equal
-constexpr double unseen_part = 1e-13;  // largest coupling of an uncoupled mode, relative to that of equal poles
-constexpr int max_steps = 30;          // limit of Newton steps; 3 to 5 are usual
+constexpr double uncoupled_part =
+    1e-13;                     // largest coupling of an uncoupled mode, relative to that of equal poles
+constexpr int max_steps = 30;  // limit of Newton steps; 3 to 5 are usual
 
 }  // namespace
 
@@ -66,7 +67,7 @@ void DampedPencil::rotate_equal_poles() {
       seen.col(a) = terms_[static_cast<std::size_t>(a)].v.segment(first, rows);
     const base::EigenPairs pairs = base::symmetric_eigen(seen * seen.transpose());
     rotations_.emplace_back(first, pairs.vectors);
-    const double most = unseen_part * seen.cwiseAbs().maxCoeff();
+    const double most = uncoupled_part * seen.cwiseAbs().maxCoeff();
     const Eigen::MatrixXd turned = pairs.vectors.transpose() * seen;
     for (Index a = 0; a < terms; ++a) {
       ModalTerm& term = terms_[static_cast<std::size_t>(a)];
@@ -149,7 +150,8 @@ bool DampedPencil::assemble_at(Wide l, Local& local) const {
     }
     add_far(j, l, local);
   }
-  if (local.near.size() > max_near) {  // keep the modes with the smallest |P_j| in G; the sums take the others
+  if (local.near.size() >
+      max_near) {  // keep the modes with the smallest |P_j| in G; the sums take the others
     std::sort(local.near.begin(), local.near.end(), [&](Index i, Index j) {
       return size_of(pole(i, l)) * (own + Long(omega_squared_[j])) <
              size_of(pole(j, l)) * (own + Long(omega_squared_[i]));

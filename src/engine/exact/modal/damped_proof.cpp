@@ -9,9 +9,9 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double quarter_of_guard = 0.25;          // part of a guard: limit of the sum of all fast modes
-constexpr double noise_beside_guard = 1.0 / 16.0;  // part of the decision's rounding bound
-constexpr double turn_of_step = 4.0;               // largest |l| h of a slow mode
+constexpr double quarter_of_guard = 0.25;        // part of a guard: limit of the sum of all fast modes
+constexpr double guard_noise_part = 1.0 / 16.0;  // part of the decision's rounding bound
+constexpr double turn_of_step = 4.0;             // largest |l| h of a slow mode
 constexpr std::size_t highest_degree = 30;
 constexpr double slow_rounding = 1.0 + 1e-12;
 
@@ -151,7 +151,7 @@ bool DampedProof::find_zero(const Watched& guard, const ModalPoint& at, Passage&
   GuardOnStep on_step;
   on_step.p = std::move(part.p);
   on_step.slack = part.rest + rounding::few_operations * motion_.magnitude(watched(guard), at) +
-                  noise_beside_guard * guard.noise;
+                  guard_noise_part * guard.noise;
   on_step.fast_bound = part.fast_bound;
   on_step.fast_rate_bound = part.fast_rate_bound;
   on_step.noise = guard.noise;

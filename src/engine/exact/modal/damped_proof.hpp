@@ -67,9 +67,9 @@ class DampedProof {
   Eigen::VectorXd amplitude_, size_;  // |y|, |l|
   Eigen::Index slow_ = 0;             // number of slow modes
   std::size_t count_ = 0;             // number of coefficients of the slow modes
-  double h_ = 0.0, turn_ = 0.0;  // turn_: largest |l| h of slow modes and w h of slow waves in b
-  bool all_slow_ = false;        // the next step treats all modes as slow
-  Eigen::MatrixXcd terms_;       // y_k (l_k h)^j / j! of slow modes k
+  double h_ = 0.0, turn_ = 0.0;       // turn_: largest |l| h of slow modes and w h of slow waves in b
+  bool all_slow_ = false;             // the next step treats all modes as slow
+  Eigen::MatrixXcd terms_;            // y_k (l_k h)^j / j! of slow modes k
   std::vector<motion::ContactSeries> series_;
 };
 

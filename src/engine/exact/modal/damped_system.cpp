@@ -103,7 +103,7 @@ std::optional<Damping> damping_of(const Model& model) {
 namespace {
 
 /// True if rigid terms constrain the same motion, so that their forces are not unique (linear/redundant_rows.hpp).
-bool holds_twice(const std::vector<ModalTerm>& terms) {
+bool has_redundant_constraints(const std::vector<ModalTerm>& terms) {
   std::vector<Index> rigid;
   for (std::size_t a = 0; a < terms.size(); ++a)
     if (terms[a].rigid) rigid.push_back(static_cast<Index>(a));
@@ -246,7 +246,7 @@ DampedState DampedSystem::make(const contact::ContactStates& contact_states) con
     out.modes.failure = "too many springs, constraints and dampers for the modes of a contact state";
     return out;
   }
-  if (holds_twice(out.terms)) {
+  if (has_redundant_constraints(out.terms)) {
     out.modes.failure = "several contacts that restrain the same motion";
     return out;
   }

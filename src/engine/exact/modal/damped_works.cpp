@@ -21,10 +21,9 @@ std::complex<double> grown(std::complex<double> s, double h) {
 void DampedWorkIntegrals::start() {
   const Model& model = motion_.model();
   const double t = motion_.decision().jet.t;
-  courses_overlap_ = false;
+  has_forced_products_ = false;
   loads_.clear();
-  std::vector<std::pair<TimeCoefficients, ModalQuantity>>
-      alike;  // loads with equal histories are combined
+  std::vector<std::pair<TimeCoefficients, ModalQuantity>> alike;  // loads with equal histories are combined
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const TimeCoefficients factor = motion_.time().of(model.loads[i].history.piece(t));
     if (factor.isZero(0.0)) continue;
@@ -77,7 +76,7 @@ void DampedWorkIntegrals::prepare_loss() {
     loss_responses_.row(k) =
         2.0 * motion_.time().response(-motion_.root()[k], courses.row(k).transpose()).transpose();
   forced_loss_ = rate.transpose() * damped;
-  courses_overlap_ = courses_overlap_ || !forced_loss_.isZero(0.0);
+  has_forced_products_ = has_forced_products_ || !forced_loss_.isZero(0.0);
 }
 
 ModalQuantity DampedWorkIntegrals::without_modes(TimeCoefficients course) const {
@@ -100,7 +99,7 @@ DampedWorkIntegrals::ProductIntegral DampedWorkIntegrals::product_integral(Modal
   add_responses(g.row, f.time_coefficients, pairing.responses);
   pairing.pairs = !f.row.isZero(0.0) && !g.row.isZero(0.0);
   pairing.courses = !f.time_coefficients.isZero(0.0) && !g.time_coefficients.isZero(0.0);
-  courses_overlap_ = courses_overlap_ || pairing.courses;
+  has_forced_products_ = has_forced_products_ || pairing.courses;
   pairing.f = std::move(f);
   pairing.g = std::move(g);
   return pairing;
@@ -182,7 +181,7 @@ void DampedWorkIntegrals::add(const ModalPoint& from, const ModalPoint& to,
   if (!(to.time > from.time)) return;
   const TimeBasis& time = motion_.time();
   const Stretch s{from, to, time.at(from.time), time.at(to.time),
-                  courses_overlap_ ? time.products(from.time, to.time) : Eigen::MatrixXd()};
+                  has_forced_products_ ? time.products(from.time, to.time) : Eigen::MatrixXd()};
   for (const ProductIntegral& load : loads_) works.loads += integral(load, s);
   works.damping += loss(s);
   for (std::size_t c = 0; c < contacts_.size(); ++c) add_contact(c, s, works);

@@ -57,9 +57,9 @@ class DampedWorkIntegrals {
     std::optional<ProductIntegral> applied_normal_force, slip, surface, dashpot;
   };
   std::vector<ContactProducts> contacts_;
-  Eigen::MatrixXd forced_loss_;      // dissipation by two forced parts
-  Eigen::MatrixXcd loss_responses_;  // dissipation by a mode and a forced part
-  bool courses_overlap_ = false;     // at least one integral has products of two forced parts
+  Eigen::MatrixXd forced_loss_;       // dissipation by two forced parts
+  Eigen::MatrixXcd loss_responses_;   // dissipation by a mode and a forced part
+  bool has_forced_products_ = false;  // at least one integral has products of two forced parts
 };
 
 }  // namespace signorini::modal

@@ -31,7 +31,7 @@ bool decreases(const GuardOnStep& guard, double h, double from, double to) {
 
 /// Only zero of g between two places of the step, by the Illinois method (bracketed secants). `from` if g(from) <= 0; `to` if
 /// g(to) >= 0.
-double only_fall(const std::function<double(double)>& g, double from, double to) {
+double only_crossing(const std::function<double(double)>& g, double from, double to) {
   double low = g(from), high = g(to);
   if (!(low > 0.0)) return from;
   if (!(high < 0.0)) return to;
@@ -60,7 +60,7 @@ double only_fall(const std::function<double(double)>& g, double from, double to)
 }
 
 /// Part of find_guard_zero() for a guard that starts at zero and is represented by its leading derivative.
-bool leave_zero(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& arming, double& limit) {
+bool examine_rising_guard(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& arming, double& limit) {
   std::vector<double>& q = guard.p;
   double scale = 0.0;
   for (const double entry : q) scale += std::abs(entry);
@@ -100,7 +100,7 @@ bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
     passage.triggered = slot;
     passage.unseen = !guard.armed;
   };
-  if (guard.leading_order > 0) return leave_zero(guard, slot, arming, limit);
+  if (guard.leading_order > 0) return examine_rising_guard(guard, slot, arming, limit);
   if (!guard.armed) {
     p[0] += guard.noise + guard.slack;
     const events::FirstRoot fall = events::first_root(p.data(), degree, 0.0);
@@ -120,7 +120,7 @@ bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
   p[0] = start + off;
   const events::FirstRoot certain = events::first_root(p.data(), degree, 0.0);
   if (certain.kind == events::FirstRoot::Kind::crossing && decreases(guard, h, doubtful.x, certain.x))
-    fires(only_fall(value_at, doubtful.x, certain.x));
+    fires(only_crossing(value_at, doubtful.x, certain.x));
   else
     limit = std::min(limit, doubtful.x);
   return true;

@@ -37,7 +37,8 @@ namespace signorini::modal {
 /// A guard g(t + h x) on a step of length h, 0 <= x <= 1.
 struct GuardOnStep {
   std::vector<double> p;  ///< p; if leading_order > 0, the time derivative of this order
-  double slack = 0.0, fast_bound = 0.0, fast_rate_bound = 0.0;  ///< slack, R and R' (per time); of p if leading_order > 0
+  double slack = 0.0, fast_bound = 0.0,
+         fast_rate_bound = 0.0;   ///< slack, R and R' (per time); of p if leading_order > 0
   double noise = 0.0;             ///< rounding bound of the guard at the beginning of the segment
   std::size_t leading_order = 0;  ///< see ActiveGuards::leading_order()
   bool armed = false;             ///< the guard was clearly positive
@@ -116,7 +117,7 @@ class ModalProof {
   };
   using WatchedValues = std::array<double, 4>;  // N, T, g, ut: order of TurningPointDetector::watched_fields
   [[nodiscard]] WatchedValues fast_bounds(std::size_t contact, bool of_rate) const;
-  [[nodiscard]] WatchedValues one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
+  [[nodiscard]] WatchedValues monotone_parts(std::size_t contact, double x_end, std::vector<double>& p) const;
   void watch(const engine::Segment& segment, const StateModes& state);
   [[nodiscard]] double value(const Watched& guard, const ModalPoint& at) const;
   [[nodiscard]] double derivative(const Watched& guard, const ModalPoint& at) const;
@@ -154,7 +155,8 @@ class ModalProof {
   std::vector<double> surface_;
   events::ActiveGuards active_guards_;
   std::vector<Watched> guards_;
-  std::vector<std::vector<double>> static_normal_, static_tangent_;  // [c][k]: sum of a_i p_i / l_i for i >= k
+  std::vector<std::vector<double>> static_normal_,
+      static_tangent_;  // [c][k]: sum of a_i p_i / l_i for i >= k
   std::vector<double> amplitude_, pair_amplitude_, coefficients_;
   std::vector<Complex> pair_coefficients_;
   std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes of terms, for rounding bounds

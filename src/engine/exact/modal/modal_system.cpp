@@ -189,7 +189,8 @@ ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) c
 
 /// For each of N, T, g and ut: the s up to which it is monotone or constant on [0, s x_end], s <= 1. N is a function of g; T is
 /// a function of g in slip and of ut in stick.
-ModalProof::WatchedValues ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
+ModalProof::WatchedValues ModalProof::monotone_parts(std::size_t c, double x_end,
+                                                     std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
   const WatchedValues ripple = fast_bounds(c, true);
   const auto goes = [&](motion::ContactSeries::Field rate, double off) {
@@ -209,7 +210,7 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
   std::vector<double> p(degree_ + 1);
   double safe = 1.0;  // relative to x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
-    const WatchedValues ripple = fast_bounds(c, false), forth = one_way(c, x_end, p);
+    const WatchedValues ripple = fast_bounds(c, false), forth = monotone_parts(c, x_end, p);
     const WatchedValues unsure = of_law(laws_[c], rounding::elimination * normal_size_[c].place,
                                         rounding::elimination * tangent_size_[c].place);
     for (std::size_t f = 0; f < ripple.size(); ++f) {

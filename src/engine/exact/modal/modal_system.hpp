@@ -43,7 +43,7 @@ struct StateModes {
   std::vector<Amplitudes> normal, tangent;            ///< coefficients of each mode in n_k . u and t_k . u
   std::vector<Amplitudes> from_normal, from_tangent;  ///< Y n_k, Y t_k
   std::vector<Amplitudes> load, from_load;            ///< coefficients of each mode in load_i . u; Y load_i
-  ModePairs pairs;                                    ///< computed if a contact slips and X is stored explicitly
+  ModePairs pairs;  ///< computed if a contact slips and X is stored explicitly
 };
 
 /// Modal forces Y p due to the loads after time t and the constant parts of the contact forces in the contact state.

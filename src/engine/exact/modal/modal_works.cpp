@@ -11,7 +11,8 @@ namespace {
 
 constexpr double least_velocity =
     1e-9;  // relative to the greatest modal velocity: works of slower modes are below rounding
-constexpr double no_frequency = 1e-12, least_frequency = 1e-3;  // limits of omega^2 t_end^2: below the first, zero
+constexpr double no_frequency = 1e-12,
+                 least_frequency = 1e-3;  // limits of omega^2 t_end^2: below the first, zero
 
 template <class S>
 using Ends = ModalWorkIntegrals::Ends<S>;

@@ -9,9 +9,10 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double filling = 1e-30;       // replaces zero entries of U, relative to the greatest entry
-constexpr double equal = 1e-13;         // relative distance below which poles are regarded as equal
-constexpr double unseen_share = 1e-13;  // largest coupling of an uncoupled mode, relative to that of equal modes
+constexpr double filling = 1e-30;  // replaces zero entries of U, relative to the greatest entry
+constexpr double equal = 1e-13;    // relative distance below which poles are regarded as equal
+constexpr double uncoupled_share =
+    1e-13;  // largest coupling of an uncoupled mode, relative to that of equal modes
 /// Limit of |X Y q - q| for a q with entries between -1 and 1; chosen. The contact states of the pipeline have 1e-13 at 201
 /// unknowns, and the relative error of an event is about the same. The test "flows: stiff beside soft" depends on this limit.
 constexpr double worst_round_trip = 1e-12;
@@ -96,7 +97,7 @@ void Spectrum::rotate_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v) {
       matrix->middleRows(row, rows) = (pairs.vectors.transpose() * matrix->middleRows(row, rows)).eval();
     const double most = v.middleRows(row, rows).cwiseAbs().maxCoeff();
     for (Eigen::Index j = 0; j < rows; ++j)
-      if (v.row(row + j).cwiseAbs().maxCoeff() <= unseen_share * most) v.row(row + j).setZero();
+      if (v.row(row + j).cwiseAbs().maxCoeff() <= uncoupled_share * most) v.row(row + j).setZero();
   }
 }
 

@@ -190,17 +190,19 @@ class Spectrum {
   void test();
 
   std::size_t rank_;
-  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> rotations_;  // per group of equal poles: first index, rotation
-  std::vector<Eigen::Index> coupled_, uncoupled_;                    // indices among all modes
+  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>>
+      rotations_;                                  // per group of equal poles: first index, rotation
+  std::vector<Eigen::Index> coupled_, uncoupled_;  // indices among all modes
   Eigen::MatrixXd u_uncoupled_;
   std::vector<double> uncoupled_poles_;
   // Data of the coupled modes:
   std::size_t n_ = 0;
   Poles poles_;
   Eigen::MatrixXd u_, v_;
-  std::vector<double> terms_;                                // v_i u_i^T, rank^2 numbers for each pole
-  std::vector<double> weights_;                              // same numbers, ordered by matrix entry: n numbers for each
-  std::vector<std::size_t> home_, group_begin_, group_end_;  // pole of each root; ends of each group of equal poles
+  std::vector<double> terms_;    // v_i u_i^T, rank^2 numbers for each pole
+  std::vector<double> weights_;  // same numbers, ordered by matrix entry: n numbers for each
+  std::vector<std::size_t> home_, group_begin_,
+      group_end_;  // pole of each root; ends of each group of equal poles
   Roots<double> real_;
   Roots<Complex> pairs_;
   std::vector<std::size_t> order_;  // for each amplitude: index in real_ or, after its end, in uncoupled_

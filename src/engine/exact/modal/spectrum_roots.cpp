@@ -17,10 +17,10 @@ namespace signorini::modal {
 namespace {
 
 constexpr int max_sweeps = 200;
-constexpr double nearly = 1e-9;  // relative step below which convergence may be limited by rounding
-constexpr double straight =
-    1e-14;                     // relative step for which a linear update of G0 is accurate
-constexpr double lift = 1e-3;  // imaginary shift of initial values: complex roots are not found from the real axis
+constexpr double nearly = 1e-9;     // relative step below which convergence may be limited by rounding
+constexpr double straight = 1e-14;  // relative step for which a linear update of G0 is accurate
+constexpr double lift =
+    1e-3;  // imaginary shift of initial values: complex roots are not found from the real axis
 constexpr double real_share = 1e-7;  // largest relative imaginary part of the offset of a real root
 constexpr double paired = 1e-8;      // largest relative distance of a root from the conjugate of its partner
 

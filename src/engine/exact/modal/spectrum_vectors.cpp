@@ -12,9 +12,11 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double close_roots = 1e-3;  // relative distance of eigenvalues below which rounding mixes their vectors
+constexpr double close_roots =
+    1e-3;  // relative distance of eigenvalues below which rounding mixes their vectors
 constexpr std::size_t max_neighbours = 6;
-constexpr double alike = 1e-5;  // relative distance of eigenvalues below which products by c and h lose five digits
+constexpr double alike =
+    1e-5;  // relative distance of eigenvalues below which products by c and h lose five digits
 
 }  // namespace
 
@@ -303,7 +305,8 @@ void Spectrum::store_matrices() {
   for (const Close& pair : close_) y_.row(place[pair.k]) -= pair.product * mixed.at(pair.l);
   for (std::size_t j = 0; j < uncoupled_.size(); ++j) {
     const Eigen::Index at = place[real_.size() + j];
-    y_.row(at) = -(right.row(uncoupled_[j]) * y_).eval();  // this row of y_ and this column of `right` are still zero
+    y_.row(at) =
+        -(right.row(uncoupled_[j]) * y_).eval();  // this row of y_ and this column of `right` are still zero
     y_(at, uncoupled_[j]) += 1.0;
     right(uncoupled_[j], at) = 1.0;
   }

@@ -8,7 +8,8 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double turn_of_panel = 2.0;  // phase angle of the fastest wave per panel of quadrature, rad; exact to rounding
+constexpr double turn_of_panel =
+    2.0;  // phase angle of the fastest wave per panel of quadrature, rad; exact to rounding
 
 std::size_t degree_of(const Piece& piece) {
   std::size_t degree = piece.coefficients.size();
@@ -128,7 +129,8 @@ double TimeBasis::cancellation(std::complex<double> l, double time) const {
   double most = 0.0;
   if (size > 0.0) {  // terms j! / (l time)^(j + 1), relative to p time
     double term = 1.0 / (size * time);
-    if (l.imag() != 0.0 || l.real() > 0.0) term = std::max(term, term * term);  // p / l^2 relative to p time^2 / 2
+    if (l.imag() != 0.0 || l.real() > 0.0)
+      term = std::max(term, term * term);  // p / l^2 relative to p time^2 / 2
     for (std::size_t j = 0; j < driven_; ++j) {
       most = std::max(most, term);
       term *= static_cast<double>(j + 1) / (size * time);

@@ -62,7 +62,7 @@ using LongVector = std::vector<Long>;
 
 constexpr std::size_t widest_band = 48;  // largest half-width of the band, without the diagonal
 constexpr double free_share = 1e-14;     // part of the highest omega^2 below which a motion is free
-constexpr double doubtful = 100.0;       // times free_share: below, free motion and mode cannot be distinguished
+constexpr double doubtful = 100.0;  // times free_share: below, free motion and mode cannot be distinguished
 constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are computed together
 constexpr int more_halvings =
     11;  // of a bracket with one mode; each inverse iteration then reduces the error by 2000

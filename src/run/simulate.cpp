@@ -1,4 +1,4 @@
-// Runs a model and reports: converts to the units of the computation, and back.
+// Runs a model in the units of the computation, and reports its results in the units of the scene.
 
 #include "signorini/simulate.hpp"
 

@@ -62,14 +62,16 @@ std::vector<std::string> fast_load_warnings(const Model& model, const RunSpec& r
     }
     if (omega * *run.dt > max_turned)
       sentences.push_back(fmt::format(
-          "'{}' turns by {:.3g} rad in a step of run.dt = {:.6g}, which does not resolve it; use a "
-          "smaller dt",
+          "'{}': its phase advances by {:.3g} rad in a step of run.dt = {:.6g}, which is too coarse; use a "
+          "smaller run.dt",
           load.name, omega * *run.dt, model::time_in_scene_units(model, *run.dt)));
   }
   return sentences;
 }
 
 namespace {
+
+// Texts of warnings. t: time in the unit of the scene.
 
 
 std::string impact_gain(double t, double gain) {

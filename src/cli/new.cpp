@@ -1,4 +1,4 @@
-// signorini new NAME: writes a commented scene as a starting point.
+// signorini new NAME: writes a scene file with comments as a starting point.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -101,7 +101,7 @@ void add_new(Program& program) {
   command->add_option("NAME", options->name, "the file to write; .toml is added")->required();
   std::string names;
   for (const std::string& name : template_names()) names += (names.empty() ? "" : ", ") + name;
-  command->add_option("--from", options->from, "which one: " + names + "; default: block")
+  command->add_option("--from", options->from, "template of the scene: " + names + " (default: block)")
       ->option_text("NAME");
   command->add_flag("--force", options->force, "replace an existing file");
   command->callback([&program, options] {

@@ -71,7 +71,7 @@ namespace {
 
 volatile std::sig_atomic_t noting = 0, noted = 0;
 
-// A signal handler may only make POSIX's async-signal-safe calls.
+// Signal handler; it may call only functions that are async-signal-safe in POSIX.
 void end_or_note(int signal) {
   if (signal != SIGALRM && noting != 0 && noted == 0) {
     noted = 1;

@@ -240,7 +240,7 @@ std::string stiffness_rows(const Model& model, const check::CheckReport& report)
   }
   return "contact stiffness, and the stiffness of the structure with all other contacts sticking at the same "
          "place\n"
-         "(ratio far above 1: as good as rigid; far below 1: the contact is the soft part):\n" +
+         "(ratio far above 1: the contact is nearly rigid; far below 1: it is much softer than the structure):\n" +
          table.str() + more(report.stiffness.size()) + "\n";
 }
 
@@ -284,15 +284,15 @@ std::string reduction_lines(const Model& model) {
   if (r.free_modes > 0) text += fmt::format(", {} of them free motions", r.free_modes);
   text += r.highest_kept > 0.0 ? fmt::format("; highest kept {} {}", number(r.highest_kept), per_time)
                                : std::string("; none with stiffness");
-  text += r.truncated_modes > 0 ? fmt::format(", first left out {} {}\n", number(r.first_truncated), per_time)
-                                : std::string(", none left out\n");
+  text += r.truncated_modes > 0 ? fmt::format(", lowest omitted {} {}\n", number(r.first_truncated), per_time)
+                                : std::string(", none omitted\n");
   text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
   if (r.massive_shapes > 0)
     text += fmt::format(", {} with mass up to {} {}", r.massive_shapes, number(r.highest_massive), per_time);
-  text += fmt::format("; oscillations after jumps of loads are left out, with an amplitude of {} {}\n",
+  text += fmt::format("; after jumps of loads the omitted modes would oscillate with an amplitude of {} {}\n",
                       number(r.ringing), model.units.length);
   const std::string give = unit(model.units.length + "/" + model.units.force);
-  Table table({"static compliance", "all modes" + give, "left out" + give, "share"},
+  Table table({"static compliance", "all modes" + give, "omitted" + give, "share"},
               {false, true, true, true});
   for (std::size_t i = 0; i < r.shares.size() && i < max_table_rows; ++i) {
     const ComplianceShare& s = r.shares[i];

@@ -52,7 +52,7 @@ std::string unexpected(const CLI::App& command) {
   const std::string name = option->substr(0, option->find('='));
   const std::vector<std::string> names = option_names(command);
   std::string text = fmt::format("{}: no option {}", command.get_name(), name);
-  if (name == "--engine" && knows(command, "--set")) return text + "; --set run.engine=NAME does it";
+  if (name == "--engine" && knows(command, "--set")) return text + "; use --set run.engine=NAME";
   return text + meant(name, names);
 }
 

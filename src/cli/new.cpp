@@ -84,7 +84,7 @@ ExitCode write_new_scene(const std::string& name, const std::string& from, bool 
   result::write_file(path, text);
   for (const QuakeOptions& options : quakes) write_quake(options);
   for (const std::string& file : files) print(fmt::format("{}\n", file));
-  print_note(fmt::format("signorini check {0}, and then signorini run {0}", path.string()));
+  print_note(fmt::format("next commands: signorini check {0}, then signorini run {0}", path.string()));
   return ExitCode::done;
 }
 

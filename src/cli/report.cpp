@@ -111,7 +111,7 @@ ExitCode write_frames(const FrameOptions& options) {
   if (options.count < 1 || options.count > most)
     throw UsageError(fmt::format("--frames: found {}, expected 1 to {}", options.count, most));
   const fs::path directory = options.directory;
-  if (report::kind_of_results(directory) != "run") throw FileError(directory.string(), "holds no run");
+  if (report::kind_of_results(directory) != "run") throw FileError(directory.string(), "is not a directory that `signorini run` wrote");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
   const Scene scene = read_scene((directory / "run.toml").string());
   const base::Json data = report::run_data(scene, directory);

@@ -313,7 +313,7 @@ void add_study(Program& program) {
       ->add_option("--repeats", options->repeats,
                    "number of repetitions; the shortest time is reported (default: 3)")
       ->option_text("N");
-  command->add_option("--time-limit", options->time_limit, "seconds that a run may take (default: 60)")
+  command->add_option("--time-limit", options->time_limit, "time limit of a run in s (default: 60)")
       ->option_text("S");
   add_table_option(*command, options->table);
   add_output_options(*command, *options, "replace an earlier study in the directory", "study.json");

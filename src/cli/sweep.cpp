@@ -281,7 +281,7 @@ bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOp
     } catch (const FileError&) {  // only the table cannot be written; the rows are on disk
     }
     throw Error(ExitCode::file,
-                fmt::format("the sweep stopped where a file could not be written; {} kept in {}",
+                fmt::format("a file could not be written, so the sweep stopped; {} kept in {}",
                             base::count_text(directory.rows().size(), "row"), directory.path().string()));
   }
   return whole;
@@ -376,7 +376,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
     return row.second.outcome == "refused";
   });
   if (!none) return ExitCode::done;
-  print_error("every run of the sweep was refused, the first of them: " + rows.begin()->second.reason);
+  print_error("every run of the sweep was refused; reason of the first run: " + rows.begin()->second.reason);
   return ExitCode::scene;
 }
 

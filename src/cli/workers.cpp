@@ -52,7 +52,7 @@ class Descriptor {
 };
 
 [[noreturn]] void fail(const char* what) {
-  throw FileError(what, "cannot be made: " + std::generic_category().message(errno));
+  throw FileError(what, "cannot be created: " + std::generic_category().message(errno));
 }
 
 struct Pipe {

@@ -118,7 +118,7 @@ Vector InstantLawChecker::closing() const {
   };
   close(*record_.before.mode, false);
   close(*record_.after.mode, false);
-  close(*record_.after.mode, true);  // all touching contacts, without friction
+  close(*record_.after.mode, true);  // all touching contacts, which may move along t without friction
   return most;
 }
 
@@ -339,7 +339,7 @@ std::vector<Violation> equilibrium_law(const CheckContext& context, double t, co
     rows.add(c.tangent, m.T, size);
     const CurvedSurface* bowl = c.curved_surface();
     if (bowl == nullptr) continue;
-    // K contains the restoring force of a pendulum under its nominal force; the rest of N acts here.
+    // K contains the restoring force of a pendulum under its nominal force; that of the remaining N is added here.
     const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
     rows.add(c.body_tangent(), (-m.N - bowl->nominal_force) * slope,
              (size + bowl->nominal_force) * m.displacement_size / bowl->radius);

@@ -138,8 +138,8 @@ double InstantLawChecker::held_noise_before(std::size_t k) const {
 }
 
 /// Error of the fixed step h in which a guard was located, by the trapezoidal rule: h^2/12 |da| in a displacement, h/12
-/// |d(da)| in a velocity. It replaces (t_uncertainty * guard rate), which is not valid if the rate is nearly zero. The
-/// accelerations in the step are assumed not to exceed A = max_contact_acceleration(), so |da| <= 2 A, |d(da)| <= 4 A;
+/// |d(da)| in a velocity. It is added to settled(), which is no bound if the guard rate is nearly zero. Accelerations in
+/// the step are assumed not to exceed A = max_contact_acceleration(), so |da| <= 2 A, |d(da)| <= 4 A;
 /// uncertainty_factor allows for higher terms in h. of_u, of_v: factors of displacement and velocity in the guard.
 double InstantLawChecker::step_error(std::size_t k, double of_u, double of_v) const {
   const double h = context_.limits.step;
@@ -148,8 +148,8 @@ double InstantLawChecker::step_error(std::size_t k, double of_u, double of_v) co
          context_.max_contact_acceleration(record_, k);
 }
 
-/// Checks N and T of an event row just before the event. If states were found at the end of a step, the row may contain
-/// the forces just after in both columns.
+/// Checks N and T just before the event in its row. If states were found at the end of a step, the row may contain the
+/// forces just after the event instead.
 void InstantLawChecker::row_before(const RecordedEvent& event, const ContactKinematics& before,
                                    const ContactKinematics& after) {
   if (record_.start || moves_instantaneously(event.contact)) return;  // forces before are guesses of the engine
@@ -211,7 +211,7 @@ void InstantLawChecker::event_row(const RecordedEvent& event) {
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
   const double loose = speed + context_.capture_speed(record_.captures, k);
-  if (!moves_instantaneously(k)) {  // otherwise the decision has replaced the velocities, which are of massless parts
+  if (!moves_instantaneously(k)) {  // otherwise these are velocities of massless parts, which the decision has replaced
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
   }

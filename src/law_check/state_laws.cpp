@@ -335,7 +335,7 @@ void InstantLawChecker::necessity(std::size_t k) {
     return;  // the sign of the prescribed normal force decides the state
   const double rest = rounding::elimination * after.velocity_size;
   if (is_pushed_off(k, old, after)) return;
-  // A hit separates the contact, even if slowly.
+  // A rigid contact with a velocity g' has separated; after a hit even a very slow g' > 0 is a separation.
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
     return;

@@ -186,9 +186,9 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
     double loss = 0.0;
     if (!massless_) {
       loss = drops.own[k];
-    } else if (load_jumps) {  // massless parts jump; a sliding contact is at its limit
+    } else if (load_jumps) {  // massless parts jump with the load; contacts that slide then are at their limit
       loss = a.T * (contact::slip_of(contact, a) - contact::slip_of(contact, b));
-    } else if (drops.any[k]) {  // massless parts follow: friction dissipates all released energy
+    } else if (drops.any[k]) {  // massless parts jump after a drop of friction, which dissipates all released energy
       loss = drops.own[k] + (released - drops.sum) / drops.count;
     } else if (drops.count == 0 && contact.tangential_stiffness) {
       loss = released - lost;
@@ -216,7 +216,7 @@ Energy Auditor::stored(const contact::ContactStates& states, const motion::Point
     const double springs = contact::stored_energy(contact, states[k].state, m);
     (contact.compliance_split() ? e.elastic : e.contact) += springs;
     if (const ShearElement* element =
-            contact.sliding_point()) {  // its spring is part of the structure's stiffness
+            contact.sliding_point()) {  // the springs of these contacts are part of the structure's stiffness
       const double strain = element->body.dot(point.u) - contact.tangent.dot(point.u);
       const double energy = 0.5 * element->stiffness * strain * strain;
       e.contact += energy;

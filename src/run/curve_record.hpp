@@ -23,10 +23,12 @@
 
 namespace signorini::run {
 
-// Distance of rows such that straight lines between them represent the curve.
+// Spacing of rows such that straight lines between the rows represent the curve.
 //
 //   rows at a, b, c:   y_b is off the line from y_a to y_c by   d = |y''| (b - a) (c - b) / 2
-//   spacing h:         h^2 = (b - a) (c - b) e R / d      error of a removed row: e R; of a line between rows: e R / 4
+//   spacing h:         h^2 = (b - a) (c - b) e R / d
+//
+// A row then deviates from the line between its neighbours by e R, and the curve from the line between two rows by e R / 4.
 //
 // R: the range of y; e: max_deviation. A harmonic curve with amplitude A = R / 2 has 47 rows per period near its turning
 // points. h follows from the last three rows, whose distances need not be equal.

@@ -117,7 +117,7 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
       for (std::size_t j = exact::max_levels - 1; j < p.coefficients.size(); ++j)
         if (p.coefficients[j] != 0.0)
           refuse(run,
-                 fmt::format("takes polynomials up to degree {}; {} has degree {} or more",
+                 fmt::format("supports polynomials up to degree {}, but {} has degree {} or more",
                              exact::max_levels - 2, what, j),
                  "");
   };

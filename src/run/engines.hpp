@@ -2,7 +2,7 @@
 //
 //   const EngineRow& engine = engine_row(run.engine);
 //   engine.refuse(model, run);   method = engine.method(model, run);   stepper = engine.make(parts);
-//   if (engine.can.supports_orbits) ...;   run.engine = engine_for(EngineRole::closed_form);
+//   if (engine.capabilities.supports_orbits) ...;   run.engine = engine_for(EngineRole::closed_form);
 //
 // Code that needs an engine asks for capabilities or for a role, never for a name. To add an engine, add a row in
 // signorini/engine.hpp, a row here, and a folder with the engine.
@@ -82,7 +82,7 @@ struct EngineRow {
 [[nodiscard]] const EngineRow& engine_row(Engine engine);
 /// The engine with this role, which must not be EngineRole::none.
 [[nodiscard]] Engine engine_for(EngineRole role);
-/// Names of the engines with an ability, as in "\"exact\" or \"ida\"".
+/// Names of the engines with this capability, for messages: "\"exact\" or \"ida\"".
 [[nodiscard]] std::string engines_that(bool EngineCapabilities::*can);
 
 }  // namespace signorini::run

@@ -51,7 +51,7 @@ bool can_slide_at_once(const Model& model, const Contact& contact) {
   return !contact.takes_impulses() && (!contact.sticks_rigidly() || decide::acts_on_massless(model, contact));
 }
 
-/// State as named in events.csv: a contact at its static limit counts as sliding.
+/// State as named in events.csv, where a contact at its static limit has the state slip.
 State in_events(State state) {
   return is_at_static_limit(state) ? kind_of(state) : contact::representative_state(state);
 }

@@ -33,7 +33,7 @@ class FaultInjector {
               decide::Decision& decided);
 };
 
-/// Run as in signorini/simulate.hpp, with injected errors.
+/// Same as simulate() in signorini/simulate.hpp, with injected errors.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               FaultInjector& faults);
 

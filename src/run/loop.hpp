@@ -1,4 +1,4 @@
-// loop.hpp: the time loop of signorini/simulate.hpp, in the units of its model, which may be a part.
+// loop.hpp: the time loop of signorini/simulate.hpp, for a model or for one of its independent parts.
 //
 //   Loop loop(model, spec, engine, method, recorder, hooks);
 //   loop.begin();   loop.advance_to(t_1);   loop.advance_to(t_2); ...   loop.end()

@@ -30,7 +30,7 @@ class MotionRecord {
   /// Model and recorder must outlive the object. No data are kept if the recorder does not want motions.
   MotionRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
-  /// A time inside a step.
+  /// Time of a row inside a step.
   struct RowTime {
     double t = 0.0;
     bool is_turning_point = false;

@@ -3,7 +3,8 @@
 //   events:  ascending in t; at equal times jumps of loads first, then events in the order of the parts
 //   rows:    u, v and contacts of all parts at each output time; energies are summed
 //
-//   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.forward(t); ...
+//   PartRows rows(whole, parts, t_end, recorder, report);   rows.add(recorder of part i), for all parts
+//   rows.forward(t), each time all parts have reached t; ...   rows.finish();   rows.forward_motion(t, recorders);
 //
 // All values are in the units of the whole model. A jump of a load is one row, even if the load acts on several parts.
 #pragma once

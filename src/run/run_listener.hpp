@@ -129,7 +129,7 @@ struct RunHooks {
   [[nodiscard]] bool none() const { return listeners.none() && !rounds && !event_shift && !faults; }
 };
 
-/// Run as in signorini/simulate.hpp with a listener, for any engine.
+/// Same as simulate() in signorini/simulate.hpp, with a listener. event_shift: null, or shifts of located events.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               RunListener& listener, const ListenerNeeds& needs = {},
                               EventShift* event_shift = nullptr);

@@ -244,8 +244,8 @@ std::string stiffness_rows(const Model& model, const check::CheckReport& report)
          table.str() + more(report.stiffness.size()) + "\n";
 }
 
-/// Adds rows for the breakpoints of one load, normal force or surface motion: one row each, or one row with their number
-/// if there are more than 12.
+/// Adds rows for the breakpoints of one load, normal force or surface motion: one row per breakpoint; if there are more
+/// than 12, a single row with the numbers of jumps and kinks.
 void add_breakpoints(Table& table, const std::vector<check::Discontinuity>& all, const std::string& what) {
   constexpr std::size_t most_listed = 12;
   std::vector<const check::Discontinuity*> own;

@@ -32,7 +32,7 @@ void ProgressDisplay::event(const Event& event) {
 }
 
 void ProgressDisplay::advise(double t) {
-  constexpr double quiet_time = 2.0;  // s
+  constexpr double quiet_time = 2.0;  // s, time of the run before the advice
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (s < quiet_time) return;
   const auto ask = std::exchange(advice_, nullptr);
@@ -43,10 +43,10 @@ void ProgressDisplay::advise(double t) {
 }
 
 std::string ProgressDisplay::time_left(double t) {
-  constexpr double settled = 1.0, window = 5.0;  // s
+  constexpr double settled = 1.0, window = 5.0;  // s: time before the first estimate; window of the mean speed
   const auto now = std::chrono::steady_clock::now();
   const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
-  if (seconds(speed_from_) > window) {  // speed averaged over the last one or two windows
+  if (seconds(speed_from_) > window) {  // the mean speed is that of the last one or two windows
     speed_from_ = std::exchange(next_speed_from_, now);
     speed_t_ = std::exchange(next_speed_t_, t);
   }

@@ -92,7 +92,7 @@ std::string certificate_text(const Scene& scene, const Model& model, const Certi
 /// Suggestion of another engine or a reduction for a run that is expected to take `seconds`; empty if none is much
 /// faster.
 std::string quicker_choices(const Scene& scene, const Model& model, double seconds) {
-  constexpr double time_of_trial = 0.2;  // s
+  constexpr double time_of_trial = 0.2;  // s, for each engine and cutoff
   const Engine own = run::choose_engine(model, scene.run).engine;
   std::vector<double> cutoffs;
   if (!scene.reduction) {

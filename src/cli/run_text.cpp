@@ -275,13 +275,13 @@ std::string run_summary(const RunSpec& run, const Model& model, const Report& re
                       times(c.restarts, "restart"), report.wall_time);
   const Engine closed_form = run::engine_for(run::EngineRole::closed_form);
   if (report.method.automatic && report.method.engine != closed_form)
-    return text + fmt::format("why {}: {}\n", to_string(report.method.engine), report.method.reason);
+    return text + fmt::format("reason for engine {}: {}\n", to_string(report.method.engine), report.method.reason);
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
-  // The line about engine exact appears only if exact would be faster than the run. A trial of its first steps replaces
-  // the estimate if the trial is short compared with the run.
+  // A line about engine exact is printed only if exact would be faster than the run. After a run of more than long_run,
+  // a trial of exact replaces the estimate.
   std::optional<double> exact = run::seconds_with_exact(model, chosen);
-  constexpr double long_run = 1.0, share = 0.02;  // s; fraction of the run's duration
+  constexpr double long_run = 1.0, share = 0.02;  // s; duration of the trial / duration of the run
   if (exact && report.wall_time > long_run) {
     exact = run::seconds_by_trial(model, run, closed_form, share * report.wall_time);
     if (*exact == 0.0) exact.reset();

@@ -7,8 +7,8 @@
 //
 // Reason: validation/work-precision. A series takes a step for every 5 radians of the fastest motion, even after this
 // motion has decayed; an implicit method takes longer steps then. Without decay the series costs least, except at low
-// accuracy. Both engines cost the same at a factor between 0.1 (slow loads, few events) and 0.5 (many events) in place
-// of 0.2; 0.2 is a compromise.
+// accuracy. Both engines cost the same if (fastest decay) / (fastest oscillation) is between 0.1 (slow loads, few events)
+// and 0.5 (many events); 0.2 is a compromise.
 #pragma once
 
 #include <string>

@@ -60,8 +60,8 @@ class EventOrder {
 /// the guard are zero.
 [[nodiscard]] std::optional<double> time_uncertainty(const decide::Crossing& crossing, double error);
 
-/// Writes the events of a run. guard_rate, whose unit depends on the guard, is in the scene's units; all
-/// other values are in the units of the model.
+/// Writes the events of a run. Values are in the units of the model, except guard_rate, which is in the scene's units,
+/// because its unit depends on the guard.
 class EventLog {
  public:
   /// The report receives the number of events by type, and warnings. whole: false for a part of a model; PartRows then

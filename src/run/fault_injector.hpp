@@ -2,7 +2,7 @@
 //
 //   engine -> instant (delayed) -> decision (changed) -> record -> law checker
 //
-// No scene uses this; a run without an injector is not affected.
+// Only tests use fault injectors.
 #pragma once
 
 #include "decide/contact_state_solver.hpp"
@@ -19,8 +19,8 @@ class FaultInjector {
   virtual double late(const engine::Step& /*step*/, const decide::Decision& /*before*/) { return 0.0; }
   /// Sets guards to Guard::none, so that the engine misses their events.
   virtual void watch(std::vector<decide::GuardStart>& /*guards*/) {}
-  /// Replaces the decided states, velocities and impulses. Returns true if the motion continues from the
-  /// replacement.
+  /// Changes the states, velocities and impulses in `decided`. Returns true if the run is to continue from these states and
+  /// velocities; false: `decided` is not used.
   virtual bool change(const contact::ContactStates& /*mode_before*/, const Vector& /*v_before*/,
                       decide::Decision& /*decided*/) {
     return false;

@@ -134,7 +134,7 @@ bool Loop::start() {
   return laws_hold();
 }
 
-/// Makes a step of the engine, and decides the instant at its end if there is one. Returns false if the run
+/// Makes one step of the engine. If the step ends at an instant, decides the contact states there. Returns false if the run
 /// ends.
 bool Loop::step() {
   State& s = state_;

@@ -64,7 +64,7 @@ class FastModeCutoff {
 //   peak     p_t(x*(t), t) = 0 with a change from + to -; x*(t): position of the largest p(., t). The largest of several
 //            smooth branches has kinks, but a kink is never a peak
 //
-// The smallest value is minus the largest one of -p.
+// The smallest value of p is minus the largest value of -p.
 
 struct ValueBounds {
   double least = 0.0, greatest = 0.0;

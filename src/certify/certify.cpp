@@ -201,7 +201,8 @@ class Companions {
   std::mutex mutex_;
   std::condition_variable ended_;
   std::size_t done_ = 0;            // guarded by mutex_
-  std::list<QuietThread> threads_;  // the last member, so that threads are joined before other members are destroyed
+  // The last member, so that threads are joined before other members are destroyed.
+  std::list<QuietThread> threads_;
 };
 
 /// True if the plan is cheap enough to certify the run automatically.

@@ -46,7 +46,8 @@ inline constexpr std::size_t difference_window = 5;
 /// Data of an event that the comparison needs.
 struct TimedEvent {
   double t = 0.0;
-  float uncertainty = 0.0F;  ///< Event::t_uncertainty, or the fraction of it that is added to t_error; 0: none
+  /// Event::t_uncertainty, or the fraction of it that is added to t_error; 0: none.
+  float uncertainty = 0.0F;
   int contact = -1;          ///< -1: a jump of a load
   EventType type = EventType::time;
   State from = State::open, to = State::open;
@@ -80,10 +81,12 @@ struct EventSequence {
 
 struct MatchResult {
   double until = 0.0;
-  std::string reason;  ///< reason for the end at `until`; empty: certified up to the time that the run reached
+  /// Reason for the end at `until`; empty: certified up to the time that the run reached.
+  std::string reason;
   std::optional<std::size_t> first_uncertain;
   std::vector<double> t_errors;  ///< one entry per event; NaN: not certified
-  std::size_t unordered = 0;     ///< number of successive certified events of different contacts in unknown order
+  /// Number of successive certified events of different contacts in unknown order.
+  std::size_t unordered = 0;
   double spread = 0.0;  ///< c D at `until`, or at the end
 };
 

@@ -240,7 +240,7 @@ std::string stiffness_rows(const Model& model, const check::CheckReport& report)
   }
   return "contact stiffness, and the stiffness of the structure with all other contacts sticking at the same "
          "place\n"
-         "(ratio far above 1: the contact is nearly rigid; far below 1: it is much softer than the structure):\n" +
+         "(ratio far above 1: the contact is nearly rigid; far below 1: it is soft):\n" +
          table.str() + more(report.stiffness.size()) + "\n";
 }
 

@@ -21,8 +21,8 @@ std::optional<std::string> engine_of(const Override& change, const std::vector<s
   if (colon == std::string::npos || colon > change.path.find('.')) return std::nullopt;
   const std::string name = change.path.substr(0, colon);
   if (std::find(engines.begin(), engines.end(), name) == engines.end())
-    throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the selected engines{}", change.path, change.value,
-                                 name, base::suggestion(name, engines)));
+    throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the selected engines{}", change.path,
+                                 change.value, name, base::suggestion(name, engines)));
   return name;
 }
 

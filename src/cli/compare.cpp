@@ -215,7 +215,8 @@ void run_engine(const CompareOptions& options, const fs::path& path, const study
     ProgressDisplay live(directory, run.model, run.scene.run.t_end, !options.quiet);
     report = run.run_to_disk(directory, live).certified.report;
   } catch (const SceneError& error) {
-    if (options.force) result::remove_run(path / engine);  // an earlier run could be mistaken for the refused run
+    // An earlier run could be mistaken for the refused run.
+    if (options.force) result::remove_run(path / engine);
     outcomes.report.refused.emplace_back(engine, error.what());
     return;
   }

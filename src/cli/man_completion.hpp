@@ -12,7 +12,8 @@ namespace signorini::cli {
 
 struct OptionText {
   std::vector<std::string> names;  ///< "-o", "--output"; empty for a positional argument
-  std::string value;               ///< name of the value, "DIR", or of the positional argument; empty for a flag
+  /// Name of the value, "DIR", or of the positional argument; empty for a flag.
+  std::string value;
   std::string description;
   bool required = false;
   [[nodiscard]] bool positional() const { return names.empty(); }

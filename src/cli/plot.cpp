@@ -42,11 +42,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell: not found; could not be started
 constexpr int no_end = 124;                       // exit code as of timeout(1): stopped after `patience`
-constexpr std::chrono::seconds patience{60};      // limit for one picture, which usually takes a second or two
+// Limit for one picture, which usually takes a second or two.
+constexpr std::chrono::seconds patience{60};
 constexpr std::size_t max_output = 1 << 16;
 constexpr std::size_t max_contact_pictures =
-    24;  // each picture takes about 0.17 s; displacement pictures show
-         // the same number of nodes
+    24;  // each picture takes about 0.17 s; displacement pictures show as many nodes
 
 struct Ended {
   int code = 0;
@@ -161,7 +161,7 @@ std::string draw_pictures(const std::filesystem::path& directory,
   const std::string more =
       first.size() == scripts.size()
           ? ""
-          : fmt::format(", of the first {} contacts; in this directory, gnuplot contact-NAME.gp draws another contact",
+          : fmt::format(", of the first {} contacts; `gnuplot contact-NAME.gp` there draws another one",
                         max_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)

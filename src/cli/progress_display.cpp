@@ -43,7 +43,8 @@ void ProgressDisplay::advise(double t) {
 }
 
 std::string ProgressDisplay::time_left(double t) {
-  constexpr double settled = 1.0, window = 5.0;  // s: time before the first estimate; window of the mean speed
+  // Seconds before the first estimate; seconds over which the speed is averaged.
+  constexpr double settled = 1.0, window = 5.0;
   const auto now = std::chrono::steady_clock::now();
   const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
   if (seconds(speed_from_) > window) {  // the mean speed is that of the last one or two windows

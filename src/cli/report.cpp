@@ -60,7 +60,8 @@ ExitCode report_cases(const std::vector<std::string>& directories, const fs::pat
   for (const std::string& doubt : report::load_case_warnings(cases)) print_warning(doubt);
   fs::path table = page;
   table.replace_extension(".csv");
-  if (table == page) throw UsageError(page.string() + ": is also the name of the CSV table; expected FILE.html");
+  if (table == page)
+    throw UsageError(page.string() + ": is also the name of the CSV table; expected FILE.html");
   check_page(page);
   base::check_output_file(table, "table of load cases", "item,quantity,unit");
   result::write_file(page, report::load_cases_page(cases));
@@ -111,7 +112,8 @@ ExitCode write_frames(const FrameOptions& options) {
   if (options.count < 1 || options.count > most)
     throw UsageError(fmt::format("--frames: found {}, expected 1 to {}", options.count, most));
   const fs::path directory = options.directory;
-  if (report::kind_of_results(directory) != "run") throw FileError(directory.string(), "is not a directory that `signorini run` wrote");
+  if (report::kind_of_results(directory) != "run")
+    throw FileError(directory.string(), "is not a directory that `signorini run` wrote");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
   const Scene scene = read_scene((directory / "run.toml").string());
   const base::Json data = report::run_data(scene, directory);

@@ -275,7 +275,8 @@ std::string run_summary(const RunSpec& run, const Model& model, const Report& re
                       times(c.restarts, "restart"), report.wall_time);
   const Engine closed_form = run::engine_for(run::EngineRole::closed_form);
   if (report.method.automatic && report.method.engine != closed_form)
-    return text + fmt::format("reason for engine {}: {}\n", to_string(report.method.engine), report.method.reason);
+    return text +
+           fmt::format("reason for engine {}: {}\n", to_string(report.method.engine), report.method.reason);
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
   // A line about engine exact is printed only if exact would be faster than the run. After a run of more than long_run,

@@ -86,7 +86,8 @@ sensitivity_study::Sigmas take_sigmas(const SensitivityOptions& options, std::ve
     const auto value =
         equals == std::string::npos ? std::nullopt : base::parse_number(text.substr(equals + 1));
     if (equals == 0 || !value || !(*value >= 0.0) || !std::isfinite(*value))
-      throw UsageError(fmt::format("--sigma {}: expected path=value, with a standard deviation >= 0 as value", text));
+      throw UsageError(
+          fmt::format("--sigma {}: expected path=value, with a standard deviation >= 0 as value", text));
     const std::string path = text.substr(0, equals);
     auto place = std::find(paths.begin(), paths.end(), path);
     if (place == paths.end()) {

@@ -196,7 +196,8 @@ Specified specify(const SweepOptions& options) {
 
 std::size_t jobs_of(const SweepOptions& options) {
   if (!options.jobs)
-    return sweep::ranks(environment) > 1 ? 1 : base::processor_count();  // MPI or Slurm starts one process per processor
+    // MPI or Slurm starts one process per processor.
+    return sweep::ranks(environment) > 1 ? 1 : base::processor_count();
   if (*options.jobs < 1) throw UsageError(fmt::format("--jobs {}: expected at least 1", *options.jobs));
   return static_cast<std::size_t>(*options.jobs);
 }

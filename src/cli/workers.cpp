@@ -27,7 +27,8 @@ namespace signorini::cli {
 namespace {
 
 constexpr int between_looks = 200;    // ms, longest wait for reports before `idle` is called
-constexpr std::size_t max_ahead = 2;  // tasks per worker: the current task, and one that waits in the worker's pipe
+// Tasks per worker: the current task, and one that waits in the worker's pipe.
+constexpr std::size_t max_ahead = 2;
 
 /// Owner of a file descriptor; the destructor closes it.
 class Descriptor {

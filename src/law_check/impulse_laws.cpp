@@ -124,7 +124,8 @@ void InstantLawChecker::captures() {
                t = static_cast<Eigen::Index>(model_.layout.tangent(k));
     if (record_.captures[n] == 0.0 && record_.captures[t] == 0.0) continue;
     const ContactResponse* own = context_.contact_response(k);
-    const double most = std::numeric_limits<double>::infinity();  // used if the effect of its own capture is not known
+    // Replaces the effect of the contact's own capture if this effect is not known.
+    const double most = std::numeric_limits<double>::infinity();
     const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[n]) : most;
     const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[t]) : most;
     const double speed = std::max(std::min(by_n, std::abs(c.normal.dot(change))),
@@ -155,7 +156,8 @@ void InstantLawChecker::restitution() {
     if ((closed || m.g <= 0.0) && m.dg < -rounding_of_speed)
       add(static_cast<int>(k), "penetration rate", -m.dg, rounding_of_speed, seen::velocity, true);
   }
-  double greatest = 0.0;  // scale of impulses: the largest impulse, or the impulse that would cause the velocities before
+  // Scale of impulses: the largest impulse, or the impulse that would cause the velocities before.
+  double greatest = 0.0;
   for (const RecordedImpulse& p : record_.impulses) {
     greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
     const ContactResponse* own = context_.contact_response(p.contact);
@@ -211,7 +213,7 @@ void InstantLawChecker::restitution_of(const RecordedImpulse& p, const ImpactVel
                        (own != nullptr ? rounding::elimination * own->nn * greatest : 0.0);
   const double asked = -c.restitution * std::min(strike.dg_before, 0.0);
   double off = asked - strike.dg_after;                                // the rebound is too slow
-  if (p.normal > zero) off = std::abs(off);                            // with an impulse: too slow or too fast
+  if (p.normal > zero) off = std::abs(off);                            // if there is an impulse: or too fast
   if (asked <= limit) off = std::min(off, std::abs(strike.dg_after));  // a slow rebound may end at rest
   if (off > limit) add(contact, "restitution", off, limit, seen::velocity, true);
 }

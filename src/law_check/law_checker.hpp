@@ -28,7 +28,8 @@ namespace signorini::law_check {
 struct LawLimits {
   double rtol = 0.0, displacement = 0.0, rotation = 0.0, velocity = 0.0, angular_velocity = 0.0, force = 0.0;
   double capture_velocity = 0.0;  ///< for contacts without their own capture_velocity
-  double step = 0.0;  ///< step of an engine that enforces contact laws only at the ends of steps; 0: other engines
+  /// Step of an engine that enforces contact laws only at the ends of steps; 0: other engines.
+  double step = 0.0;
   bool resolves_low_flights =
       true;  ///< true: flights lower than the rounding of their gaps are computed; false: treated as rest
 };

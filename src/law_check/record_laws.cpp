@@ -25,7 +25,8 @@ void InstantLawChecker::releases() {
         tolerance_factor * (context_.limits.rtol * after.displacement_size + context_.limits.displacement);
     if (now.state == State::open && after.g < -rest)
       add(contact, "release", -after.g, rest, seen::length, true);
-    if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // a jump of the forcing released it
+    // If a jump of the forcing released the contact, no guard was zero before.
+    if (record_.start || record_.breakpoint || is_open(old.state)) continue;
     const RecordedEvent* event = event_of(k);
     double least = std::numeric_limits<double>::infinity(), limit = 0.0;
     for (const GuardValue& guard : guards_of(c, old, before, context_.limits)) {
@@ -152,7 +153,8 @@ double InstantLawChecker::step_error(std::size_t k, double of_u, double of_v) co
 /// forces just after the event instead.
 void InstantLawChecker::row_before(const RecordedEvent& event, const ContactKinematics& before,
                                    const ContactKinematics& after) {
-  if (record_.start || moves_instantaneously(event.contact)) return;  // forces before are guesses of the engine
+  // At the start, and for massless parts, the forces before are guesses.
+  if (record_.start || moves_instantaneously(event.contact)) return;
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const auto apart = [&](double row, double ContactKinematics::*force) {
@@ -211,7 +213,8 @@ void InstantLawChecker::event_row(const RecordedEvent& event) {
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
   const double loose = speed + context_.capture_speed(record_.captures, k);
-  if (!moves_instantaneously(k)) {  // otherwise these are velocities of massless parts, which the decision has replaced
+  // The decision replaces velocities of massless parts, so these are not compared.
+  if (!moves_instantaneously(k)) {
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
   }

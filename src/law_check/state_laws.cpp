@@ -15,7 +15,8 @@ namespace {
 struct ConstraintRows {
   std::vector<Vector> columns;  // accelerations due to a unit force, including its friction force in slip
   std::vector<const Combination*> rows;
-  std::vector<double> asked, noise;  // required changes of accelerations along the rows, and their rounding errors
+  // Required changes of accelerations along the rows, and their rounding errors.
+  std::vector<double> asked, noise;
 
   /// Adds the rows of a contact in this state. removed_accelerations: accelerations that captures have removed after a
   /// guard was located; empty: none. hold: the accelerations of the contact must become zero; false: must not change.
@@ -357,7 +358,8 @@ void InstantLawChecker::necessity(std::size_t k) {
       zero += uncertainty_factor * event->t_uncertainty *
               std::max(std::abs(event->guard_rate), std::abs(guard.rate));
     if (guard.value <= zero) return;
-    const bool leaves = is_open(old.state) || is_open(now.state);  // report the first guard; otherwise the last
+    // If the contact opens or closes, report the first guard, otherwise the last.
+    const bool leaves = is_open(old.state) || is_open(now.state);
     if (nearest != nullptr && leaves) continue;
     nearest = &guard;
     limit = zero;

@@ -186,9 +186,9 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
     double loss = 0.0;
     if (!massless_) {
       loss = drops.own[k];
-    } else if (load_jumps) {  // massless parts jump with the load; contacts that slide then are at their limit
+    } else if (load_jumps) {  // massless parts jump with the load; sliding contacts are at their limit
       loss = a.T * (contact::slip_of(contact, a) - contact::slip_of(contact, b));
-    } else if (drops.any[k]) {  // massless parts jump after a drop of friction, which dissipates all released energy
+    } else if (drops.any[k]) {  // massless parts jump: friction dissipates all energy that they release
       loss = drops.own[k] + (released - drops.sum) / drops.count;
     } else if (drops.count == 0 && contact.tangential_stiffness) {
       loss = released - lost;

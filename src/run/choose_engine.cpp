@@ -38,11 +38,11 @@ namespace {
 
 constexpr int max_unknowns = 4000;  // mode shapes and their inverse take 16 n^2 bytes
 constexpr int min_unknowns =
-    16;  // with fewer unknowns, the modes of a contact state cost more than the series (validation/exact); chosen
+    16;  // with fewer unknowns, the modes of a state cost more than the series (validation/exact); chosen
 
-constexpr int min_damped_unknowns = 40;   // with fewer unknowns the series costs less (validation/exact); chosen
-constexpr double worth = 2.0;             // required ratio (cost of the series) / (cost of the states' complex modes)
-constexpr int max_damped_unknowns = 500;  // complex modes of one state take 120 n^2 bytes, and about 5 s for 500
+constexpr int min_damped_unknowns = 40;   // with fewer, the series costs less (validation/exact); chosen
+constexpr double worth = 2.0;             // required ratio of costs: series / complex modes of all states
+constexpr int max_damped_unknowns = 500;  // complex modes of a state take 120 n^2 bytes, and 5 s for n = 500
 
 bool has_rigid_rows(const Model& model) {
   return std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {

@@ -47,7 +47,7 @@ struct FlowChoice {
 struct ModalKind {
   bool damped = false;  ///< complex modes are needed, because damping is not proportional
   bool too_many_springs =
-      false;              ///< some contact states may have too many springs for modes; the series then computes them
+      false;              ///< some contact states may have too many springs for modes and need the series
   std::string objection;  ///< empty: modes can compute the scene
 };
 /// Kind of modes that this model needs.

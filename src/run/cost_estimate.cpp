@@ -102,7 +102,7 @@ namespace {
 
 constexpr double longest_first = 2.0;  // s, limit for the first step, which cannot be interrupted; chosen
 constexpr double times_as_long = 4.0,
-                 long_run = 5.0;  // a ratio, and seconds: below these, another engine saves too little; chosen
+                 long_run = 5.0;  // least ratio, and least seconds, for a recommendation; chosen
 
 constexpr double least_steps = 10.0;  // least progress of a trial, in steps estimated by the rules; chosen
 

@@ -27,7 +27,7 @@ struct CostEstimate {
   double steps = 0.0, seconds = 0.0;
   double first = 0.0;  ///< part of `seconds` before the first step ends: the modes of contact states
   double by_series = 0.0,
-         by_modes = 0.0;  ///< engine exact: seconds with each flow; by_modes = 0: modes cannot compute the scene
+         by_modes = 0.0;  ///< engine exact: seconds with each flow; 0: this flow cannot compute the scene
 };
 
 struct CostInputs {

@@ -88,7 +88,7 @@ constexpr std::size_t max_of_a_kind = 24;  // limit for the displacement curves 
 constexpr std::size_t most_values = 100000, most_points = 8000, min_points = 2500;
 // A parabola's vertex is kept only if it exceeds the middle row by more than this fraction of the range so far.
 constexpr double least_rise = 1e-3;
-constexpr double turn = 1e-3;  // smallest scale of rotations, rad, so that rotations of 1e-15 rad are rounding
+constexpr double turn = 1e-3;  // rad; smallest scale of rotations, so that 1e-15 rad is rounding
 
 /// Vertex of the parabola through three rows; nullopt: the middle row is no peak, or two of the rows have the same time.
 std::optional<CurvePoint> vertex(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {

@@ -125,7 +125,8 @@ class CurveRecord {
   double requested_spacing_ = std::numeric_limits<double>::infinity();
   std::array<double, 4> greatest_{};  // largest value of each kind
   bool enabled_;
-  std::function<void(double, const Energy&)> energies_;  // receives the energies of a part; empty for a whole model
+  // Receives the energies of a part; empty for a whole model.
+  std::function<void(double, const Energy&)> energies_;
   std::vector<Curve> curves_;                            // displacements, energies, the balance
 };
 

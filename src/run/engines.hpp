@@ -50,12 +50,14 @@ enum class EngineRole : unsigned char {
   /// The motion between events is exact up to rounding. Chosen automatically for accepted scenes of low cost; companion
   /// run of all other engines.
   closed_form,
-  integrator,   ///< accepts every scene; chosen if closed_form is not; companion of fixed steps if exact refuses the scene
+  /// Accepts every scene; chosen if closed_form is not; companion of fixed steps if exact refuses the scene.
+  integrator,
   fixed_steps,  ///< independent method for `verify`, which halves its steps
 };
 
 struct EngineCapabilities {
-  bool closed_form_flow = false;      ///< the motion between events is exact; run.flow chooses how it is computed
+  /// The motion between events is exact; run.flow chooses how it is computed.
+  bool closed_form_flow = false;
   bool supports_orbits = false;       ///< periodic orbits can be computed with this engine
   bool discrete_derivatives = false;  ///< sensitivity/discrete_run.hpp can differentiate the engine's steps
   bool laws_at_step_ends = false;     ///< contact laws are satisfied at the ends of the engine's steps

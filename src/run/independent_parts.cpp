@@ -126,7 +126,7 @@ namespace {
 constexpr double stages = 32.0;
 constexpr double max_waiting = 8e6;  // limit for the count of numbers in waiting rows
 constexpr std::size_t max_events =
-    2000;  // events per stage, less than a megabyte; after a stage with more events, the next stage is shorter
+    2000;  // events per stage (less than a megabyte); after more events, the next stage is shorter
 
 /// Run data with the flow that was chosen for the whole model, so that all parts use the same flow.
 RunSpec as_chosen(RunSpec spec, const Method& method) {

@@ -85,7 +85,8 @@ class MotionRecord {
   bool enabled_;
   double last_ = 0.0, adapted_ = 0.0;
   double requested_spacing_ = std::numeric_limits<double>::infinity();  // least since the last adapt()
-  double force_ = 0.0, length_ = 0.0;                                   // largest values of all drawn contacts
+  // Largest values of all drawn contacts.
+  double force_ = 0.0, length_ = 0.0;
   double at_ = 0.0, end_ = 0.0;                                         // current time and end of the step
   std::vector<double> turns_;
   std::size_t turn_ = 0;  // index of the next turning point

@@ -302,7 +302,8 @@ void OutputMonitor::sample(engine::DenseOutput& motion, const Part& part, double
     const Watched& watched = watched_[k];
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
       samples_[i][point] = value_of(*forms_[i], t, side, point_, model_.layout, none_);
-      if (watched.stretch < 0 || point == 0)  // segments have many forms: their magnitude is computed once per part
+      // The many forms of segments have their magnitudes computed only once per part.
+      if (watched.stretch < 0 || point == 0)
         magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_, model_.layout));
     }
     const double value = samples_[watched.first][point];

@@ -113,7 +113,8 @@ double FastModeCutoff::output_rate(
 
 namespace {
 
-constexpr int halvings = 40;  // of the interval between two points; the time of a peak is then exact to 1e-12 of the part
+// Bisections of the interval between two points: the time of a peak is then exact to 1e-12 of the part.
+constexpr int halvings = 40;
 
 ValueBounds bounds_of(const Chebyshev::Values& values, std::size_t stride, bool between) {
   return between ? between_points(values, stride) : at_points(values, stride);

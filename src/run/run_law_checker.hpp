@@ -72,10 +72,13 @@ class CheckedMotion {
   double step_;                      // LawLimits::step
   std::vector<std::size_t> driven_;  // contacts whose surface motion or given normal force may change
   std::vector<double> jerk_;         // |s'''| of each surface just after the last instant
-  std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // largest |u_i|, |v_i|: translations, rotations
+  // Largest |u_i|, |v_i|: translations, rotations.
+  std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};
   double energy_ = 0.0;                                                // largest LawChecker::twice_energy
-  double kinetic_ = 0.0;                                               // largest v^T M v, if motions are sums over modes
-  std::vector<double> lightness_, speeds_;  // for each contact: LawChecker::speed_per_energy_root, and this * sqrt(energy_)
+  // Largest v^T M v, if motions are sums over modes.
+  double kinetic_ = 0.0;
+  // For each contact: LawChecker::speed_per_energy_root, and this * sqrt(energy_).
+  std::vector<double> lightness_, speeds_;
   std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // LawChecker::modal_size
 };
 

@@ -27,7 +27,8 @@ class FaultInjector;
 struct RunStep {
   const engine::Step& step;
   const engine::StepFacts& facts;
-  const decide::Decision& decision;  ///< decision at the last instant; its contact states are those of the step
+  /// Decision at the last instant; its contact states are those of the step.
+  const decide::Decision& decision;
   const motion::Forcing& forcing;
   engine::DenseOutput& motion;
 };

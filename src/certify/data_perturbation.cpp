@@ -243,7 +243,7 @@ bool bears(const Model& model, std::size_t k) {
   return !model.contacts[k].normal_force_given() && model.statics.reactions[k] > 0.0;
 }
 
-/// True if no gap with a contact spring changes its sign from model.u0 to u.
+/// True if no gap with a contact spring changes its sign from model.u0 to u; gaps within rounding are ignored.
 bool keeps_states(const Model& model, const Model& near, const Vector& u) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];

@@ -39,8 +39,8 @@ struct CheckedEngine {
 /// Copy of an event for the law checker, without guard_rate.
 [[nodiscard]] law_check::RecordedEvent recorded_event(const Event& event);
 
-/// Final contact states and forces of the previous run, if the model continues one (Model::continues). guessed: states of
-/// contacts with user laws, whose final states are not saved.
+/// Final contact states and forces of the previous run, if the model continues one (Model::continues). Contacts with user
+/// laws keep the states in `guessed`.
 [[nodiscard]] std::vector<ContactState> final_states(const Model& model,
                                                      const std::vector<ContactState>& guessed);
 [[nodiscard]] Vector final_forces(const Model& model);
@@ -49,8 +49,8 @@ class CheckedMotion {
  public:
   CheckedMotion(const Model& model, const CheckedEngine& engine);
 
-  /// Updates the largest displacements and velocities. Called at instants only: larger values between two instants do not
-  /// exceed the scene's scales by much.
+  /// Updates the largest displacements and velocities. Called at instants only: values between two instants are hardly
+  /// larger, or not larger than the scene's scales.
   void update_maxima(const law_check::LawChecker& witness, const Vector& u, const Vector& v);
   /// Value of CheckedSide::acceleration_terms for the acceleration a. dependence: StepFacts::eigenvector_condition.
   [[nodiscard]] std::array<double, 2> acceleration_terms(const law_check::LawChecker& witness,

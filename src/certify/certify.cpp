@@ -29,13 +29,14 @@
 namespace signorini {
 namespace {
 
-/// Limit of a companion's cost relative to the run, for run.certify = "auto".
+/// For run.certify = "auto": a run is certified if its companions cost less than this fraction of the run.
 constexpr double cheap = 0.5;
-/// An automatic companion ends after this multiple of the expected steps; the minimum allows for events.
+/// A companion that was not requested ends after `patience` times the expected number of steps, but not before
+/// least_steps, since the expected number does not include events.
 constexpr double patience = 20.0, least_steps = 1e5;
 constexpr std::chrono::milliseconds now_and_then{50};
 
-/// A thread with all signals blocked, so that the calling thread receives them.
+/// A thread with all signals blocked, so that the calling thread receives all signals.
 class QuietThread {
  public:
   template <class Work>
@@ -66,13 +67,13 @@ std::optional<certify::EventSequence::FirstViolation> objection_of(const Report&
   return certify::EventSequence::FirstViolation{first.t, where + run::sentence_of(first, model)};
 }
 
-/// Decisions that a companion leaves open, and the shifts of its events.
+/// Listener of a companion run: collects near hits and the first graze, and shifts located events.
 class CompanionWatch final : public run::RunListener, public run::EventShift {
  public:
   CompanionWatch(const certify::CompanionRun& run, certify::CompanionTracker& tracker)
       : tracker_(tracker), seed_(run.seed), moved_(run.event_shift) {}
-  /// Passes to the tracker by how much this event was shifted: only the effect on later events is a
-  /// difference of the runs.
+  /// Passes the shift of this event to the tracker, which subtracts it: only the effect of the shift on later events is
+  /// a difference of the runs.
   void instant(const run::RunInstant& instant) override {
     tracker_.event_shift = instant.triggered.empty() ? 0.0 : by_ / instant.t;
   }
@@ -88,7 +89,7 @@ class CompanionWatch final : public run::RunListener, public run::EventShift {
       by_ = certify::random_sign(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
     return by_;
   }
-  /// Random step lengths give independent samples of rounding that accumulates from step to step.
+  /// Requests random step lengths, which give independent samples of the accumulated rounding errors of steps.
   [[nodiscard]] run::ListenerNeeds needs() const { return {nullptr, true, seed_}; }
   std::optional<events::Graze> first;
   std::vector<events::NearHit> near;
@@ -109,7 +110,7 @@ class CompanionTask {
     tracker_.max_steps = most_steps;
   }
 
-  /// Stores errors: a companion never ends its run.
+  /// Runs the companion. Stores errors instead of throwing them, because an error of a companion does not end the run.
   void compute() {
     try {
       report_ = run::simulate(run_.model, run_.run, tracker_, guard_monitor_, guard_monitor_.needs(),
@@ -151,8 +152,8 @@ class CompanionTask {
   std::string failure_;
 };
 
-/// All companions of a run: they run beside it, limited by the number of processors; when the run has ended, they may
-/// also use its processor.
+/// All companions of a run. They run in parallel to the run, limited by the number of processors; after the end of the
+/// run they may also use its processor.
 class Companions {
  public:
   Companions(std::vector<certify::CompanionRun> runs, double most_steps, bool forces) {
@@ -163,12 +164,13 @@ class Companions {
   Companions(const Companions&) = delete;
   Companions& operator=(const Companions&) = delete;
 
-  /// Starts them beside the run, which uses one processor.
+  /// Starts as many companions as there are processors, except one processor for the run.
   void begin() {
     const std::size_t beside = std::min(tasks_.size(), base::processor_count() - 1);
     while (threads_.size() < beside) start();
   }
-  /// The run has reached `reached`: companions need not go further. Waits until all have ended, or go_on returns false.
+  /// Limits companions to the time that the run has reached, and waits until all have ended. If go_on returns false,
+  /// companions are stopped at once.
   void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
     limit_.stop_at(reached);
     if (interrupted) limit_.stop();
@@ -199,14 +201,16 @@ class Companions {
   std::mutex mutex_;
   std::condition_variable ended_;
   std::size_t done_ = 0;            // guarded by mutex_
-  std::list<QuietThread> threads_;  // the last member: destroyed first
+  // The last member, so that threads are joined before other members are destroyed.
+  std::list<QuietThread> threads_;
 };
 
-/// True if a run is certified without a request.
+/// True if the plan is cheap enough to certify the run automatically.
 bool is_cheap(const certify::CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
 
-/// Reason why the run is not certified. The cost ratio of two runs with one engine is well known; for two engines it is
-/// not, but by then the duration of the run and the number of its restarts are known.
+/// Reason why the run is not certified. If run and companion use the same engine, the message gives their cost ratio. For
+/// different engines this ratio is not known well, so the message gives durations; the estimate includes the restarts
+/// that the run has counted.
 std::string why_not(const Model& model, const RunSpec& run, const certify::CompanionPlan& plan,
                     const Report& report) {
   if (!(plan.cost > 0.0))

@@ -13,21 +13,21 @@
 namespace signorini::certify {
 namespace {
 
-// Values of c: companion.hpp.
+// Factors c and fractions of t_uncertainty; reasons: companion.hpp.
 constexpr double by_exact = 1.5, by_tolerance = 2.0, by_step = 3.0, by_rounding = 5.0;
 constexpr double local_beside_exact = 0.1, local_beside_finer = 0.5;
 constexpr double finer_tolerance = 0.01, finer_step = 0.5;
-constexpr double rtol_beside_steps = 1e-9;  // the error of a given step is far larger; chosen value
-// Limit of dt times the fastest rate of a motion: the amplification (1 - z/2) / (1 + z/2) of average acceleration
-// oscillates from z = 2 on, and for a frequency z/dt the period error is z^2/12.
+constexpr double rtol_beside_steps = 1e-9;  // gives far smaller errors than fixed steps; chosen value
+// Limit of z = dt * (fastest rate of a motion). For decays, the amplification (1 - z/2) / (1 + z/2) of average acceleration
+// becomes negative at z = 2; for a frequency z/dt, the relative period error is z^2/12.
 constexpr double resolved = 1.0;
 
-/// The part that all companions share.
+/// Model and settings that all companions have in common.
 CompanionRun companion_of(const Model& model, const RunSpec& run) {
   CompanionRun companion{model, run};
   set_capture_velocities(companion.model, engine::tolerance_of(model, run).capture_velocity());
   companion.run.frames.clear();
-  companion.model.outputs.clear();  // not used
+  companion.model.outputs.clear();  // outputs are not compared
   return companion;
 }
 
@@ -54,7 +54,7 @@ CompanionPlan ida_plan(const Model& model, const RunSpec& run) {
   return plan;
 }
 
-/// Reason why half the step does not estimate the error of the step.
+/// Reason why a run with dt / 2 cannot estimate the error of the run with dt; empty: it can.
 std::string unresolved(const Model& model, double dt) {
   const double decay = model::fastest_decay(model), rate = std::max(model.omega_max, decay);
   if (dt * rate <= resolved) return "";
@@ -65,7 +65,7 @@ std::string unresolved(const Model& model, double dt) {
       decay > model.omega_max ? "1" : "rad", model.units.time, resolved / rate);
 }
 
-/// tolerance_of() uses rtol times the model's scales; this refines the absolute tolerances of the scene.
+/// Refines the absolute tolerances that the scene gives; the default ones follow rtol already.
 void make_finer(Tolerances& atol) {
   for (std::optional<double>* t : {&atol.displacement, &atol.velocity, &atol.force})
     if (*t) **t *= finer_tolerance;
@@ -149,7 +149,7 @@ CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
                                                         : "auto: exact cannot compute the scene";
     return plan;
   }
-  // If the cost of the finer run is unknown, the sharper one (exact) is used.
+  // If a cost is unknown, exact is used, because its error bounds are smaller.
   const bool cheaper = !(finer->cost > 0.0) || !(exact->cost > 0.0) || exact->cost <= finer->cost;
   CompanionPlan plan = std::move(cheaper ? *exact : *finer);
   plan.choice = cheaper ? "auto: exact is cheaper" : "auto: a finer run is expected to be cheaper than exact";
@@ -170,7 +170,7 @@ void CompanionTracker::sample(const Sample& sample) {
   if (all_) {
     for (const ContactSample& contact : sample.contacts)
       rows.values.insert(rows.values.end(), {contact.N, contact.T});
-    // Outputs of a time come after its sample, unless they were the last ones received.
+    // response() is called after sample() for the same time, or before it at an event.
     if (last_time_ == sample.t)
       rows.values.insert(rows.values.end(), last_outputs_.begin(), last_outputs_.end());
     else

@@ -1,34 +1,32 @@
-// companion.hpp: choice of the companion runs that certify a run, their expected cost, and their recorded
-// data.
+// companion.hpp: choice of the companion runs that certify a run, their expected cost, and their recorded data.
 //
-//   run       companion  setting                          c    reason
-//   not exact exact      unchanged                        1.5  the difference is the error
-//   ida       finer      rtol / 100, atol / 100           2    at rtol / 10 the errors may be similar
-//   with dt   ida        rtol 1e-9 at most                1.5  the difference is the error
-//   with dt   finer      dt / 2                           3    4/3 at order two, 2 at order one
-//   exact     finer      twice, data off by one rounding  5    two samples of a random error
+//   engine of the run  companion  setting                          factor c  reason
+//   not exact          exact      unchanged                        1.5       the difference is the error of the run
+//   ida                finer      rtol / 100, atol / 100           2         at rtol / 10 both errors may be similar
+//   fixed steps dt     ida        rtol 1e-9 at most                1.5       the difference is the error of the run
+//   fixed steps dt     finer      dt / 2                           3         exact values: 4/3 at order 2, 2 at order 1
+//   exact              finer      two runs with perturbed data     5         two samples of a random error
 //
-// With exact as companion, the difference contains ida's own local error: a tenth of t_uncertainty is added for the
-// part that grazing guards hide. With rtol / 100 half of t_uncertainty is added, since in chatter the
-// companion has similar errors. In all other cases all of it is added, since the companion's own error is as
-// large.
+// A fraction of each event's t_uncertainty is added to the error bound: one tenth if ida has the companion exact, because
+// the difference of the runs contains ida's local error except near grazing guards; one half with rtol / 100, because in
+// chatter both runs have similar errors; otherwise all of it, because the companion's local error is as large.
 //
-// A run in series makes the same rounding errors in each step of the same length (exact_engine.cpp, share_of_step):
-// after N steps they add up to N roundings. Perturbed data do not show this, because they rotate a motion but neither
-// damp nor excite it. So companions of `exact` take steps of other, random lengths.
+// Series repeat the same rounding errors in steps of equal length (exact_engine.cpp, share_of_step): after N steps they
+// add up to N roundings. Perturbed data do not reveal this error, because they change the phase of a motion but not its
+// amplitude. So companions of `exact` also use random step lengths.
 //
-// In modes an event's time has an error tau from the rounding of a sum over modes, a bound that two samples seldom
-// approach. The later motion starts at that time, so companions of `exact` shift each such event by tau / c, along the
-// motion. The event's own row has the unshifted time; the later effect of the shift is part of D, and c D bounds the
-// effect of tau.
+// In modes the time of an event has an error tau due to the rounding of sums over modes. Two runs seldom differ by as much
+// as the bound tau, but later motion depends on this time. So companions of `exact` shift each such event by tau / c. The
+// row of the event itself has the unshifted time. The effect of the shift on later events is part of their difference D,
+// so c D bounds the effect of tau.
 //
-// If a step does not resolve a motion, half the step does not resolve it either: stiff dashpots, and contacts
-// with such dashpots, oscillate with both. So dt / 2 is used on request only, and certifies a run only if dt
-// max(omega_max, fastest decay) <= 1.
+// If a step dt does not resolve a motion, dt / 2 does not resolve it either: for example, motions with stiff dashpots
+// oscillate with both steps. So dt / 2 is used on request only, and certifies a run only if
+// dt max(omega_max, fastest decay) <= 1.
 //
-// Decisions that depend on a tolerance use the run's tolerance in all companions: velocities below which rebounds come
-// to rest, and heights below which ida leaves flights to the series. A finer run that integrated flights which the run
-// computes exactly would be less accurate: the errors of thousands of impacts accumulate. The values of c are tested in
+// All companions use the run's tolerance for decisions that depend on a tolerance: velocities below which rebounds come to
+// rest, and heights below which ida computes flights with a series. A finer run that integrated these flights would be
+// less accurate, because the errors of thousands of impacts accumulate. The values of c are tested in
 // validation/certified.
 #pragma once
 
@@ -49,8 +47,8 @@ struct CompanionRun {
   Model model;
   RunSpec run;
   std::uint64_t seed = 0;
-  /// Events of a companion in modes are shifted by this fraction of the rounding error of their times
-  /// (Step::resolution beyond the time resolution), in either direction.
+  /// In modes: events are shifted forwards or backwards by this fraction of the rounding error of their times, which is
+  /// Step::resolution minus the resolution of the clock.
   double event_shift = 0.0;
 };
 
@@ -58,16 +56,17 @@ struct CompanionPlan {
   std::vector<CompanionRun> runs;
   std::string name;        ///< "exact", "ida, rtol 1e-10"
   std::string choice;      ///< "as given", or "auto: ..."
-  std::string limitation;  ///< reason why the companion cannot certify anything; empty: it can
-  double factor = 1.0;
-  /// Fraction of t_uncertainty that is added: the part that the difference does not contain.
+  /// Reason why the companion cannot certify the run; empty: the companion can certify it.
+  std::string limitation;
+  double factor = 1.0;     ///< c
+  /// Fraction of t_uncertainty that is added to error bounds, because the difference of the runs does not contain it.
   double local = 1.0;
-  double cost = 0.0;     ///< expected, relative to the run; 0: unknown
-  double seconds = 0.0;  ///< expected duration of the companion itself
-  double steps = 0.0;    ///< expected number, for one companion; 0: unknown
+  double cost = 0.0;     ///< expected cost of the companions / cost of the run; 0: unknown
+  double seconds = 0.0;  ///< expected duration of the companions
+  double steps = 0.0;    ///< expected number of steps of one companion; 0: unknown
 };
 
-/// Sets this capture velocity for all contacts of `model` that have none.
+/// Sets the capture velocity of all contacts of `model` for which the scene gives none.
 void set_capture_velocities(Model& model, double capture_velocity);
 
 /// Companion runs that certify `run`. run.engine must not be automatic. Errors: SceneError if a requested
@@ -76,18 +75,19 @@ void set_capture_velocities(Model& model, double capture_velocity);
 
 // Data recorded from a run and from its companions.
 //
-//   CompanionTracker own(model, run, &recorder)      forwards everything to the recorder
-//   CompanionTracker other(model, run)               keeps events and the columns of history.csv, without forwarding
+//   CompanionTracker own(model, all, &recorder)      for the run: also forwards all data to the recorder
+//   CompanionTracker other(model, all)               for a companion: keeps events and the columns of history.csv
 //
-// A companion runs in its own thread: it stops where the run has ended, or on request.
+// A companion runs in its own thread; it stops at the time at which the run has ended, or on request.
 
-/// Columns of history.csv, row by row; then N and T of each contact, and the outputs, if requested.
+/// Rows with the columns of history.csv; if requested, also N and T of each contact, and the outputs. `values` contains
+/// the rows one after another, with `width` numbers each.
 struct RecordedRows {
   std::size_t width = 0;
   std::vector<double> t, values;
 };
 
-/// Limit of the companions' time; changed by the run's thread.
+/// Time of the run beyond which companions stop; the thread of the run sets it, companions read it.
 class CompanionLimit {
  public:
   void stop_at(double t) { end_.store(t, std::memory_order_relaxed); }
@@ -98,12 +98,13 @@ class CompanionLimit {
   std::atomic<double> end_{std::numeric_limits<double>::infinity()};
 };
 
-/// Each contact has two columns in a row: N and T.
+/// Number of columns per contact in RecordedRows: N and T.
 inline constexpr std::size_t forces_per_contact = 2;
 
 class CompanionTracker : public run::ForwardingRecorder {
  public:
-  /// Both arguments must outlive the object; without a recorder nothing is forwarded. `all`: also forces and outputs.
+  /// Model and `next` must outlive the object. all: also keep forces and outputs. next: receives all data; null: the
+  /// object tracks a companion.
   explicit CompanionTracker(const Model& model, bool all, Recorder* next = nullptr)
       : run::ForwardingRecorder(next), model_(model), all_(all), companion_(next == nullptr) {
     rows.width =
@@ -119,9 +120,9 @@ class CompanionTracker : public run::ForwardingRecorder {
   RecordedRows rows;
   const CompanionLimit* limit = nullptr;                       ///< only for a companion
   double max_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
-  bool too_long = false;                                       ///< max_steps ended it
+  bool too_long = false;                                       ///< the companion was stopped after max_steps
   double event_shift =
-      0.0;  ///< for a companion: part of the time of the next events that it has added itself
+      0.0;  ///< for a companion: shift of the next events / their time, which event() subtracts again
 
  private:
   const Model& model_;

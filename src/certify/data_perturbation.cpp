@@ -14,10 +14,10 @@
 namespace signorini::certify {
 namespace {
 
-/// Relative change of each datum: some units in the last place, less than the accuracy of any structural data.
+/// Largest relative change of a datum: a few units in the last place, far less than the accuracy of structural data.
 constexpr double rounding_of_data = 1e-15;
 
-/// SplitMix64 (Steele, Lea, Flood 2014): a good bit mixer, which is sufficient here.
+/// SplitMix64 (Steele, Lea, Flood 2014): mixes bits well, which suffices for perturbations.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
@@ -25,7 +25,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-/// True if the contact has a gap at the start, beyond rounding.
+/// True if the contact is open at the start, with a gap larger than rounding.
 bool is_apart(const Contact& c, const Vector& u0) {
   return !c.normal_force_given() &&
          c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0));
@@ -41,7 +41,7 @@ class DataPerturber {
     const double size = 0.5 + 0.5 * static_cast<double>(bits >> 12U) * 0x1p-52;
     return 1.0 + ((bits & 1U) != 0U ? size : -size) * rounding_of_data;
   }
-  /// Factor of the next datum.
+  /// Factor 1 + delta r of the next datum.
   double next() { return factor(++number_); }
 
   void matrix(SparseMatrix& a) {
@@ -54,14 +54,14 @@ class DataPerturber {
       }
   }
 
-  /// For reduced models: perturbs entries of K by the terms that cancel in them.
+  /// For reduced models: perturbs the diagonal of K by rounding errors of the terms that cancel in it.
   void shapes(const Reduction& reduction, SparseMatrix& k) {
     for (Eigen::Index j = 0; j < reduction.stiffness_terms.rows(); ++j) {
       const double terms = reduction.stiffness_terms(j, j), own = k.coeff(j, j);
       if (own > 0.0 && terms > own) k.coeffRef(j, j) += (next() - 1.0) * terms;
     }
   }
-  /// Perturbs products with other shapes as well.
+  /// For reduced models: perturbs the products x^T K y of different shapes, which rotates the shapes.
   void products(Model& near) {
     const std::uint64_t own = mixed(++number_);
     perturb_shapes(
@@ -81,12 +81,12 @@ class DataPerturber {
   void contact(Contact& c, const Vector& u0) {
     if (is_apart(c, u0)) c.gap *= next();
     contact::visit_stiffnesses(c, [this](double& x, const Unit&) { x *= next(); });
-    // Numbers of a law made of data: equal ones stay equal, such as a stiffness in a row and in a memory.
+    // Equal constants of a contact law remain equal, for example a stiffness that occurs in two equations of the law.
     if (auto law = c.law->with_constants([this](double& x, const Unit&) {
           x *= factor(mixed(number_) ^ std::bit_cast<std::uint64_t>(std::abs(x)));
         }))
       c.law = std::move(law);
-    const double friction = next();  // static and kinetic friction that are equal stay so
+    const double friction = next();  // one factor for both, so that equal coefficients remain equal
     c.friction.static_ *= friction;
     c.friction.kinetic *= friction;
     if (c.restitution < 1.0) c.restitution = std::min(1.0, c.restitution * next());
@@ -98,7 +98,7 @@ class DataPerturber {
   std::uint64_t seed_, number_ = 0;
 };
 
-/// Degrees of freedom of contacts that touch at the start.
+/// For each degree of freedom: a contact that touches at the start acts on it.
 std::vector<bool> touched(const Model& model) {
   std::vector<bool> list(static_cast<std::size_t>(model.size()), false);
   for (const Contact& c : model.contacts)
@@ -130,7 +130,7 @@ Model perturbed(const Model& model, std::uint64_t seed) {
     if (!model.static_start) near.u0[i] *= disturb.next();
   }
   if (model.reduction) disturb.products(near);
-  if (const auto moved = perturbed_start(model, near)) {  // it follows from the other data
+  if (const auto moved = perturbed_start(model, near)) {  // a static start follows from the perturbed data
     near.u0 += moved->w;
     for (std::size_t k = 0; k < near.contacts.size(); ++k) near.contacts[k].initial_shear = moved->shears[k];
   }
@@ -139,10 +139,10 @@ Model perturbed(const Model& model, std::uint64_t seed) {
 
 namespace {
 
-// Half of the digits: beyond this the first-order approximation C is invalid.
+// Half of the digits of a double: larger entries of the first-order approximation C are not valid.
 constexpr double max_mixed = 1e-8;
 
-/// C; rows of shapes without mass are zero, as for infinite frequency.
+/// Matrix C; rows of shapes without mass are zero, because their frequency is infinite.
 Eigen::MatrixXd mixing(const std::function<double(Eigen::Index, Eigen::Index)>& coupling,
                        const Model& model) {
   const Eigen::MatrixXd& terms = model.reduction->stiffness_terms;
@@ -162,7 +162,7 @@ Eigen::MatrixXd mixing(const std::function<double(Eigen::Index, Eigen::Index)>& 
   return result;
 }
 
-/// f_i' = f_i + sum_j C_ij f_j. Degrees of freedom beyond the shapes are unchanged.
+/// Replaces f_i by f_i + sum_j C_ij f_j. Coefficients of degrees of freedom that are not shapes do not change.
 void mix(const Eigen::MatrixXd& c, Combination& form) {
   Vector f = Vector::Zero(c.rows());
   Combination mixed, beside;
@@ -182,7 +182,7 @@ void mix(const Eigen::MatrixXd& c, Combination& form) {
 
 void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model) {
   const Eigen::MatrixXd c = mixing(coupling, model);
-  // u = X q = X' q':  q' = q - C^T q. Gaps keep their exact values.
+  // u = X q = X' q' gives q' = q - C^T q. Gaps at the start do not change.
   const Vector u0 = model.u0;
   for (Vector* q : {&model.u0, &model.v0}) q->head(c.rows()) -= c.transpose() * q->head(c.rows()).eval();
   for (Contact& contact : model.contacts) {
@@ -196,12 +196,12 @@ void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& cou
 
 namespace {
 
-// Relative distance to the friction limit below which a contact may slide. Chosen as for starts of reduced models.
+// A contact closer to its friction limit than this fraction of the limit may slide. Value as for starts of reduced models.
 constexpr double at_limit = 1e-9;
 
 bool rubs(const Model& model, const Contact& c) { return model.statics.frictional && c.has_friction(); }
 
-/// True if friction holds the contact below its limit, by a spring.
+/// True if the contact sticks with a tangential spring and its T is below the friction limit.
 bool sticks(const Model& model, std::size_t k) {
   const Contact& c = model.contacts[k];
   const double limit = contact::sticking_limit(c, -model.statics.reactions[k]);
@@ -209,7 +209,7 @@ bool sticks(const Model& model, std::size_t k) {
          std::abs(c.initial_shear) < (1.0 - at_limit) * limit;
 }
 
-/// Shears in `near`, with unchanged sliding points.
+/// initial_shear of each contact with the stiffnesses of `near` and unchanged sliding points.
 std::vector<double> shears(const Model& model, const Model& near) {
   std::vector<double> list;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -221,7 +221,7 @@ std::vector<double> shears(const Model& model, const Model& near) {
   return list;
 }
 
-/// Unbalanced forces at u0, with contact forces from the gaps, for rigid contacts from the start.
+/// Unbalanced forces r at u0. N of contact springs follows from their gaps; N of rigid contacts is that of the start.
 Vector left_over(const Model& model, const std::vector<double>& reactions,
                  const std::vector<double>& shears) {
   Vector force = assembly::static_load(model.loads, model.size()) - model.stiffness * model.u0;
@@ -243,7 +243,7 @@ bool bears(const Model& model, std::size_t k) {
   return !model.contacts[k].normal_force_given() && model.statics.reactions[k] > 0.0;
 }
 
-/// True if no loaded contact has opened, and no open one has closed.
+/// True if no gap with a contact spring changes its sign from model.u0 to u; gaps within rounding are ignored.
 bool keeps_states(const Model& model, const Model& near, const Vector& u) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
@@ -255,7 +255,7 @@ bool keeps_states(const Model& model, const Model& near, const Vector& u) {
   return true;
 }
 
-/// True for a static start in which all friction is below its limits, by springs.
+/// True for a static start whose loaded contacts with friction all stick below their limits, with tangential springs.
 bool is_known(const Model& model) {
   if (!model.static_start || model.statics.reactions.size() != model.contacts.size()) return false;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -292,7 +292,7 @@ std::optional<PerturbedStart> perturbed_start(const Model& model, const Model& n
     return held.solve(p, Vector::Zero(static_cast<Eigen::Index>(rows.size()))).first;
   };
   std::optional<Vector> w = solve();
-  // Free motions are fixed by ut = 0.
+  // If a rigid-body motion is free, rows ut = 0 are added until the matrix is regular.
   for (std::size_t k = 0; !w && k < model.contacts.size(); ++k) {
     const Combination& tangent = near.contacts[k].tangent;
     if (tangent.terms.empty() ||

@@ -1,13 +1,12 @@
-// data_perturbation.hpp: a perturbed copy of a model: every datum is changed by about one rounding.
+// data_perturbation.hpp: perturbed copies of a model: every datum is changed by about one rounding error.
 //
 //   x -> x (1 + delta r),   delta = 1e-15,  |r| in [1/2, 1], the same r for M_ij and M_ji
 //
-// For a reduced model the perturbed data are those of the structure. The product x^T K y of two shapes
-// changes by the rounding of its terms, which may cancel, so stiffnesses and shapes change (perturb_shapes).
-// A static start follows its data if friction is below its limit (perturbed_start). Unchanged are: times of
-// breakpoints, the initial state of touching contacts, displacements of other static starts, closed gaps, and
-// zeros. So laws, states at the start and symmetry of the matrices are those of the model. The same seed
-// gives the same model.
+// For a reduced model, the data of the structure are perturbed: the product x^T K y of two mode shapes changes by the
+// rounding of its terms, which may cancel, so stiffnesses and shapes change (perturb_shapes). A static start changes with
+// its data if all friction is below its limit (perturbed_start). These data do not change: times of breakpoints, the
+// initial state of touching contacts, displacements of other static starts, closed gaps, and zeros. So laws, contact
+// states at the start and the symmetry of matrices are those of the model. The same seed gives the same result.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +18,23 @@
 
 namespace signorini::certify {
 
-/// Pseudo-random 1 or -1, the same for the same numbers.
+/// Pseudo-random 1 or -1, a function of seed and number.
 [[nodiscard]] double random_sign(std::uint64_t seed, std::uint64_t number);
 
-/// The model with all data changed by about one rounding.
+/// Copy of the model with all data changed by about one rounding error.
 [[nodiscard]] Model perturbed(const Model& model, std::uint64_t seed);
 
-// Perturbation of a reduced model's shapes by roundings of K.
+// Perturbation of the mode shapes of a reduced model by rounding errors of K.
 //
 //   x_i' = x_i + sum_j C_ij x_j,   C_ij = d_ij / (lambda_i m_j - K_jj),   lambda_i = K_ii/m_i, i with mass
 //   d_ij = delta r_ij |x_i|^T |K| |x_j|,   r_ij = r_ji,   1/2 <= |r_ij| <= 1
 //
-// A rounding of each entry of K couples two shapes by d, which leaves K_ii unchanged and rotates the shapes. So the
-// forms of contacts, loads and the initial state change; the structure is the same. If a soft motion consists of stiff
-// members, its shape is off by ten thousand roundings. Shapes with nearly equal frequencies are unchanged: any two
-// shapes of their plane are equivalent.
+// A rounding error of each entry of K couples two shapes by d; this does not change K_ii, but rotates the shapes. So the
+// forms of contacts and loads and the initial state change. The shape of a soft motion of stiff members changes by ten
+// thousand rounding errors. Shapes with nearly equal frequencies are not changed, because any two shapes in their plane
+// are equivalent.
 
-/// The model must be reduced; coupling: delta r_ij of a pair, the same for (i, j) and (j, i).
+/// Perturbs the shapes of `model`, which must be reduced. coupling: delta r_ij, equal for (i, j) and (j, i).
 void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model);
 
 // Change of a static start by a perturbation of its data.
@@ -43,21 +42,22 @@ void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& cou
 //   r = P - K u0 - sum_closed n N - sum_stuck t T
 //   (K' + sum_closed kn' n' n'^T + sum_stuck kt' t' t'^T) w = r' - r
 //   n' . w = 0                   for closed rigid contacts, and for touching contacts without force
-//   T' = T kt'/kt + kt' t' . w   so that the sliding point is unchanged
+//   T' = T kt'/kt + kt' t' . w   so that the sliding point does not move
 //
-// N = kn g for springs; for rigid contacts N is that of the start. T is initial_shear.
+// Primes: perturbed data. N = kn g for contact springs; N of rigid contacts is the normal force of the start. T is
+// initial_shear.
 //
-// The error of u0 is the condition of K times a rounding: ten million roundings if a frame stands on springs that are
-// ten million times softer. Companions with the same initial state would not show this. The contact states of the start
-// do not change.
+// The error of u0 is (condition number of K) * rounding error: ten million rounding errors if a frame stands on springs
+// that are ten million times softer. Companions with the same initial state would not reveal this error. The contact
+// states of the start do not change.
 
 struct PerturbedStart {
-  Vector w;                    ///< change of near.u0
+  Vector w;                    ///< change of u0
   std::vector<double> shears;  ///< T' of each contact
 };
-/// Change of the static start of `model` if its data become those of `near`, which has the same closed gaps.
-/// nullopt if the start is not static, friction is at its limit or holds rigidly, the matrix is singular, or
-/// a contact's state would change.
+/// Change of the static start of `model` if its data become those of `near`, which has the same closed gaps. nullopt if
+/// the start is not static, a contact sticks rigidly or at its friction limit, the matrix is singular, or a contact state
+/// would change.
 [[nodiscard]] std::optional<PerturbedStart> perturbed_start(const Model& model, const Model& near);
 
 }  // namespace signorini::certify

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Error of a column from one step; columns beyond the model's are forces, then outputs, which have no tolerances of
-/// their own.
+/// tol(x) of a column with this largest value. Columns after those of the model are N and T of contacts, then outputs,
+/// which have only the relative tolerance.
 double tolerance_of(const Model& model, std::size_t index, double greatest, const engine::Tolerance& t) {
   if (!(t.rtol > 0.0)) return rounding::few_operations * greatest;
   if (index >= model.columns.size() + forces_per_contact * model.contacts.size()) return t.rtol * greatest;
@@ -30,7 +30,7 @@ bool jumps(const Model& model, std::size_t index) {
   return index >= model.columns.size() || model.columns[index].velocity;
 }
 
-/// Rows of one column.
+/// One column of RecordedRows; the index is the row.
 class ColumnOf {
  public:
   ColumnOf(const RecordedRows& rows, std::size_t column) : rows_(rows), column_(column) {}
@@ -41,7 +41,7 @@ class ColumnOf {
   std::size_t column_;
 };
 
-/// Rows within the error of an event: there a velocity may be the one on the event's other side.
+/// For each row: the row is within the error of an event's time, so its velocities may be those of the other side.
 std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector<TimedEvent>& events,
                                  const std::vector<double>& errors) {
   std::vector<bool> at(t.size(), false);
@@ -111,7 +111,7 @@ class HistoryBounds {
   HistoryErrors errors_;
 };
 
-/// c times the largest difference of one figure, plus the error of its own last step.
+/// Error bound of one number of a report: c times its largest difference from the companions, plus one local tolerance.
 class FigureBound {
  public:
   FigureBound(const BoundSettings& settings, std::size_t companions)
@@ -173,7 +173,7 @@ void bound_extremes(Certificate& certificate, const RecordedRun& run,
 
 namespace {
 
-/// Contact force per error of its displacement; 0: unknown.
+/// Stiffness that converts an error of a contact's displacement to an error of its force; 0: unknown.
 double stiffness_of(const Contact& contact, const ComplianceShare& share) {
   const double own = (share.normal ? contact.normal_spring() : contact.tangent_spring()).value_or(0.0);
   if (own > 0.0) return own;
@@ -183,7 +183,7 @@ double stiffness_of(const Contact& contact, const ComplianceShare& share) {
 }  // namespace
 
 Truncation truncation_of(const Model& model, const Reduction& reduction, const std::vector<Peak>& peaks) {
-  if (peaks.size() < model.contacts.size()) return {};  // not computed
+  if (peaks.size() < model.contacts.size()) return {};  // the run stopped before peaks were recorded
   std::vector<double> off(peaks.size(), reduction.ringing);
   for (const ComplianceShare& share : reduction.shares) {
     if (share.contact < 0) continue;
@@ -204,9 +204,9 @@ Truncation truncation_of(const Model& model, const Reduction& reduction, const s
 
 namespace {
 
-constexpr std::size_t rows_beside = 3;  // before and after each near hit
+constexpr std::size_t rows_beside = 3;  // number of rows compared before, and after, each near hit
 
-/// Difference of a contact's gap between two runs, from the columns of their rows.
+/// Difference of a contact's gap between two runs, from the displacements in their rows.
 class GapDifference {
  public:
   GapDifference(const Model& model, const RecordedRun& run, const RecordedRun& companion)
@@ -219,8 +219,8 @@ class GapDifference {
     }
   }
 
-  /// The largest difference around t; if a contact's displacements have no columns, the largest possible effect of all
-  /// differences on its gap.
+  /// Largest |difference| of the gap in rows around t. If some displacements of the contact have no columns, an estimate:
+  /// the sum of the contact's coefficients times the largest difference of all displacements.
   [[nodiscard]] double around(double t, const Contact& contact) const {
     const std::size_t rows = std::min(run_.t.size(), other_.t.size());
     const auto at = static_cast<std::size_t>(
@@ -255,8 +255,8 @@ class GapDifference {
   const Model& model_;
   const RecordedRows &run_, &other_;
   std::vector<int>
-      column_of_;  // column of each displacement; -1: none; empty: columns do not match the degrees of
-                   // freedom
+      column_of_;  // column of each degree of freedom; -1: none; empty: the model is reduced, so columns
+                   // are not its degrees of freedom
 };
 
 }  // namespace

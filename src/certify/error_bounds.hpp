@@ -1,10 +1,11 @@
-// error_bounds.hpp: error bounds of displacements, velocities, peaks and landings, from the differences
-// between a run and its companions.
+// error_bounds.hpp: error bounds of displacements, velocities, peaks and landings, from the differences between a run and
+// its companions.
 //
-//   bound = c max over the last five rows of |x - x'| + tol(x)
+//   bound = c max over the last five rows of |x - x'| + tol(x)       x' : value of the companion
 //
-// tol(x): one local tolerance if the engine has one, else rounding. Within the error of an event's time a
-// velocity may be that of the event's other side: in these rows the change to the neighbouring rows is added.
+// tol(x): the local tolerance of the engine; for engines without a tolerance, rounding. If a row is closer to an event
+// than the error of the event's time, the true velocity may be that of the other side of the event: the changes to the
+// neighbouring rows are then added.
 #pragma once
 
 #include "certify/companion.hpp"
@@ -23,7 +24,7 @@ struct RecordedRun {
 
 struct BoundSettings {
   double factor = 1.0;          ///< c
-  engine::Tolerance tolerance;  ///< tolerance of the run; rtol 0: rounding only
+  engine::Tolerance tolerance;  ///< tolerance of the run; rtol = 0: the engine has none
 };
 
 /// Error bounds of the rows of history.csv.
@@ -32,36 +33,32 @@ struct BoundSettings {
                                           const BoundSettings& settings,
                                           const std::vector<TimedEvent>& events, const MatchResult& verdict);
 
-/// Adds error bounds of the peaks of the whole run, and of landings that have ended in its certain part.
+/// Adds error bounds of the peaks, if the whole run is certified, and of landings that end in the certified part.
 void bound_extremes(Certificate& certificate, const RecordedRun& run,
                     const std::vector<RecordedRun>& companions, const BoundSettings& settings);
 
-// Possible effect of the modes left out on contacts of a reduced model, and on their forces.
+// Truncation error of a reduced model: estimated effect of the omitted modes on displacements and forces of contacts.
 //
-//   f_d = compliance left out in direction d of a contact  x  the contact's largest force along d
-//   off = ringing + the larger f of the contact's two directions
-//   displacement = largest off
-//   force = largest of off x the contact's spring along d, or off / compliance in d without a spring
+//   f_d = (omitted compliance in direction d of a contact) * (largest force of the contact along d)
+//   off = ringing + the larger f_d of the contact's two directions
+//   displacement = largest off of all contacts
+//   force = largest off * (stiffness of the contact spring along d); without a spring, off / (compliance in d)
 //
-// ringing: oscillation of the modes left out after jumps of loads. A displacement error across a contact also moves it
-// along its tangent, as the deflection of a bent axis does: hence the larger of the two. A spring immediately converts
-// an error of the gap to a force; the structure behind it yields later (measured: compared with the full pipeline,
-// errors of forces are kn times those of displacements). These are estimates: a change of force may shift an event,
-// which they do not include.
+// ringing: amplitude of the omitted modes after jumps of loads. The larger f_d applies to both directions, because an
+// error along the normal of a contact also moves it along its tangent if its axis is bent. The force of a contact spring
+// follows the error of its gap at once, before the structure yields (measured with the full pipeline model: errors of
+// forces are kn times those of displacements). The estimates do not include events that a change of force may shift.
 
-/// The estimates above for a reduced model. peaks: those of the run.
+/// The estimates above for a reduced model. peaks: largest displacements and forces of the run.
 [[nodiscard]] Truncation truncation_of(const Model& model, const Reduction& reduction,
                                        const std::vector<Peak>& peaks);
 
-// Impacts that a run and its companion may both have missed.
+// Grazing impacts that a run and its companion may both have missed because of accumulated errors.
 //
-//   smallest gap g of the companion,   e = c max |g - g'| at rows around that time:   open if g <= e
-//   starting time: g + bend (t' - t)^2 = g + e
-//
-// A run with accumulated step errors may miss a grazing impact, and so may its companion if its own error is no
-// smaller.
+//   g: local minimum of the companion's gap, at time t;   e = c max |g - g'| at rows around t
+//   undecided if g <= e, from the time t' < t on at which the gap was g + e:   half_curvature (t' - t)^2 = e
 
-/// The first of these near impacts that is undecided (open). factor: c.
+/// The earliest undecided impact, with its time t' and a sentence. near: minima of the companion's gaps; factor: c.
 [[nodiscard]] std::optional<EventSequence::FirstViolation> first_undecided_impact(
     const Model& model, const RecordedRun& run, const RecordedRun& companion,
     const std::vector<events::NearHit>& near, double factor);

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// Rounding of an event's own time: that of a sum, twice.
+/// Relative rounding error of an event time: two rounding errors of a sum.
 constexpr double of_clock = 2.0 * rounding::eps;
 
-/// End of the certain sequence, and its reason; the earliest one counts.
+/// End of the certified sequence and its reason; at() keeps the earliest end.
 struct CertifiedSpan {
   double t = never;
   std::string reason;
@@ -28,13 +28,13 @@ using Rows = std::vector<std::size_t>;
 
 /// Data of a contact from its previous events.
 struct Past {
-  double off = 0.0;  // difference at the previous event
+  double off = 0.0;  // t' - t of the previous event
   std::vector<double> speeds =
-      std::vector<double>(difference_window, 0.0);  // differences R of the last events
+      std::vector<double>(difference_window, 0.0);  // R of the last events, in a ring buffer
   std::size_t next = 0;
 };
 
-/// Rows of the changes of each contact.
+/// For each contact, the indices of the events that change its state.
 std::vector<Rows> by_contact(const std::vector<TimedEvent>& events, std::size_t contacts) {
   std::vector<Rows> rows(contacts);
   for (std::size_t i = 0; i < events.size(); ++i)
@@ -67,7 +67,8 @@ class EventMatcher {
   }
 
  private:
-  /// Computes differences of partners, and the first event of each contact without a partner.
+  /// Pairs the i-th events of each contact in both runs, computes their time differences, and finds the times at which
+  /// the certified sequence must end.
   void pair(const std::vector<Rows>& own, const EventSequence& companion) {
     const std::vector<Rows> other = by_contact(companion.events, names_.size());
     for (std::size_t k = 0; k < own.size(); ++k) {
@@ -101,7 +102,7 @@ class EventMatcher {
     if (a == nullptr || b == nullptr) {
       const TimedEvent& alone = a != nullptr ? *a : *b;
       if (alone.t <= std::min(run_.reached, companion.reached))
-        // The event may be earlier by its own uncertainty, which is large if a guard grazes.
+        // The event without a partner may occur earlier by its uncertainty, which is large if a guard grazes.
         certified_until_.at(std::max(0.0, alone.t - factor_ * static_cast<double>(alone.uncertainty)),
                             a != nullptr ? describe(*a) + " has no matching event in the companion"
                                          : "the companion has one more event, " + describe(*b));
@@ -109,9 +110,9 @@ class EventMatcher {
     }
     const double off = b->t - a->t, change = std::abs(off - past.off);
     past.off = off;
-    // Time since the contact's previous event: a common error shifts no event past another.
+    // An error that is common to both events does not change the interval since the contact's previous event.
     const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
-    // Each event has its own rounding in addition; changes at one instant share it.
+    // Rounding errors of the two event times are added, unless both events are changes at one instant.
     const double apart = i > 0 && since > 0.0 ? own_rounding(own, other, i, companion) : 0.0;
     const double shift = factor_ * change + apart;
     if (same(*a, *b) && shift <= 0.5 * since) {
@@ -132,8 +133,8 @@ class EventMatcher {
     return false;
   }
 
-  /// Rounding of two neighbours together. A companion that computes to rounding cannot certify more than it resolves
-  /// itself.
+  /// Sum of the rounding errors of two successive event times: of the run if its engine has rounding errors only, else of
+  /// a companion with such an engine, which cannot certify shorter intervals than it resolves.
   [[nodiscard]] double own_rounding(const Rows& own, const Rows& other, std::size_t i,
                                     const EventSequence& companion) const {
     if (!rounded_ && !companion.rounded) return 0.0;
@@ -143,7 +144,7 @@ class EventMatcher {
            static_cast<double>(events[rows[i - 1]].uncertainty);
   }
 
-  /// Returns false if the decision depends on less than the error of its speed.
+  /// Returns false if the decision between rest and rebound depends on less than the error of the speed.
   bool flies_or_rests(const TimedEvent& a, const TimedEvent& b, Past& past) {
     const double r = a.departure, other = b.departure;
     if (std::isnan(r) || std::isnan(other)) return true;
@@ -164,7 +165,7 @@ class EventMatcher {
                        to_string(event.to));
   }
 
-  /// Changes at the same instant as a guard's event have the time of that guard, and are as uncertain.
+  /// Gives all changes at one instant the largest uncertainty among them, because they have the same time.
   void share() {
     const std::vector<TimedEvent>& events = run_.events;
     for (std::size_t begin = 0, end = 0; begin < events.size(); begin = end) {
@@ -176,7 +177,7 @@ class EventMatcher {
     }
   }
 
-  /// Converts differences to errors, in the order of time.
+  /// Computes t_error of each event before the end, in the order of time.
   void grow() {
     errors_.assign(run_.events.size(), none);
     std::vector<double> last(difference_window, 0.0);
@@ -193,8 +194,8 @@ class EventMatcher {
     }
   }
 
-  /// An event within its error of the end may be beyond it. The certain part ends at its earliest possible time, so
-  /// that it contains no such event, and no row that may be after one.
+  /// Sets the end of the certified part. Events that may be later than the end are not certified; the certified part ends
+  /// before the earliest possible time of these events, so that it contains no row after one of them.
   void settle(MatchResult& result) {
     result.until = run_.reached;
     if (certified_until_.t < never) {
@@ -235,11 +236,11 @@ class EventMatcher {
   bool rounded_;
   CertifiedSpan certified_until_;
   std::vector<double> deviation_, errors_;
-  std::vector<float> uncertainty_;  // for an event of the run, or its partner's if larger
-  double spread_ = 0.0;             // c D at the end of the certain sequence
+  std::vector<float> uncertainty_;  // for each event: largest uncertainty in the run and in companions
+  double spread_ = 0.0;             // c D at the end of the certified sequence
 };
 
-/// Rounds up, so that the result is not below x.
+/// The smallest float that is not below x.
 float rounded_up(double x) {
   const auto near = static_cast<float>(x);
   return static_cast<double>(near) < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;

@@ -1,29 +1,31 @@
-// event_matcher.hpp: determines the certain part of a run from its events and those of its companions
+// event_matcher.hpp: determines the certified part of a run from its events and the events of its companions
 // (signorini/certify.hpp).
 //
-//   D_k = largest |t - t'| over the last five events, all contacts and companions
-//   t_error = c D_k + uncertainty + 2 eps t        uncertainty: the event's own, or its partner's if larger; the
-//                                                      largest of all changes at the same instant
+//   t, t'                                          times of the same event in the run and in a companion
+//   D_k = largest |t - t'| of the last five events, over all contacts and companions
+//   t_error = c D_k + uncertainty + 2 eps t        uncertainty: t_uncertainty in the run or in a companion, the larger one;
+//                                                  changes at one instant share the largest value
 //
-// The certain sequence ends where neighbours of one contact have
+// The certified sequence ends at the first of these times:
 //
-//   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| + u_i + u_i-1 > (t_i - t_i-1) / 2        u: uncertainties that are roundings,
-//                                                                   of the run or, where it has none, of the companion
+// - two successive events of one contact are too close to be ordered (u: uncertainties of an engine with rounding errors
+//   only, of the run or else of the companion):
 //
-// or where the error of its speed leaves open whether a contact that touched rests or rebounds:
+//     c |(t_i - t'_i) - (t_i-1 - t'_i-1)| + u_i + u_i-1 > (t_i - t_i-1) / 2
 //
-//   c R_k max(r, 1) >= |r - 1|        R = |r - r'| / max(r, r', 1)
+// - a contact that touched may rest or rebound, because the error of its speed is too large:
 //
-// r: speed of the contact / smallest speed of a rebound (Event::departure); R_k: the largest R of the
-// contact's last five differences.
+//     c R_k max(r, 1) >= |r - 1|        R = |r - r'| / max(r, r', 1)
 //
-// Both runs may make the same wrong decision there. The certain sequence also ends where a guard entered the
-// companion's tolerance and left it without an event (engine/events/graze_detector.hpp), or where rounding
-// left several states open.
+//   r: speed of the contact / smallest speed of a rebound (Event::departure); R_k: largest R of the contact's last five
+//   touches. Beyond this limit both runs may make the same wrong decision.
+// - a guard of the companion came within its tolerance of zero without an event (engine/events/graze_detector.hpp), or
+//   rounding left several contact states possible.
 //
-// An event with t + t_error beyond that end minus c D is not certain; `until` is the smallest t - t_error of these.
+// An event is not certified if t + t_error is later than this end minus c D; `until` is the smallest t - t_error of the
+// events that are not certified.
 //
-// Events of jumps of loads have known times: their error is rounding, and they do not contribute to D.
+// The times of jumps of loads are known: their error is rounding, and they do not contribute to D.
 #pragma once
 
 #include <cstddef>
@@ -37,29 +39,30 @@
 
 namespace signorini::certify {
 
-/// Number of events or rows over which the largest difference is taken, because a single one may vanish by chance.
-/// Chosen value; the test "certify: the greatest of five" depends on it.
+/// Number of events or rows over which the largest difference is taken, because a single difference may be small by
+/// chance. Chosen value; the test "certify: the greatest of five" depends on it.
 inline constexpr std::size_t difference_window = 5;
 
-/// Columns of a row of events that are needed for the comparison.
+/// Data of an event that the comparison needs.
 struct TimedEvent {
   double t = 0.0;
-  float uncertainty = 0.0F;  ///< part of its t_error that belongs to its own instant; 0: none
+  /// Event::t_uncertainty, or the fraction of it that is added to t_error; 0: none.
+  float uncertainty = 0.0F;
   int contact = -1;          ///< -1: a jump of a load
   EventType type = EventType::time;
   State from = State::open, to = State::open;
-  bool is_located = false;  ///< a guard reached zero; else a jump of a load changed the state
-  double departure = std::numeric_limits<double>::quiet_NaN();  ///< Event::departure; NaN: there is none
+  bool is_located = false;  ///< true: a guard reached zero; false: a jump of a load changed the state
+  double departure = std::numeric_limits<double>::quiet_NaN();  ///< Event::departure; NaN: not known
 
   /// True for a change of a contact's state; false for a jump of a load.
   [[nodiscard]] bool is_change() const { return contact >= 0 && type != EventType::time; }
 };
-/// The columns of an event that the comparison needs.
+/// Copies the data that the comparison needs from an event.
 [[nodiscard]] TimedEvent timed_event(const Event& event);
 
-/// Events in order, and the time that the run reached.
+/// Events of a run or of a companion in order of time, and the reasons why its sequence may be uncertain.
 struct EventSequence {
-  /// The first violation that the law checker of a run has found.
+  /// First violation that the law checker of the run has found, or another reason why the run is uncertain from t on.
   struct FirstViolation {
     double t = 0.0;
     std::string sentence;
@@ -67,26 +70,28 @@ struct EventSequence {
 
   std::vector<TimedEvent> events;
   double reached = 0.0;
-  std::string stop;  ///< reason why it stopped earlier; empty at t_end
-  /// Time at which rounding first left several states open (Report::forgiven_at).
+  std::string stop;  ///< reason why the run stopped early; empty: it reached t_end
+  /// First time at which rounding left several contact states possible (Report::first_undecided).
   std::optional<double> forgiven_at = {};
-  /// For a companion: a decision that the companion leaves open and so cannot confirm for the run.
+  /// For a companion: a guard that came within the companion's tolerance of zero without an event.
   std::optional<events::Graze> graze = {};
   std::optional<FirstViolation> first_violation = {};
-  bool rounded = false;  ///< for a companion: its uncertainties are roundings
+  bool rounded = false;  ///< for a companion: its engine has rounding errors only
 };
 
 struct MatchResult {
   double until = 0.0;
-  std::string reason;  ///< empty: certain up to the time that the run reached
+  /// Reason for the end at `until`; empty: certified up to the time that the run reached.
+  std::string reason;
   std::optional<std::size_t> first_uncertain;
-  std::vector<double> t_errors;  ///< NaN: not certain
+  std::vector<double> t_errors;  ///< one entry per event; NaN: not certified
+  /// Number of successive certified events of different contacts in unknown order.
   std::size_t unordered = 0;
   double spread = 0.0;  ///< c D at `until`, or at the end
 };
 
-/// `names` of the contacts, for the reason; `factor`: c; `rounded`: uncertainties are roundings, which no two events
-/// share. Cost: proportional to the number of events.
+/// Compares the events of a run with those of its companions. factor: c; names: names of the contacts, for reasons;
+/// rounded: the engine of the run has rounding errors only. Cost: proportional to the number of events.
 [[nodiscard]] MatchResult match_events(const EventSequence& run, const std::vector<EventSequence>& companions,
                                        double factor, const std::vector<std::string>& names,
                                        bool rounded = false);

@@ -1,4 +1,4 @@
-// signorini check SCENE: all steps of `run` except the time loop, and their results.
+// signorini check SCENE: reads the scene, builds the model and computes its initial state, but runs no time loop.
 
 #include "cli/check.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t max_table_rows = 24;
 
-/// The number with two significant digits, written out: 140000.
+/// The number with two significant digits, below 1e9 without an exponent: 140000.
 std::string rough(double value) {
   const double unit = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;
   const double rounded = std::round(value / unit) * unit;
@@ -36,7 +36,7 @@ std::string count(long n, const char* one, const char* many) {
   return n == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-// Rounding, such as T in a vertical start, is shown as 0.
+// Number as text; a value below 1e-9 of the scale is rounding and shown as 0.
 std::string above(double value, double scale) { return number(std::abs(value) < 1e-9 * scale ? 0.0 : value); }
 
 std::string unit(const std::string& text) { return " [" + text + "]"; }
@@ -70,7 +70,7 @@ std::string head(const Scene& scene, const Model& model, const check::CheckRepor
   return text;
 }
 
-/// One line per body; mass and inertia are those at its centre.
+/// One line per rigid body, with the mass and inertia at its centre.
 std::string body_lines(const Scene& scene) {
   std::string text;
   for (const RigidBody& body : scene.rigid) {
@@ -240,11 +240,12 @@ std::string stiffness_rows(const Model& model, const check::CheckReport& report)
   }
   return "contact stiffness, and the stiffness of the structure with all other contacts sticking at the same "
          "place\n"
-         "(ratio far above 1: as good as rigid; far below 1: the contact is the soft part):\n" +
+         "(ratio far above 1: the contact is nearly rigid; far below 1: it is soft):\n" +
          table.str() + more(report.stiffness.size()) + "\n";
 }
 
-/// Breakpoints of one load, compression or velocity: listed one by one, or only counted if there are many.
+/// Adds rows for the breakpoints of one load, normal force or surface motion: one row per breakpoint; if there are more
+/// than 12, a single row with the numbers of jumps and kinks.
 void add_breakpoints(Table& table, const std::vector<check::Discontinuity>& all, const std::string& what) {
   constexpr std::size_t most_listed = 12;
   std::vector<const check::Discontinuity*> own;
@@ -283,15 +284,15 @@ std::string reduction_lines(const Model& model) {
   if (r.free_modes > 0) text += fmt::format(", {} of them free motions", r.free_modes);
   text += r.highest_kept > 0.0 ? fmt::format("; highest kept {} {}", number(r.highest_kept), per_time)
                                : std::string("; none with stiffness");
-  text += r.truncated_modes > 0 ? fmt::format(", first left out {} {}\n", number(r.first_truncated), per_time)
-                                : std::string(", none left out\n");
+  text += r.truncated_modes > 0 ? fmt::format(", lowest omitted {} {}\n", number(r.first_truncated), per_time)
+                                : std::string(", none omitted\n");
   text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
   if (r.massive_shapes > 0)
     text += fmt::format(", {} with mass up to {} {}", r.massive_shapes, number(r.highest_massive), per_time);
-  text += fmt::format("; oscillations after jumps of loads are left out, with an amplitude of {} {}\n",
+  text += fmt::format("; after jumps of loads the omitted modes would oscillate with an amplitude of {} {}\n",
                       number(r.ringing), model.units.length);
   const std::string give = unit(model.units.length + "/" + model.units.force);
-  Table table({"static compliance", "all modes" + give, "left out" + give, "share"},
+  Table table({"static compliance", "all modes" + give, "omitted" + give, "share"},
               {false, true, true, true});
   for (std::size_t i = 0; i < r.shares.size() && i < max_table_rows; ++i) {
     const ComplianceShare& s = r.shares[i];
@@ -374,7 +375,7 @@ struct CheckOptions {
   bool json = false, columns = false;
 };
 
-/// Parses "50,100", in cycles per time.
+/// Parses cutoff frequencies such as "50,100", in cycles per time.
 std::vector<double> cutoffs_of(const std::string& text) {
   std::vector<double> list;
   std::istringstream words(text);
@@ -419,7 +420,7 @@ void add_check(Program& program) {
                    "also try these cutoff frequencies of [reduction], in cycles per time")
       ->option_text("F,...");
   add_settings(*command, options->settings);
-  command->add_flag("--columns", options->columns, "list the columns of history.csv too");
+  command->add_flag("--columns", options->columns, "also list the columns of history.csv");
   command->add_flag("--json", options->json, "print JSON instead of text");
   command->callback([&program, options] { program.action = [options] { return check_scene(*options); }; });
 }

@@ -7,7 +7,7 @@
 
 namespace signorini::cli {
 
-/// The report as text.
+/// The report of `check` as text.
 [[nodiscard]] std::string check_text(const Scene& scene, const Model& model,
                                      const check::CheckReport& report);
 

@@ -21,8 +21,8 @@ std::optional<std::string> engine_of(const Override& change, const std::vector<s
   if (colon == std::string::npos || colon > change.path.find('.')) return std::nullopt;
   const std::string name = change.path.substr(0, colon);
   if (std::find(engines.begin(), engines.end(), name) == engines.end())
-    throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the engines{}", change.path, change.value,
-                                 name, base::suggestion(name, engines)));
+    throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the selected engines{}", change.path,
+                                 change.value, name, base::suggestion(name, engines)));
   return name;
 }
 
@@ -33,7 +33,7 @@ void add_output_options(CLI::App& command, OutputOptions& options, const std::st
   command.add_flag("--force", options.force, force);
   command.add_flag("--quiet", options.quiet, "print errors only");
   command.add_flag("--json", options.json, "print " + json + " instead of tables");
-  command.add_flag("--no-plots", options.no_plots, "no pictures, nor scripts for them");
+  command.add_flag("--no-plots", options.no_plots, "write neither pictures nor gnuplot scripts");
 }
 
 void print_warnings(const OutputOptions& options, const std::vector<std::string>& warnings,
@@ -55,7 +55,7 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
 }
 
 void add_table_option(CLI::App& command, std::string& style) {
-  command.add_option("--table", style, "print nothing but the tables, as markdown or latex")
+  command.add_option("--table", style, "print only the tables, as markdown or latex")
       ->option_text("markdown|latex");
 }
 
@@ -103,7 +103,7 @@ std::vector<Override> overrides_for(const std::vector<std::string>& settings,
     const std::optional<std::string> only = engine_of(change, engines);
     const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
     if (path == "run.engine")
-      throw UsageError(scene::override_text(change) + ": --engines gives the engines that run");
+      throw UsageError(scene::override_text(change) + ": cannot be set; choose the engines with --engines");
     if (!only || *only == engine) changes.push_back({path, change.value});
   }
   return changes;

@@ -20,10 +20,10 @@
 
 namespace signorini::cli {
 
-// Output of `compare`: the runs, then the differences of each one from the reference.
+// Output of `compare`: a table of the runs, then the differences of each run from the reference.
 
 [[nodiscard]] std::string compare_text(const compare::ComparisonReport& report);
-/// Only the tables, for papers.
+/// The tables of compare_text() without other text, in a style for papers.
 [[nodiscard]] std::string compare_tables(const compare::ComparisonReport& report, TableStyle style);
 
 namespace {
@@ -60,7 +60,7 @@ std::string run_table(const compare::ComparisonReport& report, TableStyle style 
   return text;
 }
 
-/// Note if one of the two runs did not reach its end, or has a different end.
+/// Note with the end of the compared time, if one of the two runs stopped early or the runs have different ends.
 std::string up_to(const compare::ComparisonReport& report, std::size_t i) {
   const compare::RunFigures &a = report.runs.front().figures, &b = report.runs[i + 1].figures;
   if (a.done() && b.done() && a.t == b.t) return "";
@@ -152,7 +152,7 @@ struct CompareOptions : OutputOptions {
   std::string table;
 };
 
-/// "newmark:dt=1e-4": an engine with keys of [run] for its run.
+/// A run to compare, given as "newmark:dt=1e-4": an engine, and keys of [run] for this run.
 struct Variant {
   std::string engine;
   std::vector<Override> keys;
@@ -173,7 +173,7 @@ Variant variant_of(const std::string& text) {
   return variant;
 }
 
-/// Names of the engines, without the keys of newmark:dt=1e-4: the names that may stand before a path in --set.
+/// Names of the engines in --engines, without keys. A setting "NAME:PATH=VALUE" of --set applies to one of them.
 std::vector<std::string> engines_of(const CompareOptions& options) {
   std::vector<std::string> names;
   for (const std::string& text : options.engines) names.push_back(variant_of(text).engine);
@@ -215,7 +215,8 @@ void run_engine(const CompareOptions& options, const fs::path& path, const study
     ProgressDisplay live(directory, run.model, run.scene.run.t_end, !options.quiet);
     report = run.run_to_disk(directory, live).certified.report;
   } catch (const SceneError& error) {
-    if (options.force) result::remove_run(path / engine);  // an earlier run could be mistaken for a new one
+    // An earlier run could be mistaken for the refused run.
+    if (options.force) result::remove_run(path / engine);
     outcomes.report.refused.emplace_back(engine, error.what());
     return;
   }
@@ -227,7 +228,7 @@ void run_engine(const CompareOptions& options, const fs::path& path, const study
 
 Outcomes run_engines(const CompareOptions& options, const fs::path& path,
                      const std::vector<std::string>& command_line) {
-  std::vector<study::PreparedRun> runs;  // scenes that cannot be built are refused before anything is written
+  std::vector<study::PreparedRun> runs;  // all scenes are built first: an invalid scene leaves no files
   for (const std::string& engine : options.engines)
     runs.push_back(study::prepare_run(scene_for(options, engine),
                                       runs.empty() ? std::nullopt : runs.front().scene.reduction));
@@ -236,7 +237,7 @@ Outcomes run_engines(const CompareOptions& options, const fs::path& path,
   for (const study::PreparedRun& run : runs) {
     run_engine(options, path, run, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
-    if (outcomes.report.runs.empty()) {  // no reference for the others
+    if (outcomes.report.runs.empty()) {  // the reference was refused: there is nothing to compare with
       undo_folder(path, compare_folder());
       throw Error(ExitCode::scene, "the reference, " + options.engines.front() +
                                        ", refuses the scene: " + outcomes.report.refused.front().second);
@@ -314,7 +315,7 @@ fs::path output_directory(const CompareOptions& options) {
   return (by_engine(options) ? first.stem() : first.filename()).string() + "-compare";
 }
 
-/// Refuses limits for outputs that no run has, before any run starts.
+/// Refuses limits for outputs that the scene does not have, before any run starts.
 void check_outputs(const std::vector<compare::Limit>& limits, const std::vector<OutputSpec>& outputs) {
   const std::string response = "response:";
   std::vector<std::string> names;

@@ -1,5 +1,5 @@
-// signorini keys [WORD...]: lists all keys of a scene file, or those whose description contains the words, from the
-// reader's own table.
+// signorini keys [WORD...]: lists all keys of a scene file, or the keys whose description contains the words. The list is
+// the table from which scenes are read (scene/keys.hpp).
 
 #include "cli/keys.hpp"
 
@@ -30,7 +30,7 @@ std::string default_of(const scene::Key& key) {
   return key.default_value.empty() ? "-" : std::string(key.default_value);
 }
 
-/// Tables in the order of their first key in the key table.
+/// Names of the scene's tables, in the order of the key list.
 std::vector<std::string_view> tables() {
   std::vector<std::string_view> names;
   for (const scene::Key& key : scene::all_keys())
@@ -38,7 +38,7 @@ std::vector<std::string_view> tables() {
   return names;
 }
 
-/// A cell of a Markdown table.
+/// Escapes text for a cell of a Markdown table.
 std::string cell(std::string_view text) {
   std::string result;
   for (char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
@@ -53,7 +53,7 @@ std::string default_cell(const scene::Key& key) {
 
 std::string name_cell(const scene::Key& key) { return key.name == "*" ? "any name" : code(key.name); }
 
-/// The table of the keys of one table.
+/// Markdown table of the keys in one table of a scene.
 std::string key_table(std::string_view table) {
   std::string rows;
   for (const scene::Key& key : scene::all_keys()) {
@@ -69,7 +69,7 @@ std::string small(std::string text) {
   return text;
 }
 
-/// A search word, and the words in key descriptions that it stands for. The word itself is also searched.
+/// A search word, and other words that also match it in key descriptions.
 struct Synonym {
   std::string_view word;
   std::initializer_list<std::string_view> keys;
@@ -118,7 +118,7 @@ bool speaks_of(const std::vector<std::string>& row, const std::vector<std::strin
 
 std::string key_list(const std::vector<std::string>& words) {
   const std::string heading =
-      "units are given in terms of force, mass, length and time; \"-\" means: no default, the key may be "
+      "units are given in terms of force, mass, length and time; \"-\" means no default: the key may be "
       "left out\n";
   std::string text = heading;
   for (const std::string_view table : tables()) {

@@ -33,14 +33,14 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// The option that the name abbreviates, else similar ones.
+/// Suggests an option for an unknown one: an option that begins with the given name, else a similar option.
 std::string meant(const std::string& given, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (given.size() > 3 && name.starts_with(given)) return "; did you mean \"" + name + "\"?";
   return base::did_you_mean(given, names);
 }
 
-/// Unexpected arguments of a command, in their order: options are reported before other arguments.
+/// Message about the first unexpected argument of a command: an unknown option, else another argument; "" without any.
 std::string unexpected(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
   const auto option = std::find_if(rest.begin(), rest.end(), [&](const std::string& text) {
@@ -52,11 +52,11 @@ std::string unexpected(const CLI::App& command) {
   const std::string name = option->substr(0, option->find('='));
   const std::vector<std::string> names = option_names(command);
   std::string text = fmt::format("{}: no option {}", command.get_name(), name);
-  if (name == "--engine" && knows(command, "--set")) return text + "; --set run.engine=NAME does it";
+  if (name == "--engine" && knows(command, "--set")) return text + "; use --set run.engine=NAME";
   return text + meant(name, names);
 }
 
-// CLI11's exit codes start at 100; the program's are listed in docs/command-line.md.
+// Prints CLI11's message and returns the program's exit code (docs/command-line.md); CLI11's codes start at 100.
 int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {  // --help, --version
     std::ostringstream text;
@@ -120,7 +120,7 @@ int main_program(int argc, char** argv) {
     throw UsageError(fmt::format("no command \"{}\"{}\nsee {} --help", line[0],
                                  base::suggestion(line[0], names), app.get_name()));
   }
-  std::reverse(line.begin(), line.end());  // CLI11 takes arguments from the back
+  std::reverse(line.begin(), line.end());  // CLI11 expects the arguments in reverse order
   try {
     app.parse(std::move(line));
   } catch (const CLI::ParseError& error) {
@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
   using namespace signorini;
   cli::open_closed_streams();
   cli::end_on_interrupt();
-  std::signal(SIGXFSZ, SIG_IGN);  // reaching the file size limit then is a failed write with a message
+  std::signal(SIGXFSZ, SIG_IGN);  // so that a write beyond the file size limit fails with a message
   try {
     return cli::main_program(argc, argv);
   } catch (const Error& error) {

@@ -1,4 +1,4 @@
-// signorini man [COMMAND]: pages for man(1), from the program's options.
+// signorini man [COMMAND]: prints pages for man(1), generated from the options of the program.
 
 #include "cli/man_completion.hpp"
 
@@ -39,7 +39,7 @@ bool has(const OptionText& option, std::string_view name) {
   return std::find(option.names.begin(), option.names.end(), name) != option.names.end();
 }
 
-/// Settings with paths that do not depend on the scene.
+/// Settings "TABLE.KEY=" for keys whose path does not depend on the scene.
 std::vector<std::string> plain_settings() {
   std::vector<std::string> paths;
   for (const scene::Key& key : scene::all_keys()) {
@@ -147,7 +147,7 @@ const CLI::App* command_named(const CLI::App& app, const std::string& name) {
   throw UsageError(fmt::format("no command \"{}\"{}", name, base::suggestion(name, names)));
 }
 
-/// Writes all pages, and prints their names.
+/// Writes the pages of all commands to the folder, and prints their file names.
 void write_pages(const CLI::App& app, const fs::path& folder) {
   std::vector<const CLI::App*> pages = commands_of(app);
   pages.insert(pages.begin(), nullptr);
@@ -211,7 +211,7 @@ void add_man(Program& program) {
   });
 }
 
-// signorini completion bash|zsh: a script that completes commands, options, scenes and settings.
+// signorini completion bash|zsh: prints a script that completes commands, options, scenes and settings.
 
 namespace {
 
@@ -239,7 +239,7 @@ std::string bash_action(const Completion& completion) {
   return ":";
 }
 
-/// Completions after one command: values of its options, its options, its first argument.
+/// Completions after one command, for bash: values of its options, its options, its first argument.
 std::string bash_command(const CLI::App& command) {
   std::string values, flags, argument = ":";
   for (const OptionText& option : options_of(command)) {
@@ -256,7 +256,7 @@ std::string bash_command(const CLI::App& command) {
                             argument);
 }
 
-/// Text in single quotes, without characters that _arguments interprets.
+/// Escapes text for single quotes and for zsh's _arguments.
 std::string zsh_text(const std::string& text) {
   std::string result;
   for (const char c : text) {

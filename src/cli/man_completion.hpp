@@ -1,4 +1,4 @@
-// man_completion.hpp: the program's options as lists, from CLI11: for man pages and completion.
+// man_completion.hpp: lists of the program's commands and options, read from CLI11, for man pages and completion.
 //
 //   commands_of(app)   run, check, ...
 //   options_of(run)    SCENE (positional), -h --help, -o --output DIR, ...
@@ -12,7 +12,8 @@ namespace signorini::cli {
 
 struct OptionText {
   std::vector<std::string> names;  ///< "-o", "--output"; empty for a positional argument
-  std::string value;               ///< "DIR"; for a positional argument its name; empty for a flag
+  /// Name of the value, "DIR", or of the positional argument; empty for a flag.
+  std::string value;
   std::string description;
   bool required = false;
   [[nodiscard]] bool positional() const { return names.empty(); }
@@ -23,11 +24,11 @@ struct OptionText {
 /// Options of a command, positional arguments first.
 [[nodiscard]] std::vector<OptionText> options_of(const CLI::App& command);
 
-/// Completion of a value.
+/// How a shell completes a value.
 struct Completion {
   enum class Kind { nothing, words, settings, scenes, files, directories };
   Kind kind = Kind::nothing;
-  std::vector<std::string> words;  ///< allowed words; for settings "run.rtol="
+  std::vector<std::string> words;  ///< allowed words; for Kind::settings beginnings such as "run.rtol="
 };
 /// Completion of an option's value, or of a positional argument.
 [[nodiscard]] Completion completion_of(const std::string& command, const OptionText& option);
@@ -36,7 +37,7 @@ struct Completion {
 [[nodiscard]] std::string bash_completion(const CLI::App& app);
 [[nodiscard]] std::string zsh_completion(const CLI::App& app);
 
-/// Page for man(1), section 1, of the program or of one of its commands.
+/// Page for man(1), section 1, of one command, or of the program if `command` is null.
 [[nodiscard]] std::string man_page(const CLI::App& app, const CLI::App* command);
 
 }  // namespace signorini::cli

@@ -1,4 +1,4 @@
-// signorini new NAME: writes a commented scene as a starting point.
+// signorini new NAME: writes a scene file with comments as a starting point.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -84,7 +84,7 @@ ExitCode write_new_scene(const std::string& name, const std::string& from, bool 
   result::write_file(path, text);
   for (const QuakeOptions& options : quakes) write_quake(options);
   for (const std::string& file : files) print(fmt::format("{}\n", file));
-  print_note(fmt::format("signorini check {0}, and then signorini run {0}", path.string()));
+  print_note(fmt::format("next commands: signorini check {0}, then signorini run {0}", path.string()));
   return ExitCode::done;
 }
 
@@ -101,7 +101,7 @@ void add_new(Program& program) {
   command->add_option("NAME", options->name, "the file to write; .toml is added")->required();
   std::string names;
   for (const std::string& name : template_names()) names += (names.empty() ? "" : ", ") + name;
-  command->add_option("--from", options->from, "which one: " + names + "; default: block")
+  command->add_option("--from", options->from, "template of the scene: " + names + " (default: block)")
       ->option_text("NAME");
   command->add_flag("--force", options->force, "replace an existing file");
   command->callback([&program, options] {

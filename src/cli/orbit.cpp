@@ -26,12 +26,13 @@
 
 namespace signorini::cli {
 
-// signorini orbit SCENE --over PATH=FROM:TO: follows a branch of orbits over a key.
+// signorini orbit SCENE --over PATH=FROM:TO: follows a branch of orbits while a key varies from FROM to TO.
 
 /// Parses PATH=FROM:TO. Errors: UsageError.
 void read_over(const std::string& text, BranchOptions& options);
 
-/// scene: the file; resume: continues the branch in the directory. Errors: those of follow(), FileError.
+/// Follows a branch and writes its results to `path`. scene: the scene file; resume: continues the branch in `path`.
+/// Errors: those of continue_branch(), FileError.
 [[nodiscard]] ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptions over,
                                 const std::filesystem::path& path, const OutputOptions& options, bool resume);
 
@@ -51,7 +52,7 @@ class BranchWatch final : public Recorder {
   bool progress(double /*t*/) override { return !Interrupt::requested(); }
 };
 
-/// Writes last/ while the branch is followed, within a limited fraction of the time.
+/// Writes the checkpoints DIR/last while the branch is followed; writing takes a limited fraction of the time.
 class MarkWriter {
  public:
   /// before: number of points of the resumed branch.
@@ -82,7 +83,7 @@ class MarkWriter {
   Clock::duration took_{};
 };
 
-/// Special points, the first and the last one.
+/// Table of the branch: its first point, its special points and its last point; then its side branches.
 std::string branch_table(const BranchOptions& over, const Branch& branch) {
   Table table({over.path, "period", "amplitude", "multiplier", "stable", "events", "special"},
               {true, true, true, true, false, true, false});
@@ -193,7 +194,7 @@ fs::path directory_of(const OrbitCommand& options) {
   return *options.directory;
 }
 
-/// Stops the search on an interrupt.
+/// Recorder that stops the search on an interrupt.
 class SearchWatch final : public Recorder {
  public:
   void event(const Event& /*event*/) override {}
@@ -294,8 +295,8 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
     return run_over(options.scene, reader_of(options.scene, changes), over, path, options, options.resume);
   }
   if (options.step || options.most_points || options.switches)
-    throw UsageError("--step, --most-points, --switch: expected --over, to whose branch they apply");
-  if (options.resume) throw UsageError("--resume: expected --over, whose branch it continues");
+    throw UsageError("--step, --most-points, --switch: apply only to branches; add --over PATH=FROM:TO");
+  if (options.resume) throw UsageError("--resume: applies only to branches; add --over PATH=FROM:TO");
   result::check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);

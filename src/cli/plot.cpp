@@ -40,13 +40,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell
-constexpr int no_end = 124;                       // exit code as in timeout
-constexpr std::chrono::seconds patience{60};      // a picture takes a second or two
+constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell: not found; could not be started
+constexpr int no_end = 124;                       // exit code as of timeout(1): stopped after `patience`
+// Limit for one picture, which usually takes a second or two.
+constexpr std::chrono::seconds patience{60};
 constexpr std::size_t max_output = 1 << 16;
 constexpr std::size_t max_contact_pictures =
-    24;  // a sixth of a second each; a displacement picture covers this
-         // number of nodes
+    24;  // each picture takes about 0.17 s; displacement pictures show as many nodes
 
 struct Ended {
   int code = 0;
@@ -55,7 +55,7 @@ struct Ended {
 
 // Only async-signal-safe calls are allowed between fork and exec.
 [[noreturn]] void become_gnuplot(const char* folder, const char* script, int output) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no one would wait for the picture
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // gnuplot ends with its parent
   const int nothing = open("/dev/null", O_RDWR);
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
@@ -64,8 +64,8 @@ struct Ended {
   _exit(errno == ENOENT ? no_program : no_reason);
 }
 
-/// Reads gnuplot's output, up to `max_output` bytes, until it closes its end; false if it takes too long or writes too
-/// much.
+/// Reads gnuplot's output until gnuplot closes it. Returns false if this takes until `last`, or if the output exceeds
+/// `max_output` bytes.
 bool listen(int end, Clock::time_point last, std::string& output) {
   std::array<char, 4096> buffer{};
   for (;;) {
@@ -82,7 +82,7 @@ bool listen(int end, Clock::time_point last, std::string& output) {
   }
 }
 
-/// The child's exit code; nullopt if it has not ended by the given time.
+/// Exit code of the child process; nullopt if the process has not ended at the time `last`.
 std::optional<int> wait_for(pid_t child, Clock::time_point last) {
   for (;;) {
     int status = 0;
@@ -98,7 +98,7 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   if (pipe(ends.data()) != 0) return {no_reason, "cannot create a pipe"};
   const pid_t child = fork();
   if (child == 0) {
-    setpgid(0, 0);  // a process group, so that its children can be ended, too
+    setpgid(0, 0);  // a new process group, so that gnuplot's own children can also be ended
     close(ends[0]);
     become_gnuplot(folder.c_str(), name.c_str(), ends[1]);
   }
@@ -113,7 +113,7 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   close(ends[0]);
   if (silent)
     if (const auto code = wait_for(child, last)) return {*code, output};
-  setpgid(child, child);  // if the child has not done so itself
+  setpgid(child, child);  // here as well, because parent and child run in any order
   kill(-child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -142,7 +142,7 @@ Drawing draw(const std::vector<std::filesystem::path>& scripts) {
     if (ended.code == 0) continue;
     if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + ended.output};
     if (ended.code == no_end)
-      return drawing;  // an error of the program, not of the picture: the next one would hang as well
+      return drawing;  // gnuplot itself hangs, so the other pictures would hang as well
   }
   if (failed > 1)
     drawing.message +=
@@ -161,7 +161,7 @@ std::string draw_pictures(const std::filesystem::path& directory,
   const std::string more =
       first.size() == scripts.size()
           ? ""
-          : fmt::format(", of the first {} contacts; gnuplot contact-NAME.gp there draws that of another",
+          : fmt::format(", of the first {} contacts; `gnuplot contact-NAME.gp` there draws another one",
                         max_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)
@@ -185,7 +185,8 @@ result::PictureFiles pictures_of_sensitivities(const fs::path& directory, const 
   return sensitivity_study::sensitivity_pictures(s, sigmas, look);
 }
 
-/// Scripts for the runs of a comparison: in a folder with the engine's name, else in their own directories.
+/// Scripts for a comparison. Runs by engine are in folders with the name of the engine; other runs are in the directories
+/// that compare.json names.
 std::vector<fs::path> comparison_scripts(const fs::path& directory, const result::PictureStyle& look) {
   const fs::path file = directory / "compare.json";
   std::ifstream stream(file, std::ios::binary);
@@ -238,7 +239,7 @@ std::vector<fs::path> write_any_plots(const fs::path& directory, const result::P
   const std::string kind = report::kind_of_results(directory);
   if (kind == "run") return result::run_pictures(directory, window, look).write(directory);
   if (window.from || window.to)
-    throw UsageError(fmt::format("{}: {} is a {}, whose pictures show no range of time",
+    throw UsageError(fmt::format("{}: {} is a {}, and its pictures do not show time; omit this option",
                                  window.from ? "--from" : "--to", directory.string(), kind));
   if (kind == "sweep") return pictures_of_sweep(directory, look).write(directory);
   if (kind == "sensitivity") return pictures_of_sensitivities(directory, look).write(directory);
@@ -299,7 +300,7 @@ void add_plot(Program& program) {
       ->add_option("--language", options->language,
                    "language of labels and legends: en, de or ru (default: en)")
       ->option_text("NAME");
-  command->add_flag("--no-title", options->no_title, "neither title nor subtitle");
+  command->add_flag("--no-title", options->no_title, "draw neither title nor subtitle");
   command->callback([&program, options] {
     program.action = [options] {
       result::PictureStyle look;

@@ -32,7 +32,7 @@ void ProgressDisplay::event(const Event& event) {
 }
 
 void ProgressDisplay::advise(double t) {
-  constexpr double quiet_time = 2.0;  // s
+  constexpr double quiet_time = 2.0;  // s, time of the run before the advice
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (s < quiet_time) return;
   const auto ask = std::exchange(advice_, nullptr);
@@ -43,10 +43,11 @@ void ProgressDisplay::advise(double t) {
 }
 
 std::string ProgressDisplay::time_left(double t) {
-  constexpr double settled = 1.0, window = 5.0;  // s
+  // Seconds before the first estimate; seconds over which the speed is averaged.
+  constexpr double settled = 1.0, window = 5.0;
   const auto now = std::chrono::steady_clock::now();
   const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
-  if (seconds(speed_from_) > window) {  // speed averaged over the last one or two windows
+  if (seconds(speed_from_) > window) {  // the mean speed is that of the last one or two windows
     speed_from_ = std::exchange(next_speed_from_, now);
     speed_t_ = std::exchange(next_speed_t_, t);
   }
@@ -71,7 +72,7 @@ namespace {
 
 volatile std::sig_atomic_t noting = 0, noted = 0;
 
-// A signal handler may only make POSIX's async-signal-safe calls.
+// Signal handler; it may call only functions that are async-signal-safe in POSIX.
 void end_or_note(int signal) {
   if (signal != SIGALRM && noting != 0 && noted == 0) {
     noted = 1;

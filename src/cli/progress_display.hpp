@@ -1,10 +1,10 @@
-// progress_display.hpp: display of a run in progress: progress line, interrupt, and the events for the final table.
+// progress_display.hpp: display of a run in progress: progress line, interrupts, and the events for the final table.
 //
 //   ProgressDisplay display(run_directory, model, t_end, show_progress);
 //   Report report = simulate(model, scene.run, display);
 //
-// All data are forwarded to another Recorder. After the first SIGINT or SIGTERM the run stops and is kept; a
-// second signal ends the program at once.
+// All data are forwarded to another Recorder. After the first SIGINT or SIGTERM the run stops, and its results so far
+// remain on disk; a second signal ends the program at once.
 #pragma once
 
 #include <chrono>
@@ -18,17 +18,17 @@
 
 namespace signorini::cli {
 
-// SIGINT and SIGTERM, one handler for both and for all commands.
+// Reaction to SIGINT and SIGTERM, the same for both signals and for all commands.
 //
-//   without results (set-up, check)     the program ends at once, exit code 130
-//   an Interrupt object exists (a run)  the request is noted: the run ends by itself and is kept, code 130;
-//                                       a second signal, or a run that has not ended after grace_seconds,
-//                                       ends the program at once
+//   without an Interrupt object (set-up, check)   the program ends at once with exit code 130
+//   with an Interrupt object (a run)              the run stops after its current step, its results so far remain, exit
+//                                                 code 130; after a second signal, or after grace_seconds, the program
+//                                                 ends at once
 
-/// From this call on both signals end the program with exit code 130. To be called once, at the start of the program.
+/// Installs the signal handler. To be called once, at the start of the program.
 void end_on_interrupt();
 
-/// Notes the signals during its lifetime. Only one object may exist.
+/// While an object exists, signals only request a stop; requested() returns the request. Only one object may exist.
 class Interrupt {
  public:
   Interrupt();
@@ -36,7 +36,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// Seconds from a noted signal to the forced end: longer than a step of any practical scene.
+  /// Seconds from the first signal to the forced end of the program; steps of practical scenes take less time.
   static constexpr unsigned grace_seconds = 30;
   [[nodiscard]] static bool requested();
 };
@@ -51,11 +51,11 @@ class ProgressDisplay : public run::ForwardingRecorder {
 
   void event(const Event& event) override;
   bool progress(double t) override;
-  /// Sets a function that is called once, after two seconds, with the estimated total duration in seconds,
-  /// and returns a note, or "".
+  /// Sets a function that is called once, after two seconds, with the estimated duration of the run in seconds. It returns
+  /// a note to print, or "".
   void set_long_run_advice(std::function<std::string(double)> advice) { advice_ = std::move(advice); }
 
-  /// Up to this number of events are shown in full; otherwise the first and the last ones.
+  /// Up to max_shown_events events are all shown; of more events, only the first and the last are shown.
   static constexpr std::size_t max_shown_events = 40, shown_first = 20, shown_last = 10;
   [[nodiscard]] const std::vector<Event>& first_events() const { return first_; }
   [[nodiscard]] const std::deque<Event>& last_events() const { return last_; }
@@ -63,7 +63,7 @@ class ProgressDisplay : public run::ForwardingRecorder {
 
  private:
   void advise(double t);
-  /// ", about 8 s left", from the speed of the last seconds; empty at the beginning.
+  /// Text such as ", about 8 s left", estimated from the speed of the last seconds; empty during the first second.
   [[nodiscard]] std::string time_left(double t);
 
   Interrupt interrupt_;
@@ -71,8 +71,8 @@ class ProgressDisplay : public run::ForwardingRecorder {
   double t_end_;
   bool show_progress_, keep_all_, line_shown_ = false;
   std::chrono::steady_clock::time_point next_line_;
-  std::vector<Event> first_;  // the first max_shown_events, or all
-  std::deque<Event> last_;    // the last shown_last
+  std::vector<Event> first_;  // the first max_shown_events events
+  std::deque<Event> last_;    // the last shown_last events
   long count_ = 0;
   std::function<std::string(double)> advice_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

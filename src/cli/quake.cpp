@@ -39,7 +39,7 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
     throw UsageError(fmt::format("--seed: found {}, expected 0 to {}", options.seed, greatest_seed));
   const double steps = options.duration / options.dt;
   if (std::abs(steps - std::round(steps)) > 1e-6 * steps || steps < 100.0 || steps > 100000.0)
-    throw UsageError(fmt::format("--duration {}: expected 100 to 100000 steps of --dt {}, a whole number",
+    throw UsageError(fmt::format("--duration {}: expected a whole number of steps --dt {}, 100 to 100000",
                                  base::format_number(options.duration), base::format_number(options.dt)));
   quake::QuakeSpec spec;
   spec.pga = options.pga;
@@ -57,7 +57,7 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
   return spec;
 }
 
-/// The command that reproduces these files.
+/// Command line that reproduces the files, for their comments.
 std::string quake_command(const QuakeOptions& options) {
   std::string text = fmt::format("signorini quake NAME --pga {} --duration {} --dt {} --seed {}",
                                  base::format_number(options.pga), base::format_number(options.duration),
@@ -97,7 +97,7 @@ std::string ground_text(const quake::QuakeSpec& spec, const std::vector<double>&
       pga, ground.velocity * scene::standard_gravity, ground.displacement * scene::standard_gravity);
   if (!spec.target) return text;
   double least = 1e300, greatest = 0.0;
-  // Periods in steps of 1 %, both ends included: narrower than any peak at 5 % damping.
+  // Periods in steps of 1 %, both ends included; peaks of a spectrum at 5 % damping are wider.
   const int last = static_cast<int>(
       std::ceil(std::log(quake::max_matched_period / quake::min_matched_period) / std::log(1.01)));
   for (int i = 0; i <= last; ++i) {
@@ -138,7 +138,7 @@ void add_quake_options(CLI::App& command, QuakeOptions& options) {
       .add_option("--ground-damping", options.ground_damping,
                   "damping ratio of the Kanai-Tajimi filter (default: 0.6)")
       ->option_text("Z");
-  command.add_flag("--force", options.force, "replace files that are there");
+  command.add_flag("--force", options.force, "replace existing files");
   command.add_flag("--quiet", options.quiet, "print errors only");
 }
 

@@ -1,4 +1,4 @@
-// quake.hpp: options of `signorini quake` and writer of its files, which `new` also uses.
+// quake.hpp: options of `signorini quake`, and the function that writes its files; `signorini new` also uses them.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -17,13 +17,14 @@ struct QuakeOptions {
   bool force = false, quiet = false;
 };
 
-/// `options` must outlive parsing.
+/// Adds the options of `quake` to a command; `options` must outlive parsing.
 void add_quake_options(CLI::App& command, QuakeOptions& options);
 
 /// Names of the files of write_quake(): NAME.AT2, NAME.csv.
 [[nodiscard]] std::vector<std::string> quake_files(const QuakeOptions& options);
 
-/// Writes the files, and returns a description of the ground motion; empty with --quiet. Errors: UsageError, FileError.
+/// Writes NAME.AT2 and NAME.csv, and returns a description of the ground motion; empty with --quiet. Errors: UsageError,
+/// FileError.
 std::string write_quake(const QuakeOptions& options);
 
 }  // namespace signorini::cli

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Output of `check` for the scene of a run, or the reason why there is none.
+/// Output of `check` for the scene of a run, or the error message if `check` fails.
 std::string check_of(const Scene& scene) {
   try {
     const Model model = build_model(scene);
@@ -31,7 +31,7 @@ std::string check_of(const Scene& scene) {
   }
 }
 
-/// A file of that name that this command has not written is not replaced.
+/// Checks that the page may be written. Errors: FileError if a file with this name exists that this command did not write.
 void check_page(const fs::path& page) {
   base::check_output_file(page, "page of Signorini", "<meta name=\"generator\" content=\"Signorini");
 }
@@ -51,7 +51,7 @@ ExitCode report(const fs::path& directory, const fs::path& given) {
   return ExitCode::done;
 }
 
-/// Several runs: writes FILE, and the same as a table in FILE with .csv.
+/// Writes a page for several runs, and a CSV file with the same data; its name is that of the page with the ending .csv.
 ExitCode report_cases(const std::vector<std::string>& directories, const fs::path& given) {
   const std::vector<report::LoadCase> cases =
       report::read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));
@@ -60,7 +60,8 @@ ExitCode report_cases(const std::vector<std::string>& directories, const fs::pat
   for (const std::string& doubt : report::load_case_warnings(cases)) print_warning(doubt);
   fs::path table = page;
   table.replace_extension(".csv");
-  if (table == page) throw UsageError(page.string() + ": is the name of the table, too; expected FILE.html");
+  if (table == page)
+    throw UsageError(page.string() + ": is also the name of the CSV table; expected FILE.html");
   check_page(page);
   base::check_output_file(table, "table of load cases", "item,quantity,unit");
   result::write_file(page, report::load_cases_page(cases));
@@ -84,7 +85,7 @@ void add_report(Program& program) {
       ->required();
   command
       ->add_option("-o,--output", *output,
-                   "the page (default: DIR/report.html; of several: cases.html, and cases.csv)")
+                   "the page (default: DIR/report.html; for several runs: cases.html, with cases.csv)")
       ->option_text("FILE");
   command->callback([&program, directories, output] {
     program.action = [directories, output] {
@@ -94,7 +95,7 @@ void add_report(Program& program) {
   });
 }
 
-// signorini paraview DIR: writes a run as frames for ParaView.
+// signorini paraview DIR: writes the deformed shapes of a run as frames for ParaView.
 
 namespace {
 
@@ -111,7 +112,8 @@ ExitCode write_frames(const FrameOptions& options) {
   if (options.count < 1 || options.count > most)
     throw UsageError(fmt::format("--frames: found {}, expected 1 to {}", options.count, most));
   const fs::path directory = options.directory;
-  if (report::kind_of_results(directory) != "run") throw FileError(directory.string(), "holds no run");
+  if (report::kind_of_results(directory) != "run")
+    throw FileError(directory.string(), "is not a directory that `signorini run` wrote");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
   const Scene scene = read_scene((directory / "run.toml").string());
   const base::Json data = report::run_data(scene, directory);
@@ -132,7 +134,7 @@ void add_paraview(Program& program) {
   command->add_option("DIR", options->directory, "a directory that `signorini run` wrote")->required();
   command->add_option("--frames", options->count, "number of frames at equal time intervals (default: 200)")
       ->option_text("N");
-  command->add_flag("--events", options->events, "a frame at the time of each event, too");
+  command->add_flag("--events", options->events, "also write a frame at the time of each event");
   command->callback([&program, options] { program.action = [options] { return write_frames(*options); }; });
 }
 

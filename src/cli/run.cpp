@@ -1,4 +1,4 @@
-// signorini run SCENE: from a scene file to a directory of results.
+// signorini run SCENE: computes a scene and writes a directory of results.
 #include <fmt/core.h>
 
 #include <filesystem>
@@ -62,7 +62,7 @@ std::string stacked(const std::vector<std::string>& tables) {
   return text;
 }
 
-/// Text about the cutoff found for a tolerance; empty if no cutoff was searched.
+/// Line about the cutoff frequency found for [reduction] tolerance; empty if no cutoff was searched.
 std::string reduction_line(const Model& model) {
   if (!model.reduction || model.reduction->trials.empty()) return "";
   const CutoffTrial& last = model.reduction->trials.back();
@@ -71,7 +71,7 @@ std::string reduction_line(const Model& model) {
       last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->trials.size());
 }
 
-/// Text of the run's results. events: table of events; pictures: the run has the data for pictures.
+/// Text that a run prints at its end. events: table of events; pictures: the run has written data for pictures.
 std::string certificate_text(const Scene& scene, const Model& model, const CertifiedReport& certified,
                              const std::string& events, const fs::path& path, bool pictures) {
   const Report& report = certified.report;
@@ -89,10 +89,10 @@ std::string certificate_text(const Scene& scene, const Model& model, const Certi
          "summary.json, run.toml)\n";
 }
 
-/// Suggestion for a quicker setting if a run is expected to take `seconds` in all; empty if no setting is
-/// much quicker.
+/// Suggestion of another engine or a reduction for a run that is expected to take `seconds`; empty if none is much
+/// faster.
 std::string quicker_choices(const Scene& scene, const Model& model, double seconds) {
-  constexpr double time_of_trial = 0.2;  // s
+  constexpr double time_of_trial = 0.2;  // s, for each engine and cutoff
   const Engine own = run::choose_engine(model, scene.run).engine;
   std::vector<double> cutoffs;
   if (!scene.reduction) {

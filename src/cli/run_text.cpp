@@ -22,12 +22,12 @@ std::string times(long count, const char* one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-// Rounding of a force that vanishes, such as N where a contact opens, is shown as 0.
+// Force as text; a force that is only rounding, such as N of a contact that opens, is shown as 0.
 std::string force(const Model& model, double value) {
   return number(std::abs(value) < 1e-10 * model.scales.force ? 0.0 : value);
 }
 
-/// The table of events; with a certificate it has one more column, and a line where certainty ends.
+/// Table of events. With a certificate it has a column of error bounds, and a line after the last certified event.
 class EventTable {
  public:
   EventTable(const Model& model, const Certificate* certificate)
@@ -37,7 +37,7 @@ class EventTable {
                certificate != nullptr ? std::vector{true, true, false, false, false, true, true}
                                       : std::vector{true, false, false, false, true, true}) {}
 
-  /// `row`: index among all events, from 0.
+  /// Adds an event. row: index of the event among all events, from 0.
   void add(const Event& e, std::size_t row) {
     const bool certain = certificate_ == nullptr || certificate_->certain(row);
     if (!certain && !printed_) table_.line("  --- not certified from here on: " + certificate_->reason);
@@ -84,8 +84,8 @@ std::string events_by_type(const Report& report) {
   return text.empty() ? "none" : text;
 }
 
-// Relative to the largest force times the largest displacement: energy exchange below this is rounding, and the
-// relative error of the balance then is meaningless.
+// If the exchanged energy is below this fraction of (force scale) * (length scale), it is rounding, and the relative
+// error of the balance has no meaning.
 constexpr double moved = 1e-9;
 
 void add_extreme(Table& table, const Model& model, const char* what, const Extreme& extreme, double scale,
@@ -111,7 +111,7 @@ std::string method_of(const Method& method) {
   return name;
 }
 
-/// "0.31", for an envelope "0.31, A-B 0.625 left".
+/// Time of an extreme, "0.31"; for an envelope with its place, "0.31, A-B 0.625 left".
 std::string when_and_where(const Output& output, double t, const OutputPlace& place) {
   if (place.segment < 0) return number(t);
   const Output::Segment& stretch = output.segments[static_cast<std::size_t>(place.segment)];
@@ -171,7 +171,7 @@ std::string support_table(const Model& model, const Report& report, TableStyle s
     farthest = std::max(farthest, report.peaks[k].tangential);
     greatest = std::max({greatest, report.peaks[k].N, report.peaks[k].T});
   }
-  // Rounding relative to the largest of its kind is shown as 0.
+  // A number that is only rounding, relative to the largest number of its kind, is shown as 0.
   const auto beside = [](double x, double most_of_all) {
     return number(std::abs(x) > rounding::many_operations * most_of_all ? x : 0.0);
   };
@@ -204,7 +204,7 @@ std::string contact_table(const Model& model, const Report& report, TableStyle s
   const std::string unit = " [" + model.units.length + "]";
   double greatest = 0.0;
   for (const Peak& peak : report.peaks) greatest = std::max({greatest, peak.tangential, peak.normal});
-  // A motion of rounding size is shown as 0.
+  // A displacement that is only rounding, relative to the largest displacement, is shown as 0.
   const auto length = [&](double x) { return number(x > rounding::many_operations * greatest ? x : 0.0); };
   Table table({"greatest displacement relative to the start", "along t" + unit, "along n" + unit},
               {false, true, true});
@@ -275,12 +275,14 @@ std::string run_summary(const RunSpec& run, const Model& model, const Report& re
                       times(c.restarts, "restart"), report.wall_time);
   const Engine closed_form = run::engine_for(run::EngineRole::closed_form);
   if (report.method.automatic && report.method.engine != closed_form)
-    return text + fmt::format("why {}: {}\n", to_string(report.method.engine), report.method.reason);
+    return text +
+           fmt::format("reason for engine {}: {}\n", to_string(report.method.engine), report.method.reason);
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
-  // Only if it would be quicker than the run: estimated from its first steps, if a trial is worth its time.
+  // A line about engine exact is printed only if exact would be faster than the run. After a run of more than long_run,
+  // a trial of exact replaces the estimate.
   std::optional<double> exact = run::seconds_with_exact(model, chosen);
-  constexpr double long_run = 1.0, share = 0.02;  // s; fraction of the run's duration
+  constexpr double long_run = 1.0, share = 0.02;  // s; duration of the trial / duration of the run
   if (exact && report.wall_time > long_run) {
     exact = run::seconds_by_trial(model, run, closed_form, share * report.wall_time);
     if (*exact == 0.0) exact.reset();
@@ -304,7 +306,7 @@ std::string certification_text(const Model& model, const CertifiedReport& run) {
           ? "certified to the end"
           : fmt::format("certified to t = {:.9g} {}, where the run ended", c.until, model.units.time);
   if (c.complete && c.t_errors.empty()) return fmt::format("{}: no event ({})\n", to_end, beside);
-  // Before the first event there are no times with errors.
+  // Without certified events there are no error bounds of times.
   const std::string times =
       c.certain_events() == 0 ? "" : fmt::format(", times within {:.1e} {}", greatest, model.units.time);
   std::string text =

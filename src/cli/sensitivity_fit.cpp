@@ -56,7 +56,7 @@ struct SensitivityOptions : KeyedOptions {
   bool losses = false, discrete = false;
 };
 
-/// Files "columns-1.csv" and so on are removed by number.
+/// The folder of sensitivities. The list of files includes "columns-1.csv" and so on for many parameters.
 const ResultFolder& sensitivity_folder() {
   static const ResultFolder folder = [] {
     ResultFolder f{"sensitivities",
@@ -70,7 +70,7 @@ const ResultFolder& sensitivity_folder() {
   return folder;
 }
 
-/// Stops the computation on an interrupt.
+/// Recorder that stops the computation on an interrupt.
 class Stoppable : public Recorder {
  public:
   void event(const Event& /*event*/) override {}
@@ -78,7 +78,7 @@ class Stoppable : public Recorder {
   bool progress(double /*t*/) override { return !Interrupt::requested(); }
 };
 
-/// The requested parameters, those with a sigma included, and one sigma per parameter.
+/// Adds the parameters of --sigma to `paths`, and returns one sigma per parameter; 0: not given. Empty without --sigma.
 sensitivity_study::Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& paths) {
   sensitivity_study::Sigmas sigmas(paths.size(), 0.0);
   for (const std::string& text : options.sigmas) {
@@ -86,7 +86,8 @@ sensitivity_study::Sigmas take_sigmas(const SensitivityOptions& options, std::ve
     const auto value =
         equals == std::string::npos ? std::nullopt : base::parse_number(text.substr(equals + 1));
     if (equals == 0 || !value || !(*value >= 0.0) || !std::isfinite(*value))
-      throw UsageError(fmt::format("--sigma {}: expected path=value, the value a standard deviation", text));
+      throw UsageError(
+          fmt::format("--sigma {}: expected path=value, with a standard deviation >= 0 as value", text));
     const std::string path = text.substr(0, equals);
     auto place = std::find(paths.begin(), paths.end(), path);
     if (place == paths.end()) {
@@ -101,7 +102,7 @@ sensitivity_study::Sigmas take_sigmas(const SensitivityOptions& options, std::ve
 
 std::string shown_rate(double x) { return std::isfinite(x) ? number(x) : "-"; }
 
-/// The main result: derivatives of the first events.
+/// Table of the derivatives of the first event times.
 std::string first_events(const Sensitivities& s) {
   constexpr std::size_t most_events = 6, most_keys = 4;
   const std::size_t keys = std::min(s.parameters.size(), most_keys);
@@ -181,7 +182,7 @@ std::string summary_of(const Sensitivities& s, const sensitivity_study::Sigmas& 
   return text;
 }
 
-/// Description of the method, in a line.
+/// One line about the engine and the method of the derivatives.
 std::string method_of(const Sensitivities& s) {
   const Method& method = s.report.method;
   std::string text = fmt::format("engine {}", to_string(method.engine));
@@ -305,7 +306,7 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
               : "");
 }
 
-/// An error for an unknown column names the file that contains it.
+/// Runs the fit; the error about an unknown column names the file of measurements.
 Fit fitted(const FitOptions& options, const Measurements& measured) {
   try {
     return fit(reader_of(options.scene, overrides_of(options.settings)), options.parameters, measured,

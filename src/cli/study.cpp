@@ -1,4 +1,4 @@
-// signorini study: measures speed against error, for engines and settings.
+// signorini study: measures run time against error, for several engines and settings.
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -18,10 +18,10 @@
 
 namespace signorini::cli {
 
-// Output of `study`: a table of runs, the cheapest for each accuracy, and failures.
+// Output of `study`: a table of runs, the fastest run for each accuracy, and failures.
 
 [[nodiscard]] std::string study_text(const speed::WorkReport& report);
-/// Only the table, for papers.
+/// The table of study_text() without other text, in a style for papers.
 [[nodiscard]] std::string study_table(const speed::WorkReport& report, TableStyle style);
 
 std::string study_table(const speed::WorkReport& report, TableStyle style) {
@@ -51,7 +51,7 @@ std::vector<std::string> names_of_engines() {
   return names;
 }
 
-/// "newmark, friction-iteration": engines whose error is limited by a key.
+/// Names of the engines whose accuracy is set in this way, such as "newmark, friction-iteration".
 std::string engines_with(Accuracy accuracy) {
   std::string names;
   for (const EngineInfo& engine : all_engines)
@@ -62,7 +62,7 @@ std::string engines_with(Accuracy accuracy) {
 struct StudyOptions : OutputOptions {
   std::string scene;
   std::vector<std::string> engines = names_of_engines();
-  std::optional<std::string> chosen;  // selected ones of these, separated by commas
+  std::optional<std::string> chosen;  // value of --engines: names separated by commas
   std::string rtol = "1e-4:1e-12";
   std::optional<std::string> dt, directory;
   std::vector<std::string> varied, settings;
@@ -76,7 +76,7 @@ const ResultFolder& study_folder() {
   return folder;
 }
 
-/// Names separated by commas; a comma without a name beside it gives an empty name.
+/// Splits names at commas; an empty name results from a comma at an end or from two successive commas.
 std::vector<std::string> names_between_commas(const std::string& text) {
   std::vector<std::string> names(1);
   for (const char c : text)
@@ -107,7 +107,7 @@ bool says_how_accurate(const std::string& path) {
   return path == accuracy_key(Accuracy::tolerance) || path == accuracy_key(Accuracy::step);
 }
 
-/// Refuses keys whose values would make runs incomparable, or that another option sets.
+/// Refuses a key that another option sets, or with whose change runs could not be compared. Errors: UsageError.
 void refuse_key(const std::string& option, const std::string& path) {
   if (says_how_accurate(path)) throw UsageError(option + ": --rtol and --dt set the accuracy of runs");
   for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
@@ -117,7 +117,7 @@ void refuse_key(const std::string& option, const std::string& path) {
   if (path.ends_with(".name")) throw UsageError(option + ": runs that differ in names cannot be compared");
 }
 
-/// Settings of an engine; the reference may have its own.
+/// Settings that apply to an engine, or to the reference run.
 std::vector<Override> settings_for(const StudyOptions& options, const std::string& engine) {
   std::vector<std::string> engines = options.engines;
   for (const Engine reference : speed::WorkStudy::references) engines.emplace_back(to_string(reference));
@@ -135,7 +135,7 @@ void check_settings(const StudyOptions& options) {
   }
 }
 
-/// An invalid engine or varied key is an invalid command line, reported before anything is written.
+/// Builds the scene with each engine and each varied key, so that invalid ones are reported before anything is written.
 void try_engines(const StudyOptions& options, const std::vector<sweep::ParameterRange>& varied) {
   for (const std::string& engine : options.engines) {
     std::vector<Override> changes = settings_for(options, engine);
@@ -146,7 +146,7 @@ void try_engines(const StudyOptions& options, const std::vector<sweep::Parameter
       changes.push_back(sweep::override_of(vary, vary.values.front()));
     try {
       (void)read_scene(options.scene, changes);
-    } catch (const SceneError&) {  // for a single engine or value: becomes a row
+    } catch (const SceneError&) {  // an error of a single engine or value is reported in its row
     }
   }
 }
@@ -194,7 +194,7 @@ class ProgressLine {
   bool shown_;
 };
 
-/// Removes the runs of an earlier study; other files stay. Errors: FileError.
+/// Removes the runs of an earlier study; other files remain. Errors: FileError.
 void clear_runs(const fs::path& path) {
   std::error_code error;
   const fs::path runs = path / "runs";
@@ -205,7 +205,7 @@ void clear_runs(const fs::path& path) {
     const bool numbered = name.size() > 4 && name[3] == '-' && name.find_first_not_of("0123456789") == 3;
     if ((!numbered && name != "again") || !fs::exists(folder / "summary.json", error)) continue;
     result::remove_run(folder);
-    fs::remove(folder, error);  // only if the folder is empty now
+    fs::remove(folder, error);  // succeeds only if no other files are in the folder
   }
   fs::remove(runs, error);
 }
@@ -264,7 +264,7 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
   speed::write_work(path, report);
   const bool pictures = !options.no_plots && !report.interrupted;
   const std::string drawn = pictures ? draw_pictures(path, speed::write_work_plots(path, report)) : "";
-  if (!drawn.empty()) speed::write_work(path, report);  // now with the picture
+  if (!drawn.empty()) speed::write_work(path, report);  // study.md then includes the picture
   if (options.json) print(speed::work_json(report));
   if (style != TableStyle::plain)
     print(study_table(report, style));
@@ -296,7 +296,7 @@ void add_study(Program& program) {
   command
       ->add_option("--dt", options->dt,
                    "steps of " + engines_with(Accuracy::step) +
-                       " (default: five steps, each a tenth of the one before, from about t_end/50)")
+                       " (default: five steps, each a tenth of the previous step, from about t_end/50)")
       ->option_text("RANGE");
   command
       ->add_option("--vary", options->varied,
@@ -311,9 +311,9 @@ void add_study(Program& program) {
   add_settings(*command, options->settings);
   command
       ->add_option("--repeats", options->repeats,
-                   "number of repetitions; the shortest time counts (default: 3)")
+                   "number of repetitions; the shortest time is reported (default: 3)")
       ->option_text("N");
-  command->add_option("--time-limit", options->time_limit, "seconds that a run may take (default: 60)")
+  command->add_option("--time-limit", options->time_limit, "time limit of a run in s (default: 60)")
       ->option_text("S");
   add_table_option(*command, options->table);
   add_output_options(*command, *options, "replace an earlier study in the directory", "study.json");

@@ -1,4 +1,4 @@
-// signorini sweep: one run per value of one or more keys, in one table.
+// signorini sweep: runs a scene for ranges or samples of keys, and writes one table with one row per run.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ std::optional<std::string> environment(const char* name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
-/// Varied keys, then sampled ones, which vary fastest.
+/// Sets the varied keys of the sweep: first those of --vary, then those of --sample, which vary fastest.
 void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
   for (const std::string& text : options.varied) {
     spec.vary.push_back(sweep::parse_vary(text));
@@ -87,10 +87,10 @@ void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
       fmt::format("{} {}, seed {}", base::count_text(sample.count, "sample"), options.sequence, sample.seed);
 }
 
-/// Sets how runs continue each other, before any scene is read.
+/// Sets --carry and --back: whether each run starts from the final state of the previous run. Errors: UsageError.
 void carry_on(const SweepOptions& options, sweep::SweepSpec& spec) {
   if (options.back && !options.carry)
-    throw UsageError("--back: has no meaning without --carry, with which runs continue from each other");
+    throw UsageError("--back: has no effect without --carry; add --carry");
   if (!options.carry) return;
   const auto refuse = [](bool given, const char* option, const char* why) {
     if (given) throw UsageError(fmt::format("--carry: cannot be combined with {}: {}", option, why));
@@ -126,7 +126,7 @@ void specify_strobe(const SweepOptions& options, const Scene& scene, const Model
                     t_end, periods));
 }
 
-/// The state that the runs continue from, stored in the files of another run.
+/// Text of the saved state from which the runs start; changes of this state must be detected.
 std::string text_of_state(const Scene& scene) {
   std::string text;
   if (!scene.initial.saved) return text;
@@ -152,8 +152,8 @@ struct Specified {
   std::string text;  ///< text of the scene file
 };
 
-/// Builds the sweep and reports all errors that can be found before it starts: a path that is invalid in every row is
-/// an invalid command line, a value that is invalid in some rows is a row.
+/// Builds the sweep, and reports all errors that can be found before its start. A key that is invalid in every row is an
+/// error of the command line; a value that is invalid in some rows gives rows with the outcome "refused".
 Specified specify(const SweepOptions& options) {
   Specified specified;
   sweep::SweepSpec& spec = specified.spec;
@@ -164,7 +164,7 @@ Specified specify(const SweepOptions& options) {
   if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
   if (options.share) spec.share = sweep::parse_share(*options.share, environment);
   specified.text = scene::scene_text(options.scene);
-  constexpr std::size_t most_tried = 200;  // limit of trial rows, one of which should be valid
+  constexpr std::size_t most_tried = 200;  // number of rows that are tried until one of them is valid
   std::optional<Error> first;
   std::size_t tried = 0;
   for (const auto& point : sweep::points(spec.vary)) {
@@ -196,7 +196,8 @@ Specified specify(const SweepOptions& options) {
 
 std::size_t jobs_of(const SweepOptions& options) {
   if (!options.jobs)
-    return sweep::ranks(environment) > 1 ? 1 : base::processor_count();  // a launcher has filled the machine
+    // MPI or Slurm starts one process per processor.
+    return sweep::ranks(environment) > 1 ? 1 : base::processor_count();
   if (*options.jobs < 1) throw UsageError(fmt::format("--jobs {}: expected at least 1", *options.jobs));
   return static_cast<std::size_t>(*options.jobs);
 }
@@ -210,7 +211,7 @@ fs::path output_directory(const SweepOptions& options, const sweep::Share& share
   return share.all() ? stem : fmt::format("{}-{}-of-{}", stem, share.number, share.count);
 }
 
-/// The table on disk, rewritten at most twice a second, so that a long table does not cost more than its runs.
+/// Writes the table on disk at most twice a second, so that writing costs less than the runs, and the progress line.
 class Progress {
  public:
   Progress(const sweep::SweepDirectory& directory, std::size_t all, bool line)
@@ -248,7 +249,7 @@ class Progress {
   }
 
   const sweep::SweepDirectory& directory_;
-  std::size_t all_, there_, written_ = 0;  // there_: number of rows that existed before this process
+  std::size_t all_, there_, written_ = 0;  // there_: number of rows that an earlier process has computed
   bool line_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point next_;
@@ -259,7 +260,7 @@ bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOp
   int file_error = 0;
   const auto ended = [&](const TaskResult& end) {
     if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
-      ++file_error;  // the worker has printed its message
+      ++file_error;  // the worker process has printed the message
       return false;
     }
     try {
@@ -278,10 +279,10 @@ bool run_rows(sweep::SweepDirectory& directory, SweepTasks& tasks, const SweepOp
   if (file_error > 0) {
     try {
       directory.write_table();
-    } catch (const FileError&) {  // the rows themselves are kept
+    } catch (const FileError&) {  // only the table cannot be written; the rows are on disk
     }
     throw Error(ExitCode::file,
-                fmt::format("the sweep stopped where a file could not be written; {} kept in {}",
+                fmt::format("a file could not be written, so the sweep stopped; {} kept in {}",
                             base::count_text(directory.rows().size(), "row"), directory.path().string()));
   }
   return whole;
@@ -323,7 +324,7 @@ void conclude(const SweepOptions& options, const sweep::SweepDirectory& director
                            (directory.path() / "sweep.csv").string()));
 }
 
-/// Checks the first and the last row: a varied key may change the period of the loads.
+/// Prints a note if --strobe does not fit the first or the last row: a varied key may change the period of the loads.
 void print_strobe_doubt(const SweepOptions& options, const sweep::SweepSpec& spec, const std::string& text) {
   const auto all = sweep::points(spec.vary);
   for (const auto* point : {&all.front(), &all.back()}) {
@@ -334,7 +335,7 @@ void print_strobe_doubt(const SweepOptions& options, const sweep::SweepSpec& spe
       const std::string doubt =
           sweep::strobe_warning(sweep::parse_strobe(options.strobe, scene, build_model(scene)), scene);
       if (!doubt.empty()) return print_note(doubt);
-    } catch (const Error&) {  // a refused row has its own message
+    } catch (const Error&) {  // the row reports its error itself
     }
   }
 }
@@ -349,7 +350,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
       if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
   if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec, text);
-  (void)jobs_of(options);  // reports invalid values before anything is written
+  (void)jobs_of(options);  // reports an invalid --jobs before anything is written
   sweep::SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
   sweep::RowTask common{options.scene, text, overrides_of(options.settings), 0, {}, {}, command_line};
   common.responses = options.responses;
@@ -376,7 +377,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
     return row.second.outcome == "refused";
   });
   if (!none) return ExitCode::done;
-  print_error("every run of the sweep was refused, the first of them: " + rows.begin()->second.reason);
+  print_error("every run of the sweep was refused; reason of the first run: " + rows.begin()->second.reason);
   return ExitCode::scene;
 }
 
@@ -413,7 +414,7 @@ ExitCode merge(const SweepOptions& options) {
   return ExitCode::stopped;
 }
 
-/// --engine is a setting, stored in sweep.json; a different engine is a different sweep.
+/// Converts --engine to a setting, which sweep.json stores: a sweep with another engine is another sweep.
 SweepOptions with_engine(SweepOptions options) {
   if (options.engine.empty()) return options;
   for (const std::string& varied : options.varied)
@@ -445,7 +446,7 @@ void add_strobe(CLI::App& command, SweepOptions& options, const CLI::Validator& 
       ->option_text("PERIOD|loads|EVENT");
   command
       .add_option("--settle", options.settle,
-                  "no state of --strobe before this time (default: half of t_end)")
+                  "with --strobe: omit states before this time (default: half of t_end)")
       ->option_text("T")
       ->check(given);
   command.add_flag("--carry", options.carry,
@@ -480,7 +481,7 @@ void add_sweep(Program& program) {
   command->add_option("SCENE", options->scene, "the scene file (TOML)");
   command
       ->add_option("--vary", options->varied,
-                   "start:stop:step (stop included) or value,value,...; several give all combinations")
+                   "start:stop:step (stop included) or value,value,...; several --vary give all combinations")
       ->option_text("PATH=VALUES")
       ->allow_extra_args(false);
   command->add_flag("--together", options->together,

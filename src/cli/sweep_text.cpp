@@ -37,7 +37,7 @@ std::vector<std::string> cells_of(const sweep::SweepRow& row, std::size_t respon
 
 namespace {
 
-/// The contacts with the largest compression in any run, in model order.
+/// The contacts with the largest |N| in any run, in the order of the model.
 std::vector<std::string> shown_contacts(const std::vector<std::string>& contacts,
                                         const sweep::SweepRows& rows) {
   std::vector<std::pair<double, std::size_t>> order;

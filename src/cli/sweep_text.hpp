@@ -1,4 +1,4 @@
-// sweep_text.hpp: output of `sweep`: one row per run.
+// sweep_text.hpp: text output of `sweep`: a table with one row per run, and quantiles.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace signorini::cli {
 
-/// Table of the rows. Of many rows it has the first and the last, of many contacts the first; sweep.csv has
-/// all. Styles for papers have all rows, without the reasons of failed ones.
+/// Table with one row per run. Of many rows only the first and the last are shown, of many contacts those with the largest
+/// forces; sweep.csv has all. Styles for papers have all rows, but not the reasons of failed runs.
 [[nodiscard]] std::string sweep_text(const sweep::SweepSpec& spec, const sweep::SweepRows& rows,
                                      TableStyle style = TableStyle::plain);
 
-/// Quantiles of the results with their intervals; if there are many combinations of keys, the first ones.
+/// Table of the quantiles of the results with confidence intervals; of many combinations of keys only the first.
 [[nodiscard]] std::string quantile_text(const sweep::SweepSpec& spec,
                                         const std::vector<sweep::SampledResults>& answers,
                                         TableStyle style = TableStyle::plain);

@@ -54,7 +54,7 @@ void progress_line(const std::string& text) {
 
 namespace {
 
-// Width in characters: continuation bytes of UTF-8 do not count.
+// Number of characters of UTF-8 text: all bytes except continuation bytes.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

@@ -1,6 +1,6 @@
 // terminal.hpp: output streams and tables. Data go to stdout, messages and progress to stderr.
 //
-// Colour only on a terminal, and never when NO_COLOR is set (https://no-color.org).
+// Messages are coloured only on a terminal, and not if NO_COLOR is set (https://no-color.org).
 #pragma once
 
 #include <string>
@@ -8,45 +8,45 @@
 
 namespace signorini::cli {
 
-/// Writes to stdout without buffering. Errors: FileError (a full disk behind a redirection).
+/// Writes to stdout and flushes it. Errors: FileError, for example if stdout is a file on a full disk.
 void print(const std::string& text);
 
-/// "error: ...", "warning: ..." and "note: ..." on stderr.
+/// Print "error: ...", "warning: ..." and "note: ..." to stderr.
 void print_error(const std::string& message);
 void print_warning(const std::string& message);
 void print_note(const std::string& message);
 
-/// True if the progress line may be shown.
+/// True if stderr is a terminal, so that a progress line can be shown.
 [[nodiscard]] bool stderr_is_terminal();
-/// Opens /dev/null in place of a closed standard input, output or error. Otherwise the next opened file would get that
-/// descriptor, and receive printed text.
+/// Opens /dev/null in place of a closed standard input, output or error. Otherwise the next opened file would get this
+/// descriptor, and printed text would be written to this file.
 void open_closed_streams();
 
 /// Replaces the progress line; an empty text removes it.
 void progress_line(const std::string& text);
 
-// Text in columns for the terminal; columns with `right` are aligned to the right.
+// Table: text in columns for the terminal; columns with `right` are aligned to the right.
 //
 //   Table table({"t [s]", "contact"}, {true, false});  table.row({"0.5", "first"});  table.str()
 //
-// For papers a table is also written in Markdown, and as a LaTeX tabular that needs no package.
+// For papers a table can also be written in Markdown, or as a LaTeX tabular that needs no package.
 
 /// The number with six significant digits.
 [[nodiscard]] std::string number(double value);
 
 enum class TableStyle { plain, markdown, latex };
-/// Style named by --table; plain if empty. Errors: UsageError.
+/// Style with this name in --table; plain if the name is empty. Errors: UsageError.
 [[nodiscard]] TableStyle table_style(const std::string& name);
 
 class Table {
  public:
   Table(std::vector<std::string> header, std::vector<bool> right);
   void row(std::vector<std::string> cells);
-  /// A line that is not split into columns.
+  /// Adds a line that is not split into columns.
   void line(std::string text);
-  /// Columns separated and indented by two blanks.
+  /// The table for a terminal: columns are separated and indented by two blanks.
   [[nodiscard]] std::string str() const;
-  /// Lines follow the table in Markdown, and are comments in LaTeX.
+  /// The table in a style. Lines without columns follow the table in Markdown, and are comments in LaTeX.
   [[nodiscard]] std::string str(TableStyle style) const;
 
  private:

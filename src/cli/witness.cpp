@@ -1,4 +1,4 @@
-// signorini witness DIR: checks from files alone whether a run obeys the laws at every instant.
+// signorini witness DIR: checks, using only the files of a run, whether the laws are satisfied at every instant.
 #include <fmt/core.h>
 
 #include <memory>

@@ -26,10 +26,11 @@
 namespace signorini::cli {
 namespace {
 
-constexpr int between_looks = 200;    // milliseconds between two checks without reports
-constexpr std::size_t max_ahead = 2;  // tasks per worker: the next one waits in its pipe
+constexpr int between_looks = 200;    // ms, longest wait for reports before `idle` is called
+// Tasks per worker: the current task, and one that waits in the worker's pipe.
+constexpr std::size_t max_ahead = 2;
 
-/// A file descriptor that is closed with its owner.
+/// Owner of a file descriptor; the destructor closes it.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -52,11 +53,11 @@ class Descriptor {
 };
 
 [[noreturn]] void fail(const char* what) {
-  throw FileError(what, "cannot be made: " + std::generic_category().message(errno));
+  throw FileError(what, "cannot be created: " + std::generic_category().message(errno));
 }
 
 struct Pipe {
-  Descriptor out, in;  // for reading, for writing
+  Descriptor out, in;  // out: the end for reading; in: the end for writing
   Pipe() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe");
@@ -65,7 +66,7 @@ struct Pipe {
   }
 };
 
-/// Blocks SIGINT and SIGTERM until they are read: no signal is lost between a check and a sleep.
+/// Blocks SIGINT and SIGTERM and makes them readable from fd(), so that no signal is lost between a check and a wait.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -86,7 +87,7 @@ class HeldSignals {
   Descriptor fd_;
 };
 
-/// Writes all bytes; false if the other end is closed.
+/// Writes all bytes to a pipe; returns false if the other end is closed.
 bool send(int fd, const void* data, std::size_t size) {
   const char* at = static_cast<const char*>(data);
   while (size > 0) {
@@ -118,14 +119,14 @@ struct Head {
   std::int64_t code = 0;
 };
 
-/// Sends one block, so that the parent wakes once.
+/// Sends a report to the parent in one block; returns false if the parent has closed its end.
 bool report(int fd, std::uint64_t task, std::int64_t code, std::string text) {
   const Head head{task, text.size(), code};
   text.insert(0, reinterpret_cast<const char*>(&head), sizeof head);
   return send(fd, text.data(), text.size());
 }
 
-/// Executes one task; returns its exit code and report.
+/// Executes one task in a worker; returns the exit code and the report of the task.
 std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task, const SendReport& tell) {
   try {
     return {ExitCode::done, work(task, tell)};
@@ -140,8 +141,8 @@ std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task,
   return {ExitCode::bug, ""};
 }
 
-/// Closes all files except these and the first three: a worker would otherwise hold the lock of a directory for some
-/// milliseconds after its parent was killed.
+/// Closes all file descriptors except a, b and the standard streams. Otherwise a worker would keep the lock of a directory
+/// for some milliseconds after its parent was killed.
 void keep_only(int a, int b) {
   const auto low = static_cast<unsigned>(std::min(a, b)), high = static_cast<unsigned>(std::max(a, b));
   if (low > 3) (void)close_range(3, low - 1, 0);
@@ -151,9 +152,10 @@ void keep_only(int a, int b) {
 
 [[noreturn]] void be_worker(pid_t parent, const HeldSignals& signals, const Work& work, int tasks,
                             int reports) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no one would receive the result
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // the worker ends with its parent
   if (getppid() != parent) _exit(static_cast<int>(ExitCode::bug));
-  // Ctrl-C reaches the whole process group; only the parent reacts, so that no row is mistaken for a crash.
+  // Ctrl-C sends SIGINT to the whole process group. Workers ignore it, because their end would look like a crash; the
+  // parent ends them.
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   signals.restore();
@@ -165,18 +167,18 @@ void keep_only(int a, int b) {
     };
     auto [code, text] = carried_out(work, static_cast<std::size_t>(task), tell);
     if (!report(reports, task, static_cast<std::int64_t>(code), std::move(text))) break;
-    if (code == ExitCode::bug) _exit(0);  // memory may be corrupt: a fresh process takes over
+    if (code == ExitCode::bug) _exit(0);  // memory may be corrupt: a new process continues with the next task
   }
   _exit(0);
 }
 
-/// A worker, from its parent's view.
+/// Data of the parent about one worker.
 struct Worker {
   pid_t process = 0;
   Descriptor tasks, reports;
-  std::deque<std::size_t> given;  // the first one is in progress
-  std::string heard;              // bytes of an incomplete report
-  std::string reported;           // output of the current task
+  std::deque<std::size_t> given;  // tasks sent to the worker; the first is in progress
+  std::string heard;              // received bytes of an incomplete report
+  std::string reported;           // received parts of the report of the current task
 };
 
 class Pool {
@@ -200,7 +202,7 @@ class Pool {
       throw FileError("fork", "cannot start a process: " + std::generic_category().message(errno));
     if (child == 0) {
       tasks.in.reset();
-      workers_.clear();  // pipes of other workers belong to the parent
+      workers_.clear();  // closes the inherited pipes of other workers
       be_worker(parent_, signals_, work_, tasks.out.get(), reports.in.get());
     }
     Worker worker;
@@ -211,21 +213,21 @@ class Pool {
     workers_.push_back(std::move(worker));
   }
 
-  /// Gives each worker a task, then each one a waiting task.
+  /// Sends a first task to each worker without one, then a second task that waits in the worker's pipe.
   void hand_out(std::deque<std::size_t>& queue) {
     for (std::size_t ahead = 1; ahead <= max_ahead; ++ahead)
       for (Worker& w : workers_) {
         if (queue.empty()) return;
         if (w.given.size() >= ahead) continue;
         const std::uint64_t task = queue.front();
-        w.given.push_back(queue.front());  // a worker that has just died is detected by its reports
+        w.given.push_back(queue.front());  // if the worker has died, listen() detects it and returns the task
         queue.pop_front();
         (void)send(w.tasks.get(), &task, sizeof task);
       }
   }
 
-  /// Waits for reports or a signal. Tasks that a dead worker has not begun return to the queue. Returns true
-  /// after a signal that ends all tasks.
+  /// Waits for reports or a signal. If a worker has died, its waiting tasks return to the queue. Returns true after a
+  /// signal, which ends all tasks.
   bool listen(std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     std::vector<pollfd> watched{{signals_.fd(), POLLIN, 0}};
     for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
@@ -257,7 +259,7 @@ class Pool {
     return status;
   }
 
-  /// Reads complete reports; returns false if the worker has closed its end.
+  /// Reads the complete reports of a worker; returns false if the worker has closed its pipe.
   static bool hear(Worker& w, std::vector<TaskResult>& ends) {
     char block[65536];
     bool open = true;
@@ -291,7 +293,7 @@ class Pool {
 
   static void bury(Worker& w, std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     const int status = reap(w.process);
-    const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // ended between two tasks
+    const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // the worker ended between two tasks
     if (!w.given.empty() && !clean) {
       ends.push_back({w.given.front(), WIFEXITED(status) ? WEXITSTATUS(status) : 1,
                       WIFSIGNALED(status) ? WTERMSIG(status) : 0, std::move(w.reported)});
@@ -312,7 +314,7 @@ bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const 
                  const std::function<bool(const TaskResult&)>& ended,
                  const std::function<void(std::size_t)>& idle) {
   const HeldSignals signals;
-  const auto pipes = std::signal(SIGPIPE, SIG_IGN);  // raised by the pipe of a dead worker
+  const auto pipes = std::signal(SIGPIPE, SIG_IGN);  // writing to a dead worker would raise SIGPIPE
   Pool pool(signals, work);
   std::deque<std::size_t> queue(tasks.begin(), tasks.end());
   bool go_on = true, whole = true;
@@ -347,7 +349,7 @@ SweepTasks::SweepTasks(sweep::SweepDirectory& directory, sweep::RowTask common, 
     bool missing = false;
     for (std::size_t i = first; i < first + length_; ++i)
       missing = missing || (spec.share.holds(i) && !directory.rows().contains(i));
-    // An incomplete chain restarts: its states are in no file.
+    // An incomplete chain of rows is computed again from its first row, because final states are not stored in files.
     if (missing) list_.push_back(first);
   }
 }

@@ -31,7 +31,8 @@ CheckContext::CheckContext(const Model& model_, const LawLimits& limits_)
   find_massless();
 }
 
-/// Upper triangle of K with the springs of contacts, off-diagonal entries doubled: u^T K u is a sum over it.
+/// Upper triangle of K, including the springs of contacts, with doubled off-diagonal entries, so that u^T K u is the sum
+/// over its entries.
 SparseMatrix CheckContext::springs_of(const Model& model) {
   std::vector<Eigen::Triplet<double>> terms;
   const auto add = [&](int i, int j, double value) {
@@ -189,7 +190,7 @@ double CheckContext::max_contact_acceleration(const InstantRecord& record, std::
   const ContactKinematics after = kinematics(c, k, record.after), before = kinematics(c, k, record.before);
   const ContactResponse* own = contact_response(k);
   if (own == nullptr) return std::max(std::abs(after.ddg), std::abs(after.ddut));
-  double n = 0.0, t = 0.0;  // differences of the accelerations on both sides
+  double n = 0.0, t = 0.0;  // accelerations before minus accelerations after, along n and t
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
     const Contact& other = model.contacts[j];
     const ContactKinematics b = kinematics(other, j, record.before), a = kinematics(other, j, record.after);
@@ -240,7 +241,7 @@ double CheckContext::rest_speed(const InstantRecord& record, std::size_t k) cons
 
 namespace {
 
-/// Sum of |w| |matrix| |x|, without cancellation.
+/// |w|^T |matrix| |x|: sum of the absolute terms of w^T matrix x.
 double terms_of(const Vector& w, const SparseMatrix& matrix, const Vector& x) {
   double sum = 0.0;
   for (int j = 0; j < matrix.outerSize(); ++j)
@@ -251,14 +252,13 @@ double terms_of(const Vector& w, const SparseMatrix& matrix, const Vector& x) {
 
 }  // namespace
 
-/// Weights w of contact k's forces among all forces that enforce constraints just before: rows R of accelerations, and
-/// columns F of forces l, which include friction for sliding contacts:
+/// The weights follow from the constraint forces l of all contacts just before the instant. R: rows of the constrained
+/// accelerations; F: directions of the forces, which include friction for sliding contacts:
 ///
 ///     R M^-1 (f - F l) = asked,  f = P - C v - K u - springs
 ///     =>    l_k = w_k . f + ...,   w_k = M^-1 R^T A^-T e_k,  A = R M^-1 F
 ///
-/// Another contact with nearly the same rows amplifies noise of f by A^-1; the rows of contact k alone would not show
-/// this.
+/// All contacts are included, because A^-1 amplifies errors of f if another contact has nearly the same row as contact k.
 ConstraintForceWeights CheckContext::constraint_force_weights(const InstantRecord& record,
                                                               std::size_t k) const {
   std::vector<const Combination*> forms;
@@ -304,7 +304,7 @@ ConstraintForceWeights CheckContext::constraint_force_weights(const InstantRecor
   return {weights(normal), weights(tangent)};
 }
 
-/// Contribution of dampers, and of dashpots of closed contacts, to the forces w . f, for velocities v.
+/// Contribution of dampers, and of dashpots of closed contacts, to w . f for velocities v.
 double CheckContext::damped(const InstantRecord& record, const Vector& w, const Vector& v) const {
   double sum = w.dot(model.damping * v);
   for (std::size_t j = 0; j < model.contacts.size(); ++j) {
@@ -318,13 +318,13 @@ double CheckContext::damped(const InstantRecord& record, const Vector& w, const 
   return sum;
 }
 
-/// Difference between two sums of w . f, both from the u and v just before: the engine's, and the decision's, which
-/// removes velocities that steps have left. It consists of
+/// The engine and the decision compute w . f separately from u and v just before the instant; the decision first removes
+/// velocities below the accuracy of steps. The difference of both values consists of
 ///   - rounding, 1000 eps of  |w| (|M| |a| + |C| |v| + |K| |u|)  and of the terms of springs and forces of all
-///     contacts; with `ida` as many tolerances as for any other row;
+///     contacts; with `ida` also tolerance_factor tolerances, as for other rows;
 ///   - in modes, du and dv with  du^T K du <= lost^2,  dv^T M dv <= lost^2  (Schwarz):
 ///         |w . K du| <= lost sqrt( w^T K w ),   |w . C dv| <= lost sqrt( (C w)^T M^-1 (C w) );
-///   - if steps have a given length, w . C dv for the velocities dv that captures remove, dashpots of contacts in C.
+///   - for fixed steps, w . C dv for the velocities dv that captures remove; C includes the dashpots of contacts.
 double CheckContext::constraint_force_noise(const InstantRecord& record, const Vector& w) const {
   if (w.size() == 0) return 0.0;
   const CheckedSide& side = record.before;

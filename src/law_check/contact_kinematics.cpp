@@ -9,7 +9,8 @@
 namespace signorini::law_check {
 namespace {
 
-/// Bound |form| |x|, for any angle between them; |x| counts with `reach` at least.
+/// Bound of |form . x| by Schwarz, |form| sqrt(|x|^2 + reach^2), x on the degrees of freedom of the form. reach: largest
+/// |x| of the run so far.
 double size_on(const Combination& form, const Vector& x, double reach) {
   double of_form = 0.0, of_x = reach * reach;
   for (const auto& [dof, factor] : form.terms) {
@@ -19,13 +20,13 @@ double size_on(const Combination& form, const Vector& x, double reach) {
   return std::sqrt(of_form * of_x);
 }
 
-/// Slope dF/d|N| for friction that depends on N.
+/// Slope dF/d|N| of the friction limit F, for friction that depends on N.
 double growth_of_limit(const Contact& c, double N) {
   const double x = std::max(0.0, -N) / *c.friction.force;
   return friction_at(c, 0.0, N) - (c.friction.static_ - c.friction.kinetic) * x * std::exp(-x);
 }
 
-/// Stiffness kt of the spring between body and sliding point; 0: no spring, or one with a dashpot in parallel.
+/// Stiffness kt of the spring between body and sliding point; 0: no such spring.
 double shear_stiffness(const Contact& c) { return c.tangential_stiffness.value_or(0.0); }
 
 }  // namespace
@@ -160,7 +161,7 @@ double T_of(const CheckedSide& side, std::size_t k) {
   return (*side.forces)[static_cast<Eigen::Index>(side.layout.tangent(k))];
 }
 
-/// True if s p' >= 0; with a spring between body and sliding point, N' contributes to p'.
+/// True if the contact slides in the direction s: s p' >= 0. With a spring between body and sliding point, p' contains N'.
 bool slides_on(const Contact& c, std::size_t k, int s, const CheckedSide& side) {
   if (c.normal_damping > 0.0 && side.a == nullptr) return false;
   const Driven& d = side.driven[k];

@@ -1,7 +1,7 @@
 // contact_kinematics.hpp: motion of a contact for the law checker, guards of its states, and their rounding.
 //
 //   g = g0 + n.u,  ut = t.u - s,  g' = n.v,  ut' = t.v - s',  g'' = n.a,  ut'' = t.a - s''
-//   size of a form on x: |n| |x|, x on the contact's own degrees of freedom
+//   size of n.x, the scale of its rounding error: |n| |x|, x on the contact's own degrees of freedom
 #pragma once
 
 #include <array>
@@ -20,19 +20,20 @@ inline constexpr Unit force{1, 0, 0}, length{0, 1, 0}, velocity{0, 1, -1}, impul
 
 namespace signorini::law_check {
 
+/// Motion and forces of one contact: g, ut, their first and second rates, and the applied normal force q with its rates.
 struct ContactKinematics {
   double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0,
          ddq = 0.0;
-  // Sizes of the terms of g and ut, of g' and ut', of g'' and ut''.
+  // Sum of the sizes of the terms of g and ut; of g' and ut'; of g'' and ut''.
   double displacement_size = 0.0, velocity_size = 0.0, acceleration_size = 0.0;
 };
 
-/// A guard, positive while its state holds, and the size of its terms.
+/// Value of a guard, which is positive while the contact can remain in its state. size: sum of the sizes of its terms.
 struct GuardValue {
   const char* law = "";
   double value = 0.0, size = 0.0;
-  double rate = 0.0;       ///< rate of the value if the motion determines it; otherwise 0
-  double tolerance = 0.0;  ///< contribution of the engine's tolerances
+  double rate = 0.0;       ///< rate of the value; 0: the motion does not determine it
+  double tolerance = 0.0;  ///< error of the value that the engine's tolerances allow
 
   [[nodiscard]] const Unit& unit() const;  ///< unit of the value
 };
@@ -49,33 +50,32 @@ struct GuardValues {
 [[nodiscard]] ContactKinematics kinematics(const Contact& contact, std::size_t k, const CheckedSide& side);
 /// Direction of slip: +1 or -1 in a slip state, otherwise 0.
 [[nodiscard]] int slip_direction(State state);
-/// Friction coefficient |T|/|N| for slip at this rate under this N.
+/// Friction coefficient |T|/|N| of a sliding contact for this slip rate and this N.
 [[nodiscard]] double friction_at(const Contact& c, double slip_rate, double N);
-/// Friction coefficient in a given state: the static one if the contact is held at its static limit,
-/// otherwise friction_at().
+/// Friction coefficient in a given state: static friction if the contact is at its static limit, otherwise friction_at().
 [[nodiscard]] double friction_in(const Contact& c, State state, double slip_rate, double N);
-/// Guards of a state for a motion whose forces satisfy the state's own rows.
+/// Guards of a state, for a motion whose forces satisfy the equations (rows) of this state.
 [[nodiscard]] GuardValues guards_of(const Contact& contact, const ContactState& state,
                                     const ContactKinematics& m, const LawLimits& limits);
-/// True if another foot or slider may hold this contact at the limit of its friction: its slip rate is then the
-/// rounding of the constraint that holds it.
+/// True if another rigidly sticking contact of the same kind acts on a common degree of freedom. At its friction limit,
+/// contact k may then be held at rest by the other contact, and its slip rate is only rounding.
 [[nodiscard]] bool may_be_held_by_neighbour(const Model& model, std::size_t k);
-/// Size of the terms of kn g + cn g'.
+/// Sum of the sizes of the terms of kn g + cn g', a force.
 [[nodiscard]] double normal_force_size(const Contact& contact, const ContactKinematics& m);
 
-// Quick check of guards and rows, without an allowance for the rounding of their terms.
+// Quick check of guards and rows, with limits that do not include the rounding of all their terms.
 //
-//   g >= 0          -N >= 0,  fs |N| - |T| >= 0          s p' >= 0
-//   |N - kn g - cn g'| <= c eps |N|      |T - kt (ut - p)| <= c eps (|T| + kt |p|)      |T + s fk N| <= c eps |T|
+//   guards   g >= 0          -N >= 0,  fs |N| - |T| >= 0          s p' >= 0
+//   rows     |N - kn g - cn g'| <= c eps |N|      |T - kt (ut - p)| <= c eps (|T| + kt |p|)      |T + s fk N| <= c eps |T|
 //
-// Limits of the laws (laws.hpp) grow with the sizes of all terms, which are sums over degrees of freedom.
-// This check omits these sums, so its limits never exceed those of the laws: a contact that passes it
-// satisfies the laws.
+// The limits of the laws (laws.hpp) include the sizes of all terms, which are sums over degrees of freedom. The quick
+// check omits these sums, so its limits are never larger: a contact that passes it satisfies the laws.
 
-/// True if no guard of the state is negative; false also if `side` does not determine this.
+/// True if no guard of the state is negative. False if a guard is negative, or if this check cannot decide.
 [[nodiscard]] bool guards_hold(const Contact& contact, std::size_t k, const ContactState& state,
                                const CheckedSide& side);
-/// True if N and T satisfy the state's rows. rest: speed up to which a contact counts as at rest.
+/// True if N and T satisfy the rows of the state. False if they do not, or if this check cannot decide. rest: speed up to
+/// which a contact is regarded as at rest.
 [[nodiscard]] bool rows_hold(const Contact& contact, std::size_t k, const ContactState& state,
                              const CheckedSide& side, double rest);
 

@@ -12,7 +12,7 @@ namespace {
 
 struct ClosedRows {
   std::vector<const Combination*> forms;
-  std::vector<Vector> columns;  // M^-1 form; with its friction for a sliding contact
+  std::vector<Vector> columns;  // M^-1 form; for a sliding contact including friction
   std::vector<double> gaps;
 
   void add(const Combination& form, Vector column, double gap) {
@@ -37,10 +37,10 @@ struct ClosedRows {
 
 }  // namespace
 
-/// Checks the continuity of u, and of T unless its row changes with the state. Both sides of u are rounded.
+/// Checks that u is continuous, and T unless the new state gives T by another equation.
 void InstantLawChecker::continuity() {
   const LawLimits& tol = context_.limits;
-  // Largest u, and largest v (multiplied below by the uncertainty of the time), for translations and rotations.
+  // Largest |u_i| and |v_i| of translations and rotations; v times the uncertainty of the time is a change of u.
   const std::array<double, 2> of_u = context_.max_entries(*record_.before.u),
                               of_v = context_.max_entries(*record_.before.v);
   const std::array<double, 2> off_by = context_.max_entries(*record_.after.u - *record_.before.u);
@@ -75,10 +75,9 @@ void InstantLawChecker::continuity() {
     if (model_.contacts[k].obeys_coulomb()) friction_continuity(k);
 }
 
-/// Uncertainty of u at a massless degree of freedom. There u follows from forces, and springs of contacts
-/// convert the rounding of u to forces: stiff springs bend the structure by  sum_j |(K^-1)_ij| noise_j,  K:
-/// of the structure on massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is
-/// singular.
+/// Uncertainty of u_i at a massless degree of freedom i, where u follows from forces. Stiff contact springs convert the
+/// rounding of u to forces, which bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: stiffness of the structure on
+/// massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is singular.
 double InstantLawChecker::massless_uncertainty(int dof) const {
   if (context_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
   const std::vector<int>& all = context_.massless();
@@ -92,8 +91,8 @@ double InstantLawChecker::massless_uncertainty(int dof) const {
   return std::isfinite(bent) ? bent : 0.0;
 }
 
-/// Largest change of u by closing gaps of rigid contacts that have the size of their rounding. All gaps close together
-/// by the smallest change in the norm of M that leaves sticking contacts alone:
+/// Bound of the change of u if the decision closes all gaps of rigid contacts that are within rounding. It closes them
+/// together by the smallest change of u in the norm of M that does not move sticking contacts along t:
 /// du = M^-1 G^T W^-1 (g, 0),  W = G M^-1 G^T,  G: rows (n, t).
 Vector InstantLawChecker::closing() const {
   Vector most = Vector::Zero(model_.size());
@@ -119,12 +118,12 @@ Vector InstantLawChecker::closing() const {
   };
   close(*record_.before.mode, false);
   close(*record_.after.mode, false);
-  close(*record_.after.mode, true);  // all contacts that touch, sticking or not
+  close(*record_.after.mode, true);  // all touching contacts, which may move along t without friction
   return most;
 }
 
-/// Massless parts jump if the forces on them jump: at a jump of a load, when they leave a contact, and when friction
-/// drops to its kinetic value.
+/// True if massless parts may jump, because the forces on them jump: at a breakpoint of the forcing, when they leave a
+/// contact, and when friction drops to its kinetic value.
 bool InstantLawChecker::lets_massless_jump() const {
   if (massless_jump_) return *massless_jump_;
   bool any = record_.breakpoint || record_.start || !record_.released.empty();
@@ -133,15 +132,15 @@ bool InstantLawChecker::lets_massless_jump() const {
   return any;
 }
 
-/// True if the body of a contact is massless: if it has a dashpot, the body jumps and not the sliding point.
+/// True if the body of a contact is massless: if the sliding point has a dashpot, the body jumps instead of this point.
 bool InstantLawChecker::body_follows(std::size_t k) const {
   const std::vector<std::pair<int, double>>& terms = model_.contacts[k].body_tangent().terms;
   return std::any_of(terms.begin(), terms.end(),
                      [&](const auto& term) { return !context_.has_mass(term.first); });
 }
 
-/// True if contact k stuck at its static limit, which is above the kinetic one, and has let go: it slides, is
-/// open, or has slid and stopped within the instant (an event "slip" from stick to stick).
+/// True if contact k stuck at its static limit, which is above the kinetic limit, and stick ended: the contact slides, is
+/// open, or slid and stopped within the instant (an event "slip" from stick to stick).
 bool InstantLawChecker::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
@@ -162,8 +161,8 @@ bool InstantLawChecker::lets_go(std::size_t k) const {
   return false;
 }
 
-/// Checks p if massless parts jump: a sticking contact keeps its sliding point, and a contact that lets go slides in
-/// the direction of its friction force:  p = ut - T/kt,  s (p+ - p-) >= 0.
+/// Checks the sliding point p = ut - T/kt of contact k if massless parts jump: p of a sticking contact does not move; if
+/// stick ends, p slides in the direction s of slip:  s (p+ - p-) >= 0.
 void InstantLawChecker::instantaneous_slide(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
@@ -184,7 +183,7 @@ void InstantLawChecker::instantaneous_slide(std::size_t k) {
     add(static_cast<int>(k), "continuity of friction", back, limit, seen::force, false);
 }
 
-/// True if T is the same on both sides, up to rounding of T itself, and points in the direction of slip.
+/// True if T is equal on both sides, up to rounding of T, and has the sign that belongs to the new slip direction, if any.
 bool InstantLawChecker::shear_stays(std::size_t k) const {
   const auto at = static_cast<Eigen::Index>(model_.layout.tangent(k));
   const double before = (*record_.before.forces)[at], after = (*record_.after.forces)[at];
@@ -192,8 +191,8 @@ bool InstantLawChecker::shear_stays(std::size_t k) const {
          slip_direction((*record_.after.mode)[k].state) * before >= 0.0;
 }
 
-/// True if |N| of a sliding contact jumps down and T decreases with it, whatever the new state: an impact that makes N
-/// jump may reverse the slip at the same instant, and where slip ends the contact sticks with T at the new kinetic limit.
+/// True if |N| of a sliding contact drops and T is at the new kinetic limit. The new state may be any: an impact that makes
+/// N jump may reverse the slip at the same instant, or the contact may stick with this T.
 bool InstantLawChecker::falls_with_it(std::size_t k, const ContactKinematics& before,
                                       const ContactKinematics& after, double off_N, double off_T) const {
   const Contact& c = model_.contacts[k];
@@ -203,7 +202,7 @@ bool InstantLawChecker::falls_with_it(std::size_t k, const ContactKinematics& be
   return std::abs(after.T + s * friction_in(c, old, before.dut, after.N) * after.N) <= off_T;
 }
 
-/// Checks that T of a spring is continuous; it drops from the static limit to the kinetic one if the contact lets go.
+/// Checks that T of a tangential spring is continuous, except that it may drop from the static to the kinetic limit.
 void InstantLawChecker::friction_continuity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
@@ -219,7 +218,7 @@ void InstantLawChecker::friction_continuity(std::size_t k) {
       rounding::elimination * (normal_force_size(c, a) + std::abs(a.N) + std::abs(b.N)) +
       tolerance_factor *
           (c.normal_stiffness * (context_.limits.rtol * a.displacement_size + context_.limits.displacement));
-  if (std::abs(a.N - b.N) > off_N && slip_direction(now.state) != 0) return;  // T = -s fk N follows
+  if (std::abs(a.N - b.N) > off_N && slip_direction(now.state) != 0) return;  // T = -s fk N jumps with N
   double limit =
       rounding::elimination * (kt * (a.displacement_size + std::abs(now.anchor)) + std::abs(b.T)) +
       tolerance_factor * (kt * (context_.limits.rtol * a.displacement_size + context_.limits.displacement)) +
@@ -229,8 +228,8 @@ void InstantLawChecker::friction_continuity(std::size_t k) {
   if (falls_with_it(k, b, a, off_N, limit)) return;
   const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
   const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
-  const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // N has dropped
-  if (lets_go || above) {                                         // to the limit, with the same sign
+  const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // |N| has dropped
+  if (lets_go || above) {                                         // T drops to the limit and keeps its sign
     if (slip_direction(now.state) * b.T < 0.0 && std::abs(b.T) > limit && !moves_instantaneously(k))
       add(static_cast<int>(k), "continuity of friction", std::abs(a.T - b.T), limit, seen::force, false);
     return;
@@ -239,27 +238,29 @@ void InstantLawChecker::friction_continuity(std::size_t k) {
     add(static_cast<int>(k), "continuity of friction", off, limit, seen::force, false);
 }
 
-// Laws that relate the two ends of a stretch of motion, without the motion between.
+// Laws between two successive instants, 1 and 2, checked from the two ends of the motion only: +, just after instant 1,
+// and -, just before instant 2.
 //
-//   states+ of one instant = states- of the next            s (p- - p+) >= 0 for sliding contacts,  p = ut - T/kt
-//   ut- = ut+ for rigid stick,  g- = g+ for rigid closed contacts        unless a tolerance lets them drift
-//   M a + C v + K u + sum ( n N + t T + t (-N - N_carried) ut / R ) = P         just after; R: of a pendulum
+//   states- = states+                                      s (p- - p+) >= 0 for sliding contacts,  p = ut - T/kt
+//   ut- = ut+ for rigid stick,  g- = g+ for rigid closed contacts        only for engines without tolerances and steps
+//   M a + C v + K u + sum ( n N + t T + t (-N - N_carried) ut / R ) = P         just after an instant; R: of a pendulum
 
 namespace {
 
-/// The two ends of a stretch, for one contact.
+/// Motion of one contact at the two ends: just after one instant, and just before the next.
 struct StretchEnds {
   ContactKinematics from, to;
   [[nodiscard]] double place() const { return from.displacement_size + to.displacement_size; }
 };
 
-/// Displacement of the sliding point.
+/// Displacement of the sliding point p = ut - T/kt between the two ends.
 double slid(const Contact& c, const StretchEnds& ends) {
   const double by_force = c.tangential_stiffness ? (ends.to.T - ends.from.T) / *c.tangential_stiffness : 0.0;
   return ends.to.ut - ends.from.ut - by_force;
 }
 
-/// Uncertainty of slid() by rounding and tolerances. A fixed point moves by the rounding of the scene's displacements.
+/// Error of slid() due to rounding and tolerances. scale: displacement scale of the scene; even a point at rest moves by
+/// the rounding of such displacements.
 double slid_noise(const Contact& c, const StretchEnds& ends, const LawLimits& tol, double scale) {
   const double by_force =
       c.tangential_stiffness ? (std::abs(ends.to.T) + std::abs(ends.from.T)) / *c.tangential_stiffness : 0.0;
@@ -270,7 +271,7 @@ double slid_noise(const Contact& c, const StretchEnds& ends, const LawLimits& to
 class RowSums {
  public:
   explicit RowSums(int size) : sum(Vector::Zero(size)), terms(sum) {}
-  /// size: of x, or the size that its rounding is relative to.
+  /// Adds matrix * x. reach: scales of the rounding error of x for translations and rotations, if larger than |x_j|.
   void add(const SparseMatrix& matrix, const Vector& x, const std::array<double, 2>& reach,
            const Model& model) {
     for (int j = 0; j < matrix.outerSize(); ++j) {
@@ -338,14 +339,14 @@ std::vector<Violation> equilibrium_law(const CheckContext& context, double t, co
     rows.add(c.tangent, m.T, size);
     const CurvedSurface* bowl = c.curved_surface();
     if (bowl == nullptr) continue;
-    // The curved surface of a pendulum acts by N minus the weight that K contains.
+    // K contains the restoring force of a pendulum under its nominal force; that of the remaining N is added here.
     const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
     rows.add(c.body_tangent(), (-m.N - bowl->nominal_force) * slope,
              (size + bowl->nominal_force) * m.displacement_size / bowl->radius);
   }
   rows.sum -= load;
   rows.terms += load.cwiseAbs();
-  // Residuals of solves are relative to the largest row, separately for forces and for moments.
+  // Residuals of solves scale with the largest row, separately for forces and for moments.
   const std::array<double, 2> greatest = context.max_entries(rows.terms);
   std::optional<Violation> worst;
   for (int i = 0; i < model.size(); ++i) {

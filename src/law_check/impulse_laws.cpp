@@ -7,7 +7,8 @@
 
 namespace signorini::law_check {
 
-/// Adds a violation. The limit is at least the smallest normal number: smaller numbers have no digits.
+/// Adds a violation if the value exceeds the limit. The limit is at least the smallest normal double, because smaller
+/// numbers have few digits. grave: no rounding error explains the violation, and the run must end.
 void InstantLawChecker::add(int contact, const char* law, double value, double limit, const Unit& unit,
                             bool grave) {
   limit = std::max(limit, std::numeric_limits<double>::min());
@@ -32,7 +33,7 @@ const RecordedEvent* InstantLawChecker::event_of(std::size_t k) const {
   return found == record_.events.end() ? nullptr : &*found;
 }
 
-/// True if there are impulses, or a velocity of a degree of freedom with mass jumps.
+/// True if there are impulses or captures, or if the velocity of a degree of freedom with mass jumps.
 bool InstantLawChecker::is_struck() const {
   if (!record_.impulses.empty()) return true;
   if (record_.captures.size() > 0 && !record_.captures.isZero(0.0)) return true;
@@ -42,7 +43,7 @@ bool InstantLawChecker::is_struck() const {
   return false;
 }
 
-/// Checks that M (v+ - v-) is a sum of impulses along n and t, within the backward error of the solves for v+.
+/// Checks that M (v+ - v-) equals the sum of all impulses, up to the rounding error of the solve for v+.
 void InstantLawChecker::momentum() {
   if (!is_struck()) return;
   const Vector &before = *record_.before.v, &after = *record_.after.v;
@@ -61,7 +62,7 @@ void InstantLawChecker::momentum() {
     push(model_.contacts[k].tangent, record_.captures.data()[model_.layout.tangent(k)]);
   }
   Vector jump = Vector::Zero(model_.size()), speed = jump;
-  // Velocities are known to the smallest normal number at best: smaller numbers have no digits.
+  // Velocities are not more accurate than the smallest normal double, because smaller numbers have few digits.
   constexpr double unknown = std::numeric_limits<double>::min() / rounding::elimination;
   double translation = std::max(unknown, record_.before.max_v[0]),
          rotation = std::max(unknown, record_.before.max_v[1]);
@@ -94,7 +95,7 @@ void InstantLawChecker::momentum() {
     return worst;
   };
   if (worst_of() < 0) return;
-  // A body at rest has velocities as large as its forces produce within the resolution of the clock.
+  // A body at rest may have the velocity that its forces cause within the resolution of the clock.
   clock = uncertainty_factor * record_.resolution * context_.balance_terms(record_.after);
   const int worst = worst_of();
   if (worst < 0) return;
@@ -103,9 +104,9 @@ void InstantLawChecker::momentum() {
       true);
 }
 
-/// Checks that captures, impulses which no law of impact gives, are no larger than the speed of a resting
-/// contact explains. A captured contact is held while others are stopped, and moves with them if it slides.
-/// So the smaller of two effects counts: that of its own capture, and that of all captures.
+/// Checks that capture impulses are not larger than the speed of a contact at rest explains. While other contacts are
+/// captured, a sticking contact is held, and a sliding contact moves with them. So the speed of a contact is the smaller
+/// of two values: the effect of its own capture, and the effect of all captures.
 void InstantLawChecker::captures() {
   if (record_.captures.size() == 0 || record_.captures.isZero(0.0)) return;
   Vector impulse = Vector::Zero(model_.size());
@@ -123,21 +124,22 @@ void InstantLawChecker::captures() {
                t = static_cast<Eigen::Index>(model_.layout.tangent(k));
     if (record_.captures[n] == 0.0 && record_.captures[t] == 0.0) continue;
     const ContactResponse* own = context_.contact_response(k);
-    const double most = std::numeric_limits<double>::infinity();  // replaces its own effect if unknown
+    // Replaces the effect of the contact's own capture if this effect is not known.
+    const double most = std::numeric_limits<double>::infinity();
     const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[n]) : most;
     const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[t]) : most;
     const double speed = std::max(std::min(by_n, std::abs(c.normal.dot(change))),
                                   std::min(by_t, std::abs(c.tangent.dot(change))));
     double limit = slow_slip_factor * context_.rest_speed(record_, k);
-    // Between steps, g' of a closed gap oscillates by the step times the held acceleration. A contact that stops
-    // within a step is found at the end of the step and may have moved again by then. A contact that sticks rigidly to
-    // a moving surface follows its acceleration, and its velocity with the error of the step rule.
+    // With fixed steps, g' of a closed contact oscillates by (step * constrained acceleration). A contact that stops
+    // within a step is detected at the end of the step, when it may move again. The velocity of a contact that sticks
+    // rigidly to a moving surface has the error of the integration rule (Driven::drift).
     if (context_.limits.step > 0.0 && !is_open((*record_.before.mode)[k].state))
       limit += context_.limits.step * context_.max_contact_acceleration(record_, k) +
                record_.before.driven[k].drift;
-    // With an engine that does not locate events, a contact that stops within a step overshoots by up to its former
-    // speed. The limit for an engine with steps uses the accelerations of both ends and the first terms of the errors
-    // in h; the remaining terms of the series are allowed twice as much.
+    // If the engine does not locate events, a contact that stops within a step may overshoot by its former speed, so no
+    // capture is grave. For engines with steps the limit contains only the leading error terms in h; the higher terms
+    // are allowed twice as much.
     const bool grave =
         record_.located && speed > (context_.limits.step > 0.0 ? uncertainty_factor : 1.0) * limit;
     if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, grave);
@@ -154,7 +156,8 @@ void InstantLawChecker::restitution() {
     if ((closed || m.g <= 0.0) && m.dg < -rounding_of_speed)
       add(static_cast<int>(k), "penetration rate", -m.dg, rounding_of_speed, seen::velocity, true);
   }
-  double greatest = 0.0;  // largest impulse, including the rounding of velocities that cancel
+  // Scale of impulses: the largest impulse, or the impulse that would cause the velocities before.
+  double greatest = 0.0;
   for (const RecordedImpulse& p : record_.impulses) {
     greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
     const ContactResponse* own = context_.contact_response(p.contact);
@@ -172,8 +175,8 @@ void InstantLawChecker::restitution() {
   }
 }
 
-/// Velocities before and after one impact of an instant: v- plus the effect of the impulses of earlier
-/// impacts, and v+ minus the effect of later impacts.
+/// Velocities before and after one of several impacts of an instant: v- plus the effects of earlier impacts, and v+ minus
+/// the effects of later impacts.
 InstantLawChecker::ImpactVelocities InstantLawChecker::impact_velocities(
     const RecordedImpulse& p, const ContactKinematics& before, const ContactKinematics& after) const {
   ImpactVelocities strike{before.dg, after.dg, after.dut};
@@ -198,7 +201,7 @@ InstantLawChecker::ImpactVelocities InstantLawChecker::impact_velocities(
   return strike;
 }
 
-/// Checks 0 <= Pn _|_ g'+ + e min(g'-, 0) >= 0.
+/// Checks the law of restitution, 0 <= Pn _|_ g'+ + e min(g'-, 0) >= 0.
 void InstantLawChecker::restitution_of(const RecordedImpulse& p, const ImpactVelocities& strike,
                                        double greatest) {
   const int contact = static_cast<int>(p.contact);
@@ -209,9 +212,9 @@ void InstantLawChecker::restitution_of(const RecordedImpulse& p, const ImpactVel
   const double limit = context_.rest_speed(record_, p.contact) + strike.uncertainty +
                        (own != nullptr ? rounding::elimination * own->nn * greatest : 0.0);
   const double asked = -c.restitution * std::min(strike.dg_before, 0.0);
-  double off = asked - strike.dg_after;                                // slower than restitution requires
-  if (p.normal > zero) off = std::abs(off);                            // or faster than it allows
-  if (asked <= limit) off = std::min(off, std::abs(strike.dg_after));  // e = 0: rest
+  double off = asked - strike.dg_after;                                // the rebound is too slow
+  if (p.normal > zero) off = std::abs(off);                            // if there is an impulse: or too fast
+  if (asked <= limit) off = std::min(off, std::abs(strike.dg_after));  // a slow rebound may end at rest
   if (off > limit) add(contact, "restitution", off, limit, seen::velocity, true);
 }
 

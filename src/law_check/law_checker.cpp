@@ -66,7 +66,7 @@ void LawChecker::check_contact(double t, std::size_t k, const ContactState& stat
   if (!c.obeys_coulomb() || c.friction.is_rate_dependent()) return;
   for (const GuardValue& guard : guards_of(c, state, m, parts_->context.limits)) {
     const std::string_view law = guard.law;
-    // The slip rate with a dashpot needs an acceleration.
+    // The slip rate of a contact with a dashpot contains g'', so it is checked only if accelerations are known.
     if (law == "slip direction" && (c.sliding_point() || (c.normal_damping > 0.0 && !accelerates))) continue;
     const bool held = law == "tension" ? c.takes_impulses() : law == "friction" && !c.tangential_stiffness;
     double limit =
@@ -99,7 +99,8 @@ std::vector<Violation> LawChecker::check_point(double t, const CheckedSide& now)
     if (found.size() == before ||
         (model.contacts[k].normal_spring() && model.contacts[k].tangential_stiffness))
       continue;
-    found.resize(before);  // rarely reached: the uncertainty of constraint forces is a sum over the structure
+    // Repeat with the uncertainty of constraint forces, a costly sum over the structure.
+    found.resize(before);
     check_contact(t, k, (*now.mode)[k], m, now.a != nullptr, parts_->context.balance_terms(now), found);
   }
   for (const MasslessImbalance& off : massless_balance(parts_->context, now, 2)) {

@@ -1,11 +1,11 @@
-// Massless parts: their forces are balanced, and so are the rates of these forces.
+// Balance of the forces on massless degrees of freedom, and of the rates of these forces.
 //
-//   r   = P - C v - K u - sum ( n N + t T )          = 0    in rows of M that are empty
+//   r   = P - C v - K u - sum ( n N + t T )          = 0    in rows without mass
 //   r'  = P' - C a - K v - sum ( n N' + t T' )       = 0    if N', T' follow from u, v, a
-//   r'' = P'' - K a - sum ( n N'' + t T'' )          = 0    if the row also has no damping
+//   r'' = P'' - K a - sum ( n N'' + t T'' )          = 0    if the row has no damping either
 //
-// N' and T' are known for springs and for open contacts: kn g' + cn g'', kt ut', -s fk N'; constraint forces are
-// unknowns, and rows that contain one are skipped.
+// N' and T' follow from the motion for springs and for open contacts: kn g' + cn g'', kt ut', -s fk N'. Rates of
+// constraint forces are not known, so rows with such forces are not checked.
 
 #include "law_check/massless_laws.hpp"
 
@@ -25,13 +25,13 @@
 namespace signorini::law_check {
 namespace {
 
-/// Sum of massless rows that determines velocities: C v from forces, or K v from their rates.
+/// Weighted sum of massless rows that determines velocities: C v from forces, or K v from rates of forces.
 struct RateRow {
-  std::vector<std::pair<int, double>> parts;  ///< place of the row, its weight
-  bool by_forces = false;
+  std::vector<std::pair<int, double>> parts;  ///< index of a row among the massless rows, and its weight
+  bool by_forces = false;                     ///< true: C v from forces; false: K v from rates of forces
 };
 
-/// Massless rows that determine velocities, restricted to massless degrees of freedom.
+/// Matrix S of the rows that determine the velocities of massless degrees of freedom (massless_laws.hpp).
 class RateRows {
  public:
   RateRows(const CheckContext& context, const CheckedSide& side)
@@ -50,7 +50,7 @@ class RateRows {
     if (reported_) combine();
   }
 
-  /// Solution of S^T x = f; empty: S does not determine it.
+  /// Solution of S^T x = f, f = factor * form + factor_of_more * more. Empty: S does not determine velocities.
   [[nodiscard]] Vector weights(const Combination& form, double factor, const Combination& more,
                                double factor_of_more) const {
     if (!reported_) return {};
@@ -66,7 +66,7 @@ class RateRows {
     const bool solved = x.allFinite() && (transposed * x - f).norm() <= of_solve * f.norm();
     return solved ? x : Vector();
   }
-  /// Rounding of row j, from the rounding of forces and of their rates, one entry per degree of freedom.
+  /// Rounding error of row j. forces, rates: rounding errors of forces and of their rates, by degree of freedom.
   [[nodiscard]] double noise(std::size_t j, const Vector& forces, const Vector& rates) const {
     const Vector& terms = rows_[j].by_forces ? forces : rates;
     double sum = 0.0;
@@ -77,9 +77,9 @@ class RateRows {
 
  private:
   using Terms = std::vector<Eigen::Triplet<double>>;
-  // Half of the digits: a system with a larger residual determines no velocity.
+  // Largest relative residual (half of the digits) of a system that determines velocities.
   static constexpr double of_solve = 1e-8;
-  // Limit for the number of rows that dampers couple, which are decomposed together. Chosen: more would take seconds.
+  // Largest number of rows coupled by dampers, which are decomposed together. Chosen: more rows would take seconds.
   static constexpr std::size_t max_together = 300;
 
   [[nodiscard]] int at(int dof) const { return place_[static_cast<std::size_t>(dof)]; }
@@ -104,7 +104,7 @@ class RateRows {
     for (SparseMatrix::InnerIterator it(by_rows, row); it; ++it)
       add(row, static_cast<int>(it.row()), it.value(), terms);
   }
-  /// Adds N = kn g + cn g', T = kt ut or -s fk N: derivatives with respect to g' and ut', or to g and ut for the rates.
+  /// Adds the derivatives of N = kn g + cn g' and T = kt ut or -s fk N: by g' to dampers_, by g and ut to springs_.
   void add_contact(std::size_t k, const CheckedSide& side) {
     const Contact& c = bench_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
@@ -128,7 +128,7 @@ class RateRows {
       add_force(c.tangent, c.tangent, c.tangential_stiffness.value_or(0.0), 0.0);
   }
 
-  /// Groups of rows that share an entry of C.
+  /// Groups of massless rows that are coupled by C.
   [[nodiscard]] std::vector<std::vector<int>> coupled() const {
     std::vector<int> leader(static_cast<std::size_t>(size_));
     std::iota(leader.begin(), leader.end(), 0);
@@ -145,7 +145,7 @@ class RateRows {
     for (auto& [first, list] : lists) result.push_back(std::move(list));
     return result;
   }
-  /// Left null vectors of C take their row from K; the rows of their complement come from C.
+  /// Sets the rows of S: for left null vectors Z of C the rows Z^T K, for their complement Y the rows Y^T C.
   void combine() {
     for (const std::vector<int>& rows : coupled()) {
       if (rows.size() > max_together) {
@@ -175,7 +175,7 @@ class RateRows {
     }
   }
   [[nodiscard]] SparseMatrix transposed() const {
-    const SparseMatrix c = C_.transpose(), k = K_.transpose();  // their columns are rows
+    const SparseMatrix c = C_.transpose(), k = K_.transpose();  // columns of c and k are the rows of C and K
     Terms terms;
     for (std::size_t j = 0; j < rows_.size(); ++j)
       for (const auto& [i, weight] : rows_[j].parts)
@@ -199,7 +199,7 @@ double slip_rate_noise(const CheckContext& context, const CheckedSide& side, std
   if (context.massless().empty() || context.contact_response(k) != nullptr || side.loads.empty()) return 0.0;
   const Contact& c = context.model.contacts[k];
   const RateRows rows(context, side);
-  // p' = s (ut' + s fk/kt N') > 0: with a spring between body and sliding point, N' contributes.
+  // The slip rate is s (ut' + s fk/kt N'): with a spring between body and sliding point, it contains N'.
   const double kt = c.tangential_stiffness.value_or(0.0);
   const double of_gap = kt > 0.0 ? c.friction.kinetic / kt * c.normal_stiffness : 0.0;
   const Vector x = rows.weights(c.tangent, slip_direction((*side.mode)[k].state), c.normal, of_gap);
@@ -213,18 +213,18 @@ double slip_rate_noise(const CheckContext& context, const CheckedSide& side, std
 
 namespace {
 
-// Relative accuracy of the terms of rates, which come from solves and their derivatives. Chosen value: a rate that is
-// zero or missing by mistake is off by its whole size (tests/unit/law_check/massless.cpp).
+// Relative accuracy of the terms of rates, which follow from solves and their derivatives. Chosen value; a wrong or
+// missing term would violate it by far (tests/unit/law_check/massless.cpp).
 constexpr double of_rates = 1e-9;
 constexpr const char* names[] = {"massless equilibrium", "massless velocity", "massless acceleration"};
 
-/// N and T of a contact or their derivatives, and the sizes of the terms. known: they follow from the motion.
+/// N and T of a contact, or their rates, and the size of their terms. known: N and T follow from the motion.
 struct Push {
   double N = 0.0, T = 0.0, size = 0.0;
   bool known = true;
 };
 
-/// Derivatives of N and T of order 1 or 2.
+/// First or second rates of N and T (order 1 or 2).
 Push push_of(const Contact& c, const ContactState& state, const ContactKinematics& m, int order) {
   Push push;
   if (is_open(state.state) && !c.normal_force_given()) return push;
@@ -250,7 +250,7 @@ Push push_of(const Contact& c, const ContactState& state, const ContactKinematic
   return push;
 }
 
-/// Sizes that the rounding of x is relative to, one per degree of freedom.
+/// Scale of the rounding error of x for each degree of freedom: |x_i|, or `reached` if larger.
 Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>& reached) {
   Vector reach = x.cwiseAbs();
   for (int i = 0; i < model.size(); ++i)
@@ -258,7 +258,7 @@ Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>
   return reach;
 }
 
-/// Balance of one order, row by row.
+/// Balance of forces (order 0), of their rates (order 1) or of their second rates (order 2), for each massless row.
 class Balance {
  public:
   Balance(const CheckContext& context, const CheckedSide& side, int order)
@@ -274,7 +274,7 @@ class Balance {
     const Vector rounded = noise();
     for (const int i : context_.massless()) {
       const double limit = rounded[i] + tolerance_factor * off_[i];
-      // A decayed motion has terms below the smallest normal number, which have no digits.
+      // If a motion has decayed below the smallest normal double, its numbers have few digits and are not checked.
       if (limit < std::numeric_limits<double>::min()) continue;
       if (known_[static_cast<std::size_t>(i)] && std::abs(sum_[i]) > limit)
         return MasslessImbalance{i, names[order_], std::abs(sum_[i]), limit, order_};
@@ -282,7 +282,7 @@ class Balance {
     return std::nullopt;
   }
 
-  /// Sums all rows; returns the rounding of each.
+  /// Sums the terms of all massless rows; returns the rounding error of each row.
   [[nodiscard]] Vector noise() {
     structure();
     for (const std::size_t k : context_.contacts_on_massless()) contact(k);
@@ -308,9 +308,8 @@ class Balance {
       for (; damper; ++damper) take(i, damper.value(), dx[damper.row()], of_dx[damper.row()]);
     }
   }
-  /// Sizes reached by displacements (order 0), velocities and accelerations. Rounding of displacements produces
-  /// velocities w times, and accelerations w^2 times as large, w: the highest frequency. At rest there are no
-  /// others.
+  /// Scales of displacements (order 0), velocities (1) and accelerations (2), for translations and rotations. With the
+  /// highest frequency w, a rounding error d of displacements causes velocities w d and accelerations w^2 d, even at rest.
   [[nodiscard]] std::array<double, 2> reached(int order) const {
     if (order == 0) return side_.max_u;
     std::array<double, 2> reach = side_.max_u;
@@ -324,7 +323,7 @@ class Balance {
     sum_[i] -= factor * x;
     size_[i] += std::abs(factor) * reach;
   }
-  /// Tolerance of a displacement or a velocity.
+  /// Engine's tolerance of a displacement (order 0) or of a velocity.
   [[nodiscard]] double tolerance(int dof, double reach) const {
     const LawLimits& tol = context_.limits;
     const bool turns = context_.model.dofs[static_cast<std::size_t>(dof)].rotation;
@@ -354,7 +353,7 @@ class Balance {
   const CheckContext& context_;
   const CheckedSide& side_;
   int order_;
-  Vector sum_, size_, off_;  // off_: tolerances
+  Vector sum_, size_, off_;  // for each row: sum of the terms, sum of their sizes, errors due to tolerances
   std::vector<bool> known_;
 };
 

@@ -10,8 +10,8 @@ bool InstantLawChecker::is_released(std::size_t k) const {
   return std::find(record_.released.begin(), record_.released.end(), k) != record_.released.end();
 }
 
-/// Checks contacts that massless parts leave instantaneously: such a contact can continue neither in stick nor in slip.
-/// It was closed, at its friction limit or at zero compression, and if it stays open it has a gap.
+/// Checks contacts that massless parts leave instantaneously, because no motion exists in stick or in slip. Before, such a
+/// contact was closed and at its friction limit or at N = 0; after, it has a gap if it is open.
 void InstantLawChecker::releases() {
   for (const std::size_t k : record_.released) {
     const Contact& c = model_.contacts[k];
@@ -25,7 +25,8 @@ void InstantLawChecker::releases() {
         tolerance_factor * (context_.limits.rtol * after.displacement_size + context_.limits.displacement);
     if (now.state == State::open && after.g < -rest)
       add(contact, "release", -after.g, rest, seen::length, true);
-    if (record_.start || record_.breakpoint || is_open(old.state)) continue;  // the forcing has moved it
+    // If a jump of the forcing released the contact, no guard was zero before.
+    if (record_.start || record_.breakpoint || is_open(old.state)) continue;
     const RecordedEvent* event = event_of(k);
     double least = std::numeric_limits<double>::infinity(), limit = 0.0;
     for (const GuardValue& guard : guards_of(c, old, before, context_.limits)) {
@@ -41,10 +42,9 @@ void InstantLawChecker::releases() {
   }
 }
 
-/// Size of the terms of gap and slip of a contact whose state is continued. At an event a structure may pass its rest
-/// position: its displacements are then differences with the rounding of the whole motion before. Gaps that this
-/// rounding hides are closed, which rotates and shifts the body. So each term counts with the scene's own scale at
-/// least.
+/// Scale of the rounding error of gap and slip of a contact whose state is continued from another run. If the structure
+/// passes its rest position, its displacements are small but have the rounding error of the whole motion before; gaps
+/// within this error are closed, which shifts and rotates the body. So each term has at least the scene's scale.
 double InstantLawChecker::left_terms(const Contact& c) const {
   double sum = 0.0;
   for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
@@ -56,7 +56,7 @@ double InstantLawChecker::left_terms(const Contact& c) const {
   return sum;
 }
 
-/// Checks that a run which continues another one has its contacts at the positions where the former run ended.
+/// Checks that a run that continues another run starts with its contacts where they were at the end of the other run.
 void InstantLawChecker::continuation() {
   if (!record_.start || !record_.continues) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
@@ -73,7 +73,7 @@ void InstantLawChecker::continuation() {
   }
 }
 
-/// Checks that forces on massless parts are balanced just after, and so are their rates.
+/// Checks that the forces on massless parts, and the rates of these forces, are balanced just after the instant.
 void InstantLawChecker::balance() {
   for (const MasslessImbalance& found : massless_balance(context_, record_.after, 3)) {
     const bool turns = model_.dofs[static_cast<std::size_t>(found.dof)].rotation;
@@ -85,8 +85,8 @@ void InstantLawChecker::event_rows() {
   for (const RecordedEvent& event : record_.events) event_row(event);
 }
 
-/// Motion of the surfaces in contact, as in event rows: a compliance split leaves out the deformation of its
-/// springs.
+/// Motion of the surfaces in contact, as in event rows: with a compliance split, the deformation of the split springs is
+/// subtracted.
 ContactKinematics InstantLawChecker::touching(std::size_t k, const CheckedSide& side) const {
   const Contact& c = model_.contacts[k];
   const State state = (*side.mode)[k].state;
@@ -105,14 +105,14 @@ void InstantLawChecker::row_check(const RecordedEvent& event, double off, double
   if (off > limit) add(static_cast<int>(event.contact), "row", off, limit, unit, false);
 }
 
-/// Allowed distance of a row's guard from zero, if the row gives its value as zero.
+/// Allowed value of a guard, in the guard's unit, if the event row gives its quantity as exactly zero.
 double InstantLawChecker::settled(const RecordedEvent& event) const {
   return uncertainty_factor * std::max(event.t_uncertainty, record_.resolution) * std::abs(event.guard_rate);
 }
 
-/// Uncertainty of N and T of springs just before, from two sums of the same u and v: the engine's, and the decision's,
-/// which removes velocities left by tolerances. In modes, the energy that the sums lose is added: a spring has no more
-/// of it, kn dg^2 <= lost^2.
+/// Allowed difference of N and T of contact springs just before the instant. Engine and decision compute them separately
+/// from the same u and v; the decision first removes velocities within tolerances. In modes, both sums over modes differ
+/// by the energy lost^2 / 2 (modal_mismatch), so N differs by at most kn dg with kn dg^2 <= lost^2.
 double InstantLawChecker::spring_noise_before(std::size_t k, const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];
   const LawLimits& tol = context_.limits;
@@ -128,8 +128,8 @@ double InstantLawChecker::spring_noise_before(std::size_t k, const ContactKinema
          (std::sqrt(kn) + std::sqrt(kt)) * record_.before.modal_mismatch + of_captures;
 }
 
-/// Uncertainty of constraint forces just before, in two sums of the same u and v (check_context.cpp). A sliding contact
-/// has T = f N.
+/// Allowed difference of constraint forces just before the instant, which engine and decision compute separately
+/// (check_context.cpp). T of a sliding contact is f N, hence the factor f.
 double InstantLawChecker::held_noise_before(std::size_t k) const {
   const ConstraintForceWeights held = context_.constraint_force_weights(record_, k);
   const Friction& friction = model_.contacts[k].friction;
@@ -138,11 +138,10 @@ double InstantLawChecker::held_noise_before(std::size_t k) const {
       context_.constraint_force_noise(record_, held.T));
 }
 
-/// Error of the step in which a guard was located, for steps of given length: h^2/12 |da| in a displacement, h/12
-/// |d(da)| in a velocity (trapezoidal rule). The guard's rate may be small or zero; t_uncertainty then belongs to a
-/// higher derivative and cannot be combined with the rate. No acceleration in the step is assumed to exceed those of
-/// both sides, with or without the contact's force, so |da| <= 2 swing, |d(da)| <= 4 swing; higher terms in h are
-/// allowed as for times.
+/// Error of the fixed step h in which a guard was located, by the trapezoidal rule: h^2/12 |da| in a displacement, h/12
+/// |d(da)| in a velocity. It is added to settled(), which is no bound if the guard rate is nearly zero. Accelerations in
+/// the step are assumed not to exceed A = max_contact_acceleration(), so |da| <= 2 A, |d(da)| <= 4 A;
+/// uncertainty_factor allows for higher terms in h. of_u, of_v: factors of displacement and velocity in the guard.
 double InstantLawChecker::step_error(std::size_t k, double of_u, double of_v) const {
   const double h = context_.limits.step;
   if (!(h > 0.0)) return 0.0;
@@ -150,10 +149,12 @@ double InstantLawChecker::step_error(std::size_t k, double of_u, double of_v) co
          context_.max_contact_acceleration(record_, k);
 }
 
-/// Checks N and T before. If states were found at the end of a step, both sides are the side after.
+/// Checks N and T just before the event in its row. If states were found at the end of a step, the row may contain the
+/// forces just after the event instead.
 void InstantLawChecker::row_before(const RecordedEvent& event, const ContactKinematics& before,
                                    const ContactKinematics& after) {
-  if (record_.start || moves_instantaneously(event.contact)) return;  // guesses, which the decision replaces
+  // At the start, and for massless parts, the forces before are guesses.
+  if (record_.start || moves_instantaneously(event.contact)) return;
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const auto apart = [&](double row, double ContactKinematics::*force) {
@@ -171,7 +172,8 @@ void InstantLawChecker::row_before(const RecordedEvent& event, const ContactKine
   row_check(event, off, limit, seen::force);
 }
 
-/// Checks the gap of an event row: the gap just after, for a compliance split that of the surfaces.
+/// Checks the gap of an event row, which is the gap just after the event; with a compliance split, the gap between the
+/// surfaces.
 void InstantLawChecker::row_gap(const RecordedEvent& event, const ContactKinematics& after) {
   const Contact& c = model_.contacts[event.contact];
   if (!event.gap) return;
@@ -188,14 +190,14 @@ void InstantLawChecker::row_gap(const RecordedEvent& event, const ContactKinemat
   row_check(event, std::abs(*event.gap - g), limit, seen::length);
 }
 
-/// Checks that an event row agrees with both sides. Values before are those of the decision, which removes velocities
-/// left by tolerances: these are part of its captures.
+/// Checks that an event row agrees with both sides of the instant. The velocities before are those of the decision, which
+/// has removed velocities within tolerances by captures.
 void InstantLawChecker::event_row(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
   const ContactKinematics b = touching(k, record_.before), a = touching(k, record_.after);
   const int contact = static_cast<int>(k);
-  // The uncertainty of constraint forces is a sum over the structure, so it is computed only if needed.
+  // The uncertainty of constraint forces is a costly sum over the structure, so it is computed only if needed.
   const auto check = [&](double row, double side, double limit, const Unit& unit, bool holds = false) {
     const double off = std::abs(row - side);
     if (off <= limit) return;
@@ -211,7 +213,8 @@ void InstantLawChecker::event_row(const RecordedEvent& event) {
   check(event.vn_after, a.dg, speed, seen::velocity);
   if (!c.sliding_point()) check(event.vt_after, a.dut, speed, seen::velocity);
   const double loose = speed + context_.capture_speed(record_.captures, k);
-  if (!moves_instantaneously(k)) {  // the decision replaces velocities of massless parts
+  // The decision replaces velocities of massless parts, so these are not compared.
+  if (!moves_instantaneously(k)) {
     check(event.vn, b.dg, loose, seen::velocity);
     if (!c.sliding_point()) check(event.vt, b.dut, loose, seen::velocity);
   }

@@ -10,15 +10,16 @@
 namespace signorini::law_check {
 namespace {
 
-/// Constraint rows of rigid contacts, and the changes of their forces that satisfy them:  W dF = asked,
+/// Constraint rows of rigid contacts, and the changes dF of their forces that satisfy these rows:  W dF = asked,
 /// W_ij = row_i . column_j.
 struct ConstraintRows {
-  std::vector<Vector> columns;  // accelerations by a unit force, with friction for a sliding contact
+  std::vector<Vector> columns;  // accelerations due to a unit force, including its friction force in slip
   std::vector<const Combination*> rows;
-  std::vector<double> asked, noise;  // noise: of the accelerations along the rows
+  // Required changes of accelerations along the rows, and their rounding errors.
+  std::vector<double> asked, noise;
 
-  /// removed_accelerations: accelerations that were present when a guard was located but have been removed by
-  /// captures; empty: none.
+  /// Adds the rows of a contact in this state. removed_accelerations: accelerations that captures have removed after a
+  /// guard was located; empty: none. hold: the accelerations of the contact must become zero; false: must not change.
   void add(const Contact& c, const ContactState& state, const ContactResponse& response,
            const ContactKinematics& m, const Vector& removed_accelerations, bool hold) {
     const bool tangent = c.holds_tangent(state.state);
@@ -40,7 +41,7 @@ struct ConstraintRows {
     asked.push_back(hold ? -m.ddut : 0.0);
     noise.push_back(of_row);
   }
-  /// True if the other rows imply row k: its force is then not unique.
+  /// True if row k is a linear combination of the other rows; the force of row k is then not unique.
   [[nodiscard]] bool is_shared(Eigen::Index k) const {
     const auto size = static_cast<Eigen::Index>(columns.size());
     Eigen::MatrixXd W(size, size);
@@ -55,7 +56,7 @@ struct ConstraintRows {
   struct Change {
     Eigen::VectorXd forces, unsure;
   };
-  /// Solves for dF. push: other changes of accelerations; those by dF are added to it.
+  /// Solves for dF. push: other changes of accelerations; the changes due to dF are added to it.
   Change solve(Vector& push) const {
     const auto size = static_cast<Eigen::Index>(columns.size());
     if (size == 0) return {};
@@ -80,7 +81,7 @@ double InstantLawChecker::force_noise() const {
   return *force_noise_;
 }
 
-/// Allowed distance of a guard from zero at this instant.
+/// Allowed error of a guard's value at this instant, in the unit of the guard.
 double InstantLawChecker::zero_of(const GuardValue& guard, const Contact& c) const {
   const double noise = rounding::elimination * guard.size + tolerance_factor * guard.tolerance +
                        uncertainty_factor * record_.resolution * std::abs(guard.rate);
@@ -100,7 +101,7 @@ void InstantLawChecker::states() {
   }
 }
 
-/// Checks that forces just before satisfy the rows of the old state, as far as u and v determine them.
+/// Checks that N and T just before the instant satisfy the rows of the old state, as far as u and v determine N and T.
 void InstantLawChecker::old_rows(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.before.mode)[k];
@@ -108,7 +109,7 @@ void InstantLawChecker::old_rows(std::size_t k) {
   const LawLimits& tol = context_.limits;
   const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
   const double held = c.takes_impulses() ? force_noise() : 0.0;
-  // In modes, forces and displacements are two different sums, each with its own round-trip error.
+  // In modes, forces and displacements are two different sums over modes with independent errors; hence the factor 2.
   const double limit =
       rounding::elimination *
           (2.0 * (normal_force_size(c, m) + kt * (m.displacement_size + std::abs(state.anchor))) +
@@ -135,19 +136,19 @@ void InstantLawChecker::old_rows(std::size_t k) {
     check("friction force", m.T - kt * (m.ut - state.anchor));
 }
 
-/// Checks the guards and rows of the new state.
+/// Checks the guards and rows of the new state of contact k.
 void InstantLawChecker::state_of(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
   const ContactKinematics m = kinematics(c, k, record_.after);
   const int contact = static_cast<int>(k);
   for (const GuardValue& guard : guards_of(c, state, m, context_.limits)) {
-    // An engine that finds states at ends of steps checks the slip of a whole step.
+    // An engine that decides states only at the ends of steps uses the slip over the whole step, not the slip rate.
     if (std::string_view(guard.law) == "slip direction" && (c.sliding_point() || !record_.located)) continue;
-    // Such an engine also stops a contact for one step if its slip reverses.
+    // If the slip reverses, an engine that decides states only at the ends of steps stops the contact for one step.
     if (std::string_view(guard.law) == "friction" && !c.tangential_stiffness && !record_.located) continue;
     double zero = zero_of(guard, c);
-    // A contact held by others slips at the rounding of the constraints that hold it.
+    // The slip rate of a contact that other contacts hold at rest is the rounding of their constraints.
     const bool of_slip = std::string_view(guard.law) == "slip direction";
     if (std::string_view(guard.law) == "rest" || (of_slip && may_be_held_by_neighbour(model_, k)))
       zero += context_.rest_speed(record_, k);
@@ -174,7 +175,7 @@ void InstantLawChecker::state_of(std::size_t k) {
   friction_of(k, m);
 }
 
-/// Checks that T satisfies the state's row.
+/// Checks that T satisfies the row of the new state.
 void InstantLawChecker::friction_of(std::size_t k, const ContactKinematics& m) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
@@ -182,7 +183,7 @@ void InstantLawChecker::friction_of(std::size_t k, const ContactKinematics& m) {
   double asked = 0.0, size = std::abs(m.T);
   if (s != 0) {
     if (c.friction.is_rate_dependent() && c.sliding_point())
-      return;  // its rate follows from T and is not given
+      return;  // the rate of the sliding point follows from T, so there is nothing to compare T with
     const double f = friction_in(c, state.state, m.dut, m.N);
     asked = -s * f * m.N;
     size += std::abs(asked) + f * normal_force_size(c, m);
@@ -201,13 +202,13 @@ void InstantLawChecker::friction_of(std::size_t k, const ContactKinematics& m) {
     add(static_cast<int>(k), "friction force", off, limit, seen::force, false);
 }
 
-/// True if the contact acts on massless degrees of freedom: its velocities are those of its new state.
+/// True if the contact acts on massless degrees of freedom, whose velocities jump to those of the new state.
 bool InstantLawChecker::moves_instantaneously(std::size_t k) const {
   return context_.contact_response(k) == nullptr;
 }
 
-/// Contact k in its old state, with u, v+ and the new states of all others. nullopt: its old rows do not determine its
-/// forces.
+/// Motion and forces that contact k would have in its old state, with u, v+ and the new states of all other contacts.
+/// nullopt: the old rows of contact k do not determine its forces.
 std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_old_state(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState& old = (*record_.before.mode)[k];
@@ -220,7 +221,7 @@ std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_ol
   const auto sliding = [&] {
     return -slip_direction(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N;
   };
-  // Forces given directly by the old rows, and their effect on accelerations.
+  // Forces that the old rows give directly, and their effect on accelerations.
   if (!solved_N)
     m.N = c.normal_force_given() ? -m.q
           : is_open(old.state)   ? 0.0
@@ -259,7 +260,7 @@ std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_ol
   return result;
 }
 
-/// True if g', ut', N or T of contact k jumps: the motion before does not determine its guard after the jump.
+/// True if g', ut' or N of contact k jumps: the guard after the jump then does not follow from the motion before.
 bool InstantLawChecker::jumps(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactKinematics b = kinematics(c, k, record_.before), a = kinematics(c, k, record_.after);
@@ -268,7 +269,7 @@ bool InstantLawChecker::jumps(std::size_t k) const {
       rounding::elimination * (normal_force_size(c, a) + std::abs(a.N) + std::abs(b.N)) +
       tolerance_factor * (context_.limits.force + c.normal_stiffness * context_.limits.displacement);
   const bool may_jump =
-      !c.normal_spring() || c.normal_damping > 0.0;  // otherwise N = kn g, continuous as u is
+      !c.normal_spring() || c.normal_damping > 0.0;  // otherwise N = kn g, which is continuous, because u is
   return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
          (may_jump && std::abs(a.N - b.N) > force);
 }
@@ -292,8 +293,8 @@ void InstantLawChecker::transitions() {
   }
 }
 
-/// True if a rigidly sticking contact slides, however slowly, after a hit that its friction could not withstand:
-/// |Pt| = fk Pn.
+/// True if a rigidly sticking contact slides after the instant, even slowly, because its friction impulse was at the
+/// limit |Pt| = fk Pn.
 bool InstantLawChecker::is_pushed_off(std::size_t k, const ContactState& old,
                                       const ContactKinematics& after) const {
   const Contact& c = model_.contacts[k];
@@ -307,13 +308,13 @@ bool InstantLawChecker::is_pushed_off(std::size_t k, const ContactState& old,
       greatest = std::max({greatest, std::abs(other.normal), std::abs(other.tangent)});
     return std::abs(p.tangent) >= c.friction.kinetic * p.normal - rounding::elimination * greatest;
   }
-  return true;  // a slider, which takes no impulse
+  return true;  // the contact is a slider, which has no impulse
 }
 
 namespace {
 
-/// True if N jumps. Beside a dashpot only cn (g'+ - g'-) is tested, since u is continuous: it is known to the
-/// rounding of velocities, N only to that of kn u.
+/// True if N jumps. With a dashpot, the jump of g' is tested as well: it has a smaller rounding error than N, which
+/// contains kn u.
 bool force_jumps(const Contact& c, const ContactKinematics& before, const ContactKinematics& after) {
   const double of_N =
       rounding::many_operations * (std::abs(before.N) + std::abs(after.N) + normal_force_size(c, after));
@@ -324,22 +325,23 @@ bool force_jumps(const Contact& c, const ContactKinematics& before, const Contac
 
 }  // namespace
 
-/// Reports a violation if every guard of the old state, with v+, is above its rounding: the change had no reason.
+/// Checks that contact k had to change its state: reports a violation if, with v+, every guard of the old state is positive
+/// beyond rounding.
 void InstantLawChecker::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (!c.forces_follow_motion() || (moves_instantaneously(k) && record_.breakpoint)) return;
   const ContactKinematics before = kinematics(c, k, record_.before), after = kinematics(c, k, record_.after);
   if (c.normal_force_given() && (is_open(old.state) || is_open(now.state)))
-    return;  // the sign of the given normal force decides
+    return;  // the sign of the prescribed normal force decides the state
   const double rest = rounding::elimination * after.velocity_size;
   if (is_pushed_off(k, old, after)) return;
-  // A contact thrown off in a hit, however slowly.
+  // A rigid contact with a velocity g' has separated; after a hit even a very slow g' > 0 is a separation.
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
     return;
-  // T is unchanged if N jumps: a contact that slid sticks with this T until its limit is reached again. Even
-  // a distant jump makes N jump, by however little.
+  // If N jumps, T stays the same: a contact that slid sticks until T reaches the new limit. A jump anywhere in the
+  // structure may cause a small jump of N.
   if (c.tangential_stiffness && slip_direction(old.state) != 0 && force_jumps(c, before, after)) return;
   if (own_guard_crosses(k, old, before)) return;
   const std::optional<OldStateMotion> before_it = motion_in_old_state(k);
@@ -356,7 +358,8 @@ void InstantLawChecker::necessity(std::size_t k) {
       zero += uncertainty_factor * event->t_uncertainty *
               std::max(std::abs(event->guard_rate), std::abs(guard.rate));
     if (guard.value <= zero) return;
-    const bool leaves = is_open(old.state) || is_open(now.state);  // first guard; otherwise the last
+    // If the contact opens or closes, report the first guard, otherwise the last.
+    const bool leaves = is_open(old.state) || is_open(now.state);
     if (nearest != nullptr && leaves) continue;
     nearest = &guard;
     limit = zero;
@@ -366,8 +369,8 @@ void InstantLawChecker::necessity(std::size_t k) {
       nearest->value > grave_fraction * nearest->size);
 }
 
-/// True if a guard of contact k was zero before, although other contacts that change now would have raised
-/// it.
+/// True if a guard of contact k was zero just before the instant, although with the new states of other contacts it would
+/// be positive.
 bool InstantLawChecker::own_guard_crosses(std::size_t k, const ContactState& old,
                                           const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];
@@ -378,7 +381,7 @@ bool InstantLawChecker::own_guard_crosses(std::size_t k, const ContactState& old
   return false;
 }
 
-/// Checks that the guard of an event is zero at its time, in the motion just before.
+/// Checks that a guard of the old state is zero at the time of the event, in the motion just before.
 void InstantLawChecker::guard_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
@@ -390,7 +393,7 @@ void InstantLawChecker::guard_of(const RecordedEvent& event) {
   const GuardValue* which = nullptr;
   const GuardValues guards = guards_of(c, old, m, context_.limits);
   for (const GuardValue& guard : guards) {
-    // The zero was located with u and v themselves: no tolerance of the engine remains.
+    // The engine located the zero with the same u and v, so its tolerances are not added.
     const double zero = zero_of(guard, c) - tolerance_factor * guard.tolerance +
                         uncertainty_factor * event.t_uncertainty * std::abs(event.guard_rate);
     if (which != nullptr && std::abs(guard.value) / zero >= std::abs(least) / limit) continue;

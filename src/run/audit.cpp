@@ -16,8 +16,8 @@ void raise(Extreme& extreme, double value, double t, int contact = -1) {
   if (value > extreme.value) extreme = {value, t, contact};
 }
 
-/// Energies of shear springs whose force drops, one entry per contact. A shear element keeps its own energy while its
-/// point slides, and loses only a share of the energy that others release.
+/// Energies released by shear springs whose force drops, one entry per contact. A shear element in series with a sliding
+/// point keeps its energy during the slide, and dissipates a share of the energy that other springs release.
 struct Drops {
   std::vector<double> own;
   std::vector<bool> any;
@@ -94,7 +94,7 @@ void Auditor::update_peak_forces(std::size_t contact, double t, double N, double
   peak.N = std::max(peak.N, std::abs(N));
   peak.T = std::max(peak.T, std::abs(T));
   SupportLoad& load = supports_[contact];
-  // If values are equal up to rounding, the first one counts.
+  // An extreme keeps its first time if later values differ from it only by rounding.
   const double same = rounding::elimination * std::max(peak.N, peak.T);
   if (N < load.min_N.value - same) load.min_N = {N, t};
   if (N > load.max_N.value + same) load.max_N = {N, t};
@@ -166,7 +166,7 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
   for (const decide::Impulse& impulse : decision.impulses)
     if (impulse.normal > 0.0 && !impulse.hit) ++audit_.impulses_on_closed;
   const motion::Point after{decision.u, decision.v, decision.jet.forces.col(0)};
-  // If massless parts jump under constant loads, the loads do work.
+  // Constant loads do work on massless parts that jump.
   const bool any_jumps =
       std::find(decision.jumped.begin(), decision.jumped.end(), true) != decision.jumped.end();
   const double driven =
@@ -177,7 +177,7 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
                                     : 0.0;
   work_.loads += driven;
   const Drops drops = drops_of(model_, decision);
-  double lost = 0.0;  // by friction, at this instant
+  double lost = 0.0;  // energy dissipated by friction at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];
     update_peak_forces(k, t, b.N, b.T);
@@ -186,9 +186,9 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
     double loss = 0.0;
     if (!massless_) {
       loss = drops.own[k];
-    } else if (load_jumps) {  // massless parts jump; a sliding contact is at its limit
+    } else if (load_jumps) {  // massless parts jump with the load; sliding contacts are at their limit
       loss = a.T * (contact::slip_of(contact, a) - contact::slip_of(contact, b));
-    } else if (drops.any[k]) {  // massless parts follow: friction dissipates all released energy
+    } else if (drops.any[k]) {  // massless parts jump: friction dissipates all energy that they release
       loss = drops.own[k] + (released - drops.sum) / drops.count;
     } else if (drops.count == 0 && contact.tangential_stiffness) {
       loss = released - lost;
@@ -196,8 +196,8 @@ void Auditor::instant(double t, const decide::Decision& decision, const contact:
     friction_[k] += loss;
     lost += loss;
   }
-  // The jump of a load is the limit of a fast ramp, during which massless parts stay in equilibrium: its work is the
-  // stored plus the dissipated energy.
+  // The jump of a load is the limit of a fast ramp. Massless parts stay in equilibrium during the ramp, so the load's work
+  // is the sum of the stored and the dissipated energy.
   if (massless_ && load_jumps) work_.loads += lost - released;
   work_.friction += lost;
 }
@@ -216,7 +216,7 @@ Energy Auditor::stored(const contact::ContactStates& states, const motion::Point
     const double springs = contact::stored_energy(contact, states[k].state, m);
     (contact.compliance_split() ? e.elastic : e.contact) += springs;
     if (const ShearElement* element =
-            contact.sliding_point()) {  // its spring is part of the structure's stiffness
+            contact.sliding_point()) {  // the springs of these contacts are part of the structure's stiffness
       const double strain = element->body.dot(point.u) - contact.tangent.dot(point.u);
       const double energy = 0.5 * element->stiffness * strain * strain;
       e.contact += energy;

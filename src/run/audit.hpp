@@ -1,11 +1,11 @@
-// audit.hpp: residuals of a run's own conditions, and its energy balance.
+// audit.hpp: residuals of the contact conditions during a run, and its energy balance.
 //
 //   (6)  g >= 0, N <= 0, g N = 0          g - N/kn in place of g for contact elements
 //   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, kinetic in slip
 //   E_kin + E_el + E_contact + D_friction + D_damping + D_impact - W_loads - W_surface = const
 //
-// Contacts are checked after every step; works and dissipations are integrals of powers (motion/point.hpp) that the
-// engine computes with its own accuracy.
+// Contacts are checked after every step. Works and dissipations are integrals of powers (motion/point.hpp); the engine
+// computes them as accurately as the motion.
 #pragma once
 
 #include "run/touch_tracker.hpp"
@@ -19,27 +19,28 @@ class Auditor {
  public:
   Auditor(const Model& model, const linear::SystemMatrices& structure);
 
-  /// Adds works and losses since the last call.
+  /// Adds works and dissipations since the last call.
   void add(const motion::WorkIntegrals& works);
 
-  /// Starts the audit. first: the states guessed before the decision; point: the motion after the decision.
+  /// Starts the audit. first: contact states guessed before the decision at t = 0; point: the motion after this decision.
   void begin(const decide::Decision& decision, const contact::ContactStates& first,
              const motion::Forcing& forcing, const motion::Point& point);
   /// Checks contacts at the end of a step or after an event.
   void observe(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                const motion::Point& point);
-  /// Checks one contact; only the entries of the point that it depends on are read.
+  /// Checks one contact; reads only those entries of the point that affect this contact.
   void observe(std::size_t contact, const motion::Forcing& forcing, double t,
                const contact::ContactStates& states, const motion::Point& point);
+  /// Updates the largest residual of the equation of motion; `residual` is a force.
   void equilibrium(double t, double residual);
-  /// Adds the dissipation of an instant, where friction forces drop or loads on massless parts jump.
+  /// Adds works and dissipations at an instant: impacts, drops of friction forces, and jumps of massless parts.
   void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states,
                const motion::Point& before, const motion::Forcing& forcing, bool load_jumps);
-  /// Returns the energies at t, and audits their balance. ahead: works already added, for times after t.
+  /// Returns the energies at t, and audits their balance. ahead: the works after t that add() has received already.
   Energy energy(double t, const contact::ContactStates& states, const motion::Point& point);
   Energy energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& states,
                 const motion::Point& point);
-  /// Energies at a point before these works, which have been added already; the balance is not audited.
+  /// Energies at an earlier point; the balance is not audited. works: the works after this point that add() has received.
   [[nodiscard]] Energy energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& states,
                                      const motion::Point& point) const;
   [[nodiscard]] ContactSample sample(std::size_t contact, const motion::Forcing& forcing, double t,
@@ -56,23 +57,23 @@ class Auditor {
     return motion::motion_of(model_.contacts[k], k, forcing, t, point);
   }
 
-  /// Updates the extreme forces of a contact at t.
+  /// Updates the extremes of N and T of a contact with their values at t.
   void update_peak_forces(std::size_t contact, double t, double N, double T);
-  /// Position p of the sliding point; for rigid stick the anchor.
+  /// Position p of the sliding point; while a contact with tangential_stiffness sticks: its anchor.
   [[nodiscard]] double slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const;
 
-  /// Work P . (u+ - u-) of constant loads on massless parts that jump.
+  /// Work P . (u+ - u-) of loads P on massless parts that jump while P stays constant.
   [[nodiscard]] double work_of_jump(const motion::Forcing& forcing, double t, const motion::Point& before,
                                     const decide::Decision& decision) const;
-  /// Audits the balance of these energies.
+  /// Updates the largest error of the balance; returns e without Model::correction_energy.
   Energy audit_balance(double t, Energy e);
-  /// Kinetic, elastic and contact energies.
+  /// Kinetic, elastic and contact energies; works and dissipations are zero.
   [[nodiscard]] Energy stored(const contact::ContactStates& states, const motion::Point& point) const;
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
   Audit audit_;
-  Energy work_;  // dissipations and works so far
+  Energy work_;  // dissipations and works since t = 0
   std::vector<double> friction_;
   struct Place {
     double normal = 0.0, ut = 0.0;
@@ -80,7 +81,7 @@ class Auditor {
   [[nodiscard]] Place place_of(std::size_t contact, const motion::Forcing& forcing, double t, State state,
                                const motion::Point& point) const;
   std::vector<Place> at_start_;
-  double seen_at_start_ = 0.0;  ///< Model::correction_energy
+  double seen_at_start_ = 0.0;  ///< Model::correction_energy at t = 0
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
   LandingTracker landings_;

@@ -13,7 +13,7 @@
 namespace signorini::run {
 namespace {
 
-/// Relative to the fastest oscillation: see choose_engine.hpp.
+/// Limit of (fastest decay) / (fastest oscillation) for engine exact; see choose_engine.hpp.
 constexpr double slow = 0.2;
 
 }  // namespace
@@ -36,13 +36,13 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
 
 namespace {
 
-constexpr int max_unknowns = 4000;  // shapes and their inverse take 16 n^2 bytes
+constexpr int max_unknowns = 4000;  // mode shapes and their inverse take 16 n^2 bytes
 constexpr int min_unknowns =
-    16;  // below, a state's modes cost more than the series (validation/exact); chosen
+    16;  // with fewer unknowns, the modes of a state cost more than the series (validation/exact); chosen
 
-constexpr int min_damped_unknowns = 40;   // complex modes cost less from here on (validation/exact); chosen
-constexpr double worth = 2.0;             // required cost ratio of the series and the states' modes
-constexpr int max_damped_unknowns = 500;  // a state's complex modes take 120 n^2 bytes and about 5 s there
+constexpr int min_damped_unknowns = 40;   // with fewer, the series costs less (validation/exact); chosen
+constexpr double worth = 2.0;             // required ratio of costs: series / complex modes of all states
+constexpr int max_damped_unknowns = 500;  // complex modes of a state take 120 n^2 bytes, and 5 s for n = 500
 
 bool has_rigid_rows(const Model& model) {
   return std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
@@ -67,7 +67,7 @@ ModalKind modal_kind(const Model& model) {
 
 namespace {
 
-/// Choice for a scene whose motion can be computed with modes.
+/// Choice between modes and series for a scene that modes can compute.
 FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind& kind) {
   if (model.size() < min_unknowns) return {false, "auto: with so few unknowns the series is as fast"};
   if (kind.too_many_springs)
@@ -75,7 +75,8 @@ FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind&
         false,
         "auto: with this many contacts, computing the modes of each contact state costs more than it saves"};
   if (!kind.damped) return {true, "auto: modes can follow the whole scene"};
-  // In complex modes a symmetric trestle on rigid feet loses its symmetry: its feet land at slightly different times.
+  // Complex modes also break the symmetry of a structure on rigid contacts: feet that land together land at slightly
+  // different times.
   if (has_rigid_rows(model))
     return {false, "auto: hits of rigid contacts excite the whole mesh, so complex modes save no time"};
   if (!damped_modes_are_faster(model) ||

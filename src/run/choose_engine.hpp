@@ -5,9 +5,10 @@
 //           0.2 max(omega_max, 1 / t_end)
 //   ida     otherwise
 //
-// Reason: validation/work-precision. A series takes a step for every 5 radians of the fastest motion, even after that
-// motion has decayed; an implicit method takes longer steps then. Without decay the series costs least except at low
-// accuracy. The costs are equal at 0.1 (slow loads, few events) to 0.5 (many events); 0.2 is a compromise.
+// Reason: validation/work-precision. A series takes a step for every 5 radians of the fastest motion, even after this
+// motion has decayed; an implicit method takes longer steps then. Without decay the series costs least, except at low
+// accuracy. Both engines cost the same if (fastest decay) / (fastest oscillation) is between 0.1 (slow loads, few events)
+// and 0.5 (many events); 0.2 is a compromise.
 #pragma once
 
 #include <string>
@@ -22,39 +23,40 @@ struct EngineChoice {
   std::string reason;  ///< one sentence
 };
 
-/// Returns run.engine with the reason "as given", or a choice if it is automatic; never Engine::automatic.
+/// Returns run.engine with the reason "as given", or the chosen engine if run.engine is automatic.
 [[nodiscard]] EngineChoice choose_engine(const Model& model, const RunSpec& run);
 
 // Chooses the method of engine `exact` for the motion between events.
 //
-//   taylor   power series of the equations: the cost follows the highest frequency of the mesh
-//   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
+//   taylor   power series of the equations: the number of steps grows with the highest frequency of the mesh
+//   modal    modes of each contact state (engine/exact/modal): the number of steps grows with the excited frequencies
 //
-// run.flow = "auto" takes modes if they can compute all of the scene at lower cost (docs/theory.md):
+// run.flow = "auto" chooses modes if they can compute the whole scene at lower cost (docs/theory.md):
 //   real      from 16 unknowns on
-//   complex   from 40 on, without rigid constraints, if the states cost at most half as much as the series
+//   complex   from 40 unknowns on, without rigid contacts, if the modes of all contact states cost at most half as much
+//             as the series
 //
-// Modes are never taken in a scene whose contact states have too many springs for modes.
+// "auto" never chooses modes for a scene whose contact states may have too many springs for modes.
 
 struct FlowChoice {
   bool modal = false;
   std::string reason;  ///< "as given" or "auto: ..."
 };
 
-/// Kind of modes that a scene needs, and the reason if its motion cannot be computed with modes.
+/// Kind of modes that a scene needs, and the reason if modes cannot compute its motion.
 struct ModalKind {
-  bool damped = false;  ///< complex modes are needed
+  bool damped = false;  ///< complex modes are needed, because damping is not proportional
   bool too_many_springs =
-      false;              ///< states may have too many springs for modes, and are then left to the series
+      false;              ///< some contact states may have too many springs for modes and need the series
   std::string objection;  ///< empty: modes can compute the scene
 };
-/// Kind of modes for this model.
+/// Kind of modes that this model needs.
 [[nodiscard]] ModalKind modal_kind(const Model& model);
-/// True if complex modes, once they are computed, cost less than the series: there are enough unknowns, and no rigid
-/// contact, whose hits excite the whole mesh.
+/// True if complex modes, apart from the cost of computing them, are faster than the series: the model has enough
+/// unknowns, and no rigid contact whose hits excite the whole mesh.
 [[nodiscard]] bool damped_modes_are_faster(const Model& model);
 
-/// Errors: SceneError if run.flow = "modal" and modes cannot compute the scene.
+/// Flow of engine exact for this run. Errors: SceneError if run.flow = "modal" and modes cannot compute the scene.
 [[nodiscard]] FlowChoice choose_flow(const Model& model, const RunSpec& run);
 
 }  // namespace signorini::run

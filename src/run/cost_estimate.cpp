@@ -15,7 +15,7 @@
 namespace signorini::run {
 namespace {
 
-/// Seconds per step: a constant, and a term per unknown. Measured on a machine of 2024, one thread.
+/// Seconds per step: own + unknown * (number of unknowns). Measured on a machine of 2024, one thread.
 struct StepTime {
   double own, unknown;
 };
@@ -32,8 +32,8 @@ constexpr StepTime time_of_event = {1e-5, 1.5e-6};
 // Measured on models/pipeline.toml and a single mass.
 constexpr StepTime time_of_fixed_steps = {3e-7, 1.6e-8};
 
-// Measured on models/pipeline.toml at 51, 201 and 801 unknowns, 1.2 s: 1218, ... proven stretches; 0.04, 0.38, 4.4 s
-// in all with real modes; a state in complex modes 6 and 45 ms at 51 and 99 unknowns.
+// Measured on models/pipeline.toml, run of 1.2 s. Real modes at 51, 201 and 801 unknowns: 0.04, 0.38 and 4.4 s. Complex
+// modes of one state at 51 and 99 unknowns: 6 and 45 ms.
 constexpr double gain_of_modes = 2e-3, time_of_modes = 4e-5, order_of_modes = 1.7;
 constexpr double usual_states = 16.0, time_of_damped_state = 4.5e-8;
 constexpr StepTime time_of_proof = {1e-5, 1e-7}, time_of_damped_proof = {3e-5, 1e-6};
@@ -100,13 +100,13 @@ CostEstimate cost_of_fixed_steps(const CostInputs& parts) {
 
 namespace {
 
-constexpr double longest_first = 2.0;  // s, limit for the time before a trial can be stopped; chosen
+constexpr double longest_first = 2.0;  // s, limit for the first step, which cannot be interrupted; chosen
 constexpr double times_as_long = 4.0,
-                 long_run = 5.0;  // ratio, and s; chosen: below, another engine is no advantage
+                 long_run = 5.0;  // least ratio, and least seconds, for a recommendation; chosen
 
-constexpr double least_steps = 10.0;  // in steps of the rule: least progress of a trial; chosen
+constexpr double least_steps = 10.0;  // least progress of a trial, in steps estimated by the rules; chosen
 
-/// Ends the run after a given time. It stores no motion: memory of a trial is needed in addition to that of the run.
+/// Recorder that ends a run after a given wall time. It stores no rows, because a trial's memory is added to the run's.
 class Stopwatch : public Recorder {
  public:
   explicit Stopwatch(double seconds_limit) : patience_(seconds_limit) {}
@@ -149,7 +149,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double s
   run.engine = engine;
   run.certify = Certify::no;
   try {
-    // A trial that cannot be stopped for a long time is not started.
+    // A trial can be stopped only after its first step: if this step takes long, no trial is started.
     const CostEstimate effort = expected_cost(model, run).estimate;
     if (effort.first > longest_first) return effort.seconds;
     Stopwatch watch(seconds_limit);
@@ -157,7 +157,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double s
     if (report.outcome.kind == Outcome::Kind::done) return watch.now();
     if (report.outcome.kind != Outcome::Kind::interrupted) return 0.0;
     const double moved = watch.t_reached - watch.t_1;
-    // Small steps at the start alone give no estimate: use the rule.
+    // If the trial has made only the small steps of the start, use the rule.
     if (effort.steps > 0.0 && moved < least_steps * run.t_end / effort.steps) return effort.seconds;
     return extrapolated_seconds(run.t_end, {watch.t_1, watch.s_1}, {watch.t_reached, watch.s});
   } catch (const SceneError&) {
@@ -183,7 +183,7 @@ std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
     try {
       add(build_model(reduced), cutoff);
     } catch (const SceneError&) {
-      continue;  // no modes can be computed for its parts
+      continue;  // the modes of the reduction cannot be computed
     }
   }
   return list;
@@ -223,7 +223,7 @@ std::string faster_engine_advice(const std::vector<Trial>& trials, Engine own, d
 
 namespace {
 
-/// Rounds to one digit: the value is an order of magnitude.
+/// Rounds to one digit: estimates are orders of magnitude.
 double rough(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)));
   return std::round(value / unit) * unit;

@@ -1,7 +1,7 @@
-// cost_estimate.hpp: estimated cost of a run, and of engine exact in its place: by rules, or by trials of a
-// few steps.
+// cost_estimate.hpp: estimated cost of a run, and of the same run with engine exact: by rules, or by trials of a few
+// steps.
 //
-// Loads that vary faster than the structure are included.
+// The highest frequency in these rules includes those of loads.
 #pragma once
 
 #include <optional>
@@ -17,17 +17,17 @@ namespace signorini::run {
 // Estimated cost of a time loop, as an order of magnitude, before it runs.
 //
 //   series        t_end * max(omega_max, fastest decay) / 5.3 steps
-//   modes         a step follows the excited modes: 0.002 n^2 steps of the series; plus modes of 16 states
+//   modes         one step replaces 0.002 n^2 steps of the series (n unknowns); plus the modes of at most 16 states
 //   BDF, order 5  max(12, 3.1 rtol^(-1/6)) steps in the shortest period
 //   fixed steps   t_end / dt
 
-/// Zero steps: the cost is unknown beforehand.
+/// Estimated cost of a run. steps = 0: the cost cannot be estimated.
 struct CostEstimate {
-  double steps_per_period = 0.0;  ///< of omega_max
+  double steps_per_period = 0.0;  ///< period 2 pi / omega_max
   double steps = 0.0, seconds = 0.0;
-  double first = 0.0;  ///< part of `seconds` before the first step has ended: modes of a state
+  double first = 0.0;  ///< part of `seconds` before the first step ends: the modes of contact states
   double by_series = 0.0,
-         by_modes = 0.0;  ///< exact: seconds with each flow; 0: modes cannot compute the scene
+         by_modes = 0.0;  ///< engine exact: seconds with each flow; 0: this flow cannot compute the scene
 };
 
 struct CostInputs {
@@ -38,60 +38,59 @@ struct CostInputs {
   long unknowns;
 };
 
-/// Costs by the rules above, for the engine exact, for BDF, and for fixed steps.
+/// Costs by the rules above for engine exact, for BDF, and for fixed steps.
 [[nodiscard]] CostEstimate cost_of_exact(const CostInputs& parts);
 [[nodiscard]] CostEstimate cost_of_bdf(const CostInputs& parts);
 [[nodiscard]] CostEstimate cost_of_fixed_steps(const CostInputs& parts);
 
-/// Seconds of the whole run with the series; and for the complex modes of all states that contacts may enter.
+/// Seconds of the whole run with the series, and seconds to compute the complex modes of all likely contact states.
 [[nodiscard]] double seconds_of_series(const Model& model, const RunSpec& run);
 [[nodiscard]] double seconds_of_damped_states(const Model& model);
-/// Seconds that an event takes in `exact` with its series: the decision, and the restart of the series.
+/// Seconds per event in engine exact with series: the decision of contact states, and the restart of the series.
 [[nodiscard]] double seconds_of_event(const Model& model);
 
 // Estimates the duration of a run from its first steps.
 //
 //   seconds = s + (t_end - t) (s - s_1) / (t - t_1)       s: wall time when t is reached
-// (t, s) is the end of the trial, or of the run. (t_1, s_1) is reached after a quarter of the trial's time,
-// so that assembly, factorisation and the small steps of a start are counted once. The estimate holds if the
-// motion continues as it begins: it is too short if the structure is at rest before a load acts, or if events
-// come later. If t - t_1 is less than ten estimated steps, as on a busy machine after a start at friction
-// limits, CostEstimate::seconds is used.
+//
+// The trial, or the run, ends at (t, s). The point (t_1, s_1) is reached after a quarter of the trial's wall time, so that
+// assembly, factorisation and the small steps at the start are not extrapolated. The estimate is too small if the motion
+// becomes more expensive later, for example if loads or events start late. If t - t_1 is shorter than ten estimated
+// steps, CostEstimate::seconds is used instead.
 
 struct Trial {
   Engine engine = Engine::automatic;
-  double cutoff = 0.0;   ///< of [reduction], as a frequency; 0: the model without reduction
-  double seconds = 0.0;  ///< for the whole run
+  double cutoff = 0.0;   ///< cutoff_frequency of [reduction]; 0: the model without reduction
+  double seconds = 0.0;  ///< expected for the whole run
 };
 
-/// Wall time, in seconds since the start, at which a time of the run was reached.
+/// Time t of the run, and the wall time at which the run reached t, in seconds since its start.
 struct TrialTime {
   double t = 0.0, seconds = 0.0;
 };
 
-/// The equation above for early = (t_1, s_1) and late = (t, s); proportional to t if they are equal; 0 if t
-/// is 0.
+/// Seconds by the equation above for early = (t_1, s_1) and late = (t, s). If t = t_1: s t_end / t; if t = 0: 0.
 [[nodiscard]] double extrapolated_seconds(double t_end, const TrialTime& early, const TrialTime& late);
 
-/// Expected seconds of the run with this engine; 0 if the engine does not accept the scene or stops within
-/// the trial. seconds_limit: limit for the trial. If the first step is expected to take too long, no trial is
-/// run and CostEstimate::seconds is returned.
+/// Expected seconds of the run with this engine; 0 if the engine does not accept the scene or stops within the trial.
+/// seconds_limit: wall time of the trial. If the first step is expected to take more than 2 s, no trial is made and
+/// CostEstimate::seconds is returned.
 [[nodiscard]] double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double seconds_limit);
 
-/// Trials of exact, ida and the run's own engine, each with `model` and with each cutoff. A scene that has a
-/// [reduction] already is tried without other cutoffs.
+/// Trials of exact, ida and the engine `own` of the run, each with `model` and with each cutoff. If the scene has a
+/// [reduction] already, no other cutoffs are tried.
 [[nodiscard]] std::vector<Trial> trials(const Scene& scene, const Model& model, Engine own,
                                         const std::vector<double>& cutoffs, double seconds_limit);
 
-/// Cutoff worth a trial: 50 times the lowest frequency, if that is far below the highest; otherwise 0. Chosen value;
-/// `[reduction] tolerance` finds its accuracy.
+/// Cutoff frequency for a trial: 50 times the lowest frequency (chosen), rounded to one digit; 0 if the highest frequency
+/// is less than 4 times this value. `[reduction] tolerance` estimates the accuracy of a cutoff.
 [[nodiscard]] double cutoff_to_try(double lowest_omega, double highest_omega);
 
 /// Trials as text: "exact 36 s, ida 5 s; with [reduction] cutoff_frequency = 100: exact 1.5 s".
 [[nodiscard]] std::string trial_text(const std::vector<Trial>& trials);
 
-/// Recommendation if `own` is expected to take `seconds`, more than four times another trial and more than five
-/// seconds; otherwise empty.
+/// Recommendation if the run with engine `own` is expected to take `seconds`, and this is more than 5 s and more than four
+/// times the fastest trial; otherwise empty.
 [[nodiscard]] std::string faster_engine_advice(const std::vector<Trial>& trials, Engine own, double seconds);
 
 struct ExpectedCost {
@@ -102,14 +101,15 @@ struct ExpectedCost {
 
 /// Cost of the run with run.engine, which must not be automatic, and its `method`.
 [[nodiscard]] ExpectedCost expected_cost(const Model& model, const RunSpec& run, const Method& method);
-/// Cost with the engine's own method. Errors: SceneError if a step is required and not given.
+/// Cost with the default method of run.engine. Errors: SceneError if the engine requires run.dt and the scene has none.
 [[nodiscard]] ExpectedCost expected_cost(const Model& model, const RunSpec& run);
 
-/// True if engine `exact` accepts this model and may be chosen automatically. Laws made of data run in its
-/// series only if a scene names this engine.
+/// True if engine `exact` accepts this model and may be chosen automatically. A scene with contact laws other than Coulomb
+/// friction runs with `exact` only if the scene names this engine.
 [[nodiscard]] bool exact_accepts(const Model& model, const RunSpec& run);
 
-/// Seconds with exact instead of ida; nullopt: another engine, a scene that exact does not accept, or an unknown cost.
+/// Expected seconds of a run with ida if it used exact; nullopt: the run does not use ida, exact does not accept the scene,
+/// or the cost is unknown.
 [[nodiscard]] std::optional<double> seconds_with_exact(const Model& model, const RunSpec& run);
 
 /// Duration as text: "about 3", "less than 0.1".

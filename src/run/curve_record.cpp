@@ -17,7 +17,7 @@ constexpr std::size_t last_node = Chebyshev::count - 1;
 
 using Matrix = std::array<Chebyshev::Values, Chebyshev::count>;
 
-/// Matrix of the factors of r_j - r_i in p'(x_i).
+/// Matrix with entries d_ij of p'(x_i) = sum over j of d_ij (r_j - r_i).
 Matrix derivative(std::size_t stride) {
   const Chebyshev::Values& x = Chebyshev::nodes();
   Matrix d{};
@@ -62,7 +62,7 @@ double Chebyshev::interpolate(const Values& values, std::size_t stride, double x
 Chebyshev::Values Chebyshev::slopes(const Values& values, std::size_t stride) {
   const Matrix& d = derivative_of(stride);
   Values result{};
-  // Differences are used, so that a constant has the derivative zero: the diagonal is minus the sum of its row.
+  // Differences of values give a constant the derivative exactly zero.
   for (std::size_t i = 0; i <= last_node; i += stride)
     for (std::size_t j = 0; j <= last_node; j += stride) result[i] += d[i][j] * (values[j] - values[i]);
   return result;
@@ -84,13 +84,13 @@ double Chebyshev::extremum_between(const Values& slope, std::size_t stride, doub
 
 namespace {
 
-constexpr std::size_t max_of_a_kind = 24;  // limit of named curves in displacement pictures
+constexpr std::size_t max_of_a_kind = 24;  // limit for the displacement curves of one kind in a picture
 constexpr std::size_t most_values = 100000, most_points = 8000, min_points = 2500;
-// Fraction of the range so far: a parabola's vertex is kept only if it exceeds the middle row by more.
+// A parabola's vertex is kept only if it exceeds the middle row by more than this fraction of the range so far.
 constexpr double least_rise = 1e-3;
-constexpr double turn = 1e-3;  // smallest scale of rotations, rad: rotations of 1e-15 count as rounding
+constexpr double turn = 1e-3;  // rad; smallest scale of rotations, so that 1e-15 rad is rounding
 
-/// Vertex of the parabola through three rows whose middle one is a peak; nullopt: no peak, or an instant.
+/// Vertex of the parabola through three rows; nullopt: the middle row is no peak, or two of the rows have the same time.
 std::optional<CurvePoint> vertex(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
   const double left = b.t - a.t, right = c.t - b.t;
   if (!(left > 0.0 && right > 0.0 && std::isfinite(left))) return std::nullopt;
@@ -180,7 +180,7 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
     first = std::exchange(second, point);
     return;
   }
-  // The balance consists of rounding: a parabola through it has no meaning.
+  // The balance is only rounding error: a parabola through its rows has no meaning.
   const std::optional<CurvePoint> peak =
       curve.kind == Kind::balance ? std::nullopt : vertex(first, second, point);
   const bool higher = peak && std::abs(peak->value - second.value) > least_rise * curve.points.range();
@@ -191,8 +191,8 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
   second = point;
 }
 
-/// Row spacing that a curve needs. A curve of rounding size relative to others of its kind has no bends; nor has the
-/// balance, which consists of rounding.
+/// Row spacing that a curve needs, in the scene's unit of time. Infinite for the balance, which is only rounding error,
+/// and for a curve whose range is rounding relative to other curves of its kind.
 double CurveRecord::spacing_for_curve(const Curve& curve, const CurvePoint& point) {
   constexpr double any = std::numeric_limits<double>::infinity();
   const auto& [first, second] = curve.before;

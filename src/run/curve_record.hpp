@@ -1,12 +1,12 @@
-// curve_record.hpp: displacements and energies for pictures, of bounded size for any output_dt.
+// curve_record.hpp: displacements and energies for pictures; the size is bounded for any output_dt.
 //
-//   a curve: a displacement of a named node (of each kind as many as a picture shows), an energy, or the balance
-//   rows y_k at t_k;   where y_1 is a peak of three:   the vertex of the parabola through them is also a row
+//   a curve: a displacement of a named node (at most as many of each kind as a picture shows), an energy, or the balance
+//   rows y_k at t_k;   if y_1 is the peak of three rows:   the vertex of the parabola through them is also a row
 //
-// Rows are both sides of every instant, and as many ends and interior points of steps as a line needs. Their
-// times are those of the contact rows (motion_record.hpp). Each curve is thinned separately
-// (base/curves.hpp). No parabola extends across an instant, whose two sides have the same time. Energies of a
-// part are passed on immediately (part_rows.hpp).
+// A curve has rows on both sides of every instant, and at as many ends and interior points of steps as a drawn line
+// needs. The times are those of the contact rows (motion_record.hpp). Each curve is thinned separately (base/curves.hpp).
+// No parabola extends across an instant, whose two sides have the same time. The energies of an independent part are
+// passed to part_rows.hpp at once.
 #pragma once
 
 #include <array>
@@ -23,22 +23,24 @@
 
 namespace signorini::run {
 
-// Distance of rows such that straight lines between them represent the curve.
+// Spacing of rows such that straight lines between the rows represent the curve.
 //
 //   rows at a, b, c:   y_b is off the line from y_a to y_c by   d = |y''| (b - a) (c - b) / 2
-//   rows h apart:      h^2 = (b - a) (c - b) e R / d      rows are off by e R, lines between by e R / 4
+//   spacing h:         h^2 = (b - a) (c - b) e R / d
 //
-// R: the range of y; e: max_deviation. A curve with amplitude A = R / 2 has 47 rows per period at its turning
-// points. The existing rows determine h; their distances need not be equal.
+// A row then deviates from the line between its neighbours by e R, and the curve from the line between two rows by e R / 4.
+//
+// R: the range of y; e: max_deviation. A harmonic curve with amplitude A = R / 2 has 47 rows per period near its turning
+// points. h follows from the last three rows, whose distances need not be equal.
 
-/// Fraction of the range by which rows may be off. Half of a curve's first bend passes before rows detect it,
-/// and thinned rows are off by 0.3 % (base/curves.hpp). Chosen value; the test "what pictures draw of
-/// contacts is the motion" depends on it.
+/// Allowed error of rows, as a fraction of the range. Rows detect a bend of a curve only after half of the bend, and
+/// thinning adds an error of 0.3 % (base/curves.hpp). Chosen value; the test "what pictures draw of contacts is the
+/// motion" depends on it.
 inline constexpr double max_deviation = 0.0045;
 /// Smallest spacing of rows, as a fraction of the run: 26 rows per pixel of the widest picture.
 inline constexpr double min_row_spacing = 1.0 / 32000.0;
 
-/// Spacing h of one curve; left, right: b - a and c - b, off: d. Infinite for a straight line.
+/// Spacing h of one curve; left: b - a, right: c - b, off: d, range: R. Infinite for a straight line.
 [[nodiscard]] inline double row_spacing(double left, double right, double off, double range) {
   if (!(off > 0.0) || !(range > 0.0)) return std::numeric_limits<double>::infinity();
   return std::sqrt(left * right * max_deviation * range / off);
@@ -46,12 +48,12 @@ inline constexpr double min_row_spacing = 1.0 / 32000.0;
 
 // Polynomials through values at nested Chebyshev points.
 //
-//   x_i = -cos(pi i / 16), i = 0, ..., 16, ascending on [-1, 1]; every second, fourth, eighth of them are
-//   the points of degree 8, 4, 2
+//   x_i = -cos(pi i / 16), i = 0, ..., 16, ascending on [-1, 1]; every second, fourth or eighth point gives a polynomial
+//   of degree 8, 4 or 2
 //   p(x) = sum w_i r_i / (x - x_i) / sum w_i / (x - x_i),   w_i = +-1, half at the ends
 //   p'(x_i) = sum over j != i of  c_i/c_j (-1)^(i+j) / (x_i - x_j) (r_j - r_i),   c = 2 at the ends, else 1
 //
-// `stride` chooses the points: 1, 2, 4, 8 for degree 16, 8, 4, 2. Values have all 17 entries; the others are not read.
+// `stride` selects the points: 1, 2, 4, 8 for degree 16, 8, 4, 2. Values have 17 entries; only selected ones are read.
 
 struct Chebyshev {
   static constexpr std::size_t count = 17;
@@ -63,17 +65,17 @@ struct Chebyshev {
   [[nodiscard]] static double interpolate(const Values& values, std::size_t stride, double x);
   /// Derivative p' at the points of the stride.
   [[nodiscard]] static Values slopes(const Values& values, std::size_t stride);
-  /// Zero of p' between two points at which its signs differ; `slope` is the result of slopes().
+  /// Zero x of p' between a and b, where p' has different signs; `slope` is the result of slopes().
   [[nodiscard]] static double extremum_between(const Values& slope, std::size_t stride, double a, double b);
 };
 
-/// Columns of the displacements that pictures show.
+/// Columns of history.csv whose displacements pictures show.
 [[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
 
-/// Entries of a physical u that drawn_columns() needs.
+/// Indices of the entries of a physical u that drawn_columns() needs.
 [[nodiscard]] std::vector<int> drawn_entries(const Model& model);
 
-/// Limit for the points of a curve, if pictures show this number of displacements.
+/// Largest number of points per curve, if pictures show `columns` displacements.
 [[nodiscard]] std::size_t max_curve_points(std::size_t columns);
 
 class CurveRecord {
@@ -82,13 +84,13 @@ class CurveRecord {
   CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
   [[nodiscard]] bool enabled() const { return enabled_; }
-  /// True if a line needs a row at t although no event occurs at t.
+  /// True if the last row is so far before t that a drawn line needs a row at t.
   [[nodiscard]] bool needs_row(double t) const;
   /// Row spacing required by the last three rows.
   [[nodiscard]] double requested_spacing() const { return requested_spacing_; }
   /// Time of the last row; infinite if no rows are wanted.
   [[nodiscard]] double last() const { return last_; }
-  /// Adds a row. u: of the computed model; rows are stored in the scene's units.
+  /// Adds a row to every curve. Arguments are in the units of the computed model; rows are stored in the scene's units.
   void add(double t, const Vector& u, const Energy& energy);
   /// Passes the curves to the recorder and ends the record.
   void write(Recorder& recorder);
@@ -97,15 +99,15 @@ class CurveRecord {
   struct ValueOf {
     std::array<double, 1> operator()(const CurvePoint& point) const { return {point.value}; }
   };
-  /// Kinds of curves; the largest value of a kind determines its rounding.
+  /// Kinds of curves; the rounding error of a curve follows from the largest value of its kind.
   enum class Kind { length, angle, energy, balance };
   struct Curve {
     std::string name;
     Kind kind;
-    int dof;        // -1: fixed, or an energy
+    int dof;        // index into the physical u; -1: a fixed direction or an energy
     double factor;  // unit conversion
     base::Downsampled<CurvePoint, 1, ValueOf> points;
-    bool kept = true;  // false: another object sums it with those of other parts
+    bool kept = true;  // false: EnergySum adds the energies of all parts
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
 
     [[nodiscard]] double range() const {
@@ -123,7 +125,8 @@ class CurveRecord {
   double requested_spacing_ = std::numeric_limits<double>::infinity();
   std::array<double, 4> greatest_{};  // largest value of each kind
   bool enabled_;
-  std::function<void(double, const Energy&)> energies_;  // receiver of a part's energies
+  // Receives the energies of a part; empty for a whole model.
+  std::function<void(double, const Energy&)> energies_;
   std::vector<Curve> curves_;                            // displacements, energies, the balance
 };
 

@@ -77,7 +77,7 @@ void refuse_functions(const Model& model, const RunSpec& run) {
   }
 }
 
-/// Refusals of an engine that iterates on friction: it also takes no impulses.
+/// Refusals of an engine that iterates on friction forces: such an engine cannot compute impulses of rigid contacts.
 void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
   refuse_own_and_nonlinear_laws(model, run);
   refuse_functions(model, run);
@@ -96,7 +96,8 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
          "use \"newmark\" or a tangential_stiffness");
 }
 
-/// A series step is a few radians of the highest frequency: beyond 1/eps radians the clock does not advance.
+/// A step of the series covers a few radians of the highest frequency. After 1/eps radians, such a step no longer changes
+/// the time as a double.
 void refuse_endless_series(const Model& model, const RunSpec& run) {
   const double radians = model.omega_max * run.t_end;
   if (!(radians > 1.0 / rounding::eps) || choose_flow(model, run).modal) return;
@@ -116,7 +117,7 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
       for (std::size_t j = exact::max_levels - 1; j < p.coefficients.size(); ++j)
         if (p.coefficients[j] != 0.0)
           refuse(run,
-                 fmt::format("takes polynomials up to degree {}; {} has degree {} or more",
+                 fmt::format("supports polynomials up to degree {}, but {} has degree {} or more",
                              exact::max_levels - 2, what, j),
                  "");
   };
@@ -149,7 +150,7 @@ Method bdf(const Model& model, const RunSpec& run) {
 Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
   if (!run.dt)
     throw SceneError(run.place, "run.dt",
-                     fmt::format("engine \"{}\" needs it: its step", to_string(run.engine)));
+                     fmt::format("engine \"{}\" needs this key, its time step", to_string(run.engine)));
   return {run.engine, false, "", *run.dt, 2, "average acceleration"};
 }
 

@@ -2,13 +2,13 @@
 //
 //   const EngineRow& engine = engine_row(run.engine);
 //   engine.refuse(model, run);   method = engine.method(model, run);   stepper = engine.make(parts);
-//   if (engine.can.supports_orbits) ...;   run.engine = engine_for(EngineRole::closed_form);
+//   if (engine.capabilities.supports_orbits) ...;   run.engine = engine_for(EngineRole::closed_form);
 //
-// Code that needs an engine asks for abilities or for a role, never for a name: to add an engine, add a row in
-// signorini/engine.hpp, a row here, and its folder.
+// Code that needs an engine asks for capabilities or for a role, never for a name. To add an engine, add a row in
+// signorini/engine.hpp, a row here, and a folder with the engine.
 //
-// The names are in signorini/engine.hpp. Scenes that a row accepts: exact needs linear laws, and forcing of a degree
-// that a series reaches; newmark needs linear laws; friction-iteration needs linear laws and contact elements.
+// The names are in signorini/engine.hpp. Accepted scenes: exact needs linear laws, and polynomial forcing of limited
+// degree; newmark needs linear laws; friction-iteration needs linear laws and contact elements; ida accepts every scene.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@
 
 namespace signorini::run {
 
-/// Data for making an engine. All referenced objects must outlive the engine, except run and tolerance.
+/// Data from which an engine is made. All referenced objects except run and tolerance must outlive the engine.
 struct EngineParts {
   const Model& model;
   const linear::SystemMatrices& structure;
@@ -32,12 +32,12 @@ struct EngineParts {
   const engine::Tolerance& tolerance;
   int max_order;
   ListenerNeeds needs = {};
-  bool without_listeners = false;  ///< no listener reads its steps
-  /// Entries of u and v for DenseOutput::evaluate_watched, in addition to those of contacts; nullopt: all.
+  bool without_listeners = false;  ///< no listener reads the engine's steps
+  /// Indices of u and v that DenseOutput::evaluate_watched computes in addition to those of contacts; nullopt: all.
   std::optional<std::vector<int>> watched = {};
 };
 
-/// Error of an engine that does not accept the scene. reason: the message without the recommendation.
+/// Error: an engine does not accept the scene. reason: the message without its recommendation.
 class UnsupportedSceneError : public SceneError {
  public:
   UnsupportedSceneError(const RunSpec& run, const std::string& what, const std::string& instead);
@@ -47,21 +47,23 @@ class UnsupportedSceneError : public SceneError {
 /// Roles of engines; at most one engine has each role.
 enum class EngineRole : unsigned char {
   none,
-  /// The flow is exact to rounding. Chosen automatically for accepted scenes of low cost; companion of all
-  /// other engines.
+  /// The motion between events is exact up to rounding. Chosen automatically for accepted scenes of low cost; companion
+  /// run of all other engines.
   closed_form,
-  integrator,   ///< accepts every scene: automatic for other scenes, companion of fixed steps
-  fixed_steps,  ///< independent method for verifications, which halve its steps
+  /// Accepts every scene; chosen if closed_form is not; companion of fixed steps if exact refuses the scene.
+  integrator,
+  fixed_steps,  ///< independent method for `verify`, which halves its steps
 };
 
 struct EngineCapabilities {
-  bool closed_form_flow = false;      ///< the motion between events is exact; run.flow chooses its method
-  bool supports_orbits = false;       ///< orbits can be closed with its motion or its tangents
-  bool discrete_derivatives = false;  ///< sensitivity/discrete_run.hpp differentiates its steps
-  bool laws_at_step_ends = false;     ///< the laws of contacts hold at the ends of its steps
+  /// The motion between events is exact; run.flow chooses how it is computed.
+  bool closed_form_flow = false;
+  bool supports_orbits = false;       ///< periodic orbits can be computed with this engine
+  bool discrete_derivatives = false;  ///< sensitivity/discrete_run.hpp can differentiate the engine's steps
+  bool laws_at_step_ends = false;     ///< contact laws are satisfied at the ends of the engine's steps
   /// True if the engine locates the zeros of guards.
   bool (*locates_events)(const RunSpec& run) = nullptr;
-  /// Value of Stepper::resolves_low_flights.
+  /// Value of Stepper::resolves_low_flights for this model.
   bool (*resolves_low_flights)(const Model& model) = nullptr;
 };
 
@@ -71,7 +73,7 @@ struct EngineRow {
   EngineCapabilities capabilities;
   /// Errors: UnsupportedSceneError at run.engine, with the name of the contact or the load.
   void (*refuse)(const Model& model, const RunSpec& run);
-  /// Order and its reason. Errors: SceneError if a step is required and not given.
+  /// Method with its order and reason. Errors: SceneError if the engine requires run.dt and the scene has none.
   Method (*method)(const Model& model, const RunSpec& run);
   std::unique_ptr<engine::Stepper> (*make)(const EngineParts& parts);
   /// Estimated cost of the time loop, as an order of magnitude.
@@ -82,7 +84,7 @@ struct EngineRow {
 [[nodiscard]] const EngineRow& engine_row(Engine engine);
 /// The engine with this role, which must not be EngineRole::none.
 [[nodiscard]] Engine engine_for(EngineRole role);
-/// Names of the engines with an ability, as in "\"exact\" or \"ida\"".
+/// Names of the engines with this capability, for messages: "\"exact\" or \"ida\"".
 [[nodiscard]] std::string engines_that(bool EngineCapabilities::*can);
 
 }  // namespace signorini::run

@@ -14,15 +14,16 @@
 namespace signorini::run {
 namespace {
 
-// Fraction of the time reached. Chosen value: data are rarely known more accurately; tests/behaviour/awkward.cpp
-// depends on it.
+// Hits of coupled contacts closer than this fraction of t cause a warning. Chosen value: data are rarely known more
+// accurately; tests/behaviour/awkward.cpp depends on it.
 constexpr double coincidence = 1e-9;
 
 bool is_hit(const decide::Decision& decision, std::size_t k) {
   return !decision.impulses.empty() && decision.impulses[k].hit;
 }
 
-/// Ratio that decided between rest and flight: of the rebound or of the later departure, the one nearest to one.
+/// Value of Event::departure: the ratio of the rebound or of the later departure, whichever was closer to the decision
+/// limit 1; nullopt: neither is known.
 std::optional<double> departure_of(const decide::Decision& decision, std::size_t k) {
   const auto known = [](double ratio) { return std::isfinite(ratio) && ratio > 0.0; };
   const double rebound =
@@ -34,8 +35,8 @@ std::optional<double> departure_of(const decide::Decision& decision, std::size_t
   return std::abs(std::log(left)) < std::abs(std::log(rebound)) ? left : rebound;
 }
 
-/// Sets quantities to zero that are zero by the type of the event, if they are within the error of its condition: the
-/// gap of a contact that closes; N of one that opens, with it |T| <= f |N|, and the gap -N / k of a spring.
+/// Sets quantities to zero that are zero by the type of the event, if they are below the error of the guard: the gap if
+/// the contact closes; if it opens, N, T because |T| <= f |N|, and the gap -N / k of a contact spring.
 void settle(const Contact& contact, double error, Event& event) {
   if (!contact.obeys_coulomb()) return;
   const auto vanishes = [&](double value) { return std::abs(value) <= error; };
@@ -45,17 +46,17 @@ void settle(const Contact& contact, double error, Event& event) {
   if (event.gap && vanishes(contact.normal_stiffness * *event.gap)) event.gap = 0.0;
 }
 
-/// True if the sliding point can jump: it is massless, or a spring connects it to the mass.
+/// True if the sliding point can jump: it has no mass, or a spring connects it to the mass.
 bool can_slide_at_once(const Model& model, const Contact& contact) {
   return !contact.takes_impulses() && (!contact.sticks_rigidly() || decide::acts_on_massless(model, contact));
 }
 
-/// State as named in events: held at the limit counts as slip.
+/// State as named in events.csv, where a contact at its static limit has the state slip.
 State in_events(State state) {
   return is_at_static_limit(state) ? kind_of(state) : contact::representative_state(state);
 }
 
-/// Event of a contact from the decision, without data about the guard.
+/// Event of contact k from the decision, without guard_rate and t_uncertainty.
 Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, const Contact& contact) {
   const decide::Decision& decision = *now.decision;
   ContactMotion before = decision.before[k], after = decision.after[k];
@@ -186,7 +187,7 @@ void EventLog::add_conditioning(const Instant& now, const engine::Stepper& stepp
                      model::in_scene_units(model_, 1.0, unit::rate);
   const double error =
       std::max(crossing.noise, stepper.guard_error(crossing.form, now.decision->before[k], k));
-  // The instant itself is known only to the resolution of the clock.
+  // The time of the instant is also uncertain by the resolution of the clock.
   settle(model_.contacts[k], error + std::abs(crossing.derivatives[0]) * now.resolution, event);
   const std::optional<double> off = time_uncertainty(crossing, error);
   const double unseen = now.unseen.empty() ? 0.0 : now.unseen[k];
@@ -197,7 +198,7 @@ void EventLog::add_conditioning(const Instant& now, const engine::Stepper& stepp
 
 namespace {
 
-constexpr int max_warnings = 5;  // limit for pairs of events of unknown order
+constexpr int max_warnings = 5;  // limit for warnings about pairs of events whose order is unknown
 
 }  // namespace
 

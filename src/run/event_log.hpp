@@ -1,18 +1,20 @@
 // event_log.hpp: converts decisions to rows of events.csv, and detects events whose order is unknown.
 //
-//   from -> to               event            a contact
-//   any -> open              separation       has at most one row per instant, with the values just before
-//   open -> any              contact          and just after all changes of this instant
+// At each instant a contact has at most one row, with the values just before and just after all changes of the instant.
+//
+//   from -> to               event
+//   any -> open              separation
+//   open -> any              contact
 //   slip s -> slip -s        reversal
 //   stick -> slip            slip             also stick -> stick after slip within the instant
 //   slip -> stick            stick
-//   any, with a hit          impact
+//   any -> any, with a hit   impact
 //   forces jump with a load  time
 //
-// Uncertainty of a time: the guard changes by |g'| dt, so an error delta of the guard moves the event by the smallest
-// of (m! delta / |g^(m)|)^(1/m). The order of events closer than their uncertainties is unknown, and a
-// warning reports it. A warning also reports hits of coupled contacts within the accuracy of the data: delta
-// excludes accumulated errors, and successive hits have other results than simultaneous ones.
+// Uncertainty of a time: an error delta of the guard g shifts the event by the smallest of (m! delta / |g^(m)|)^(1/m),
+// m = 1, 2, ... A warning reports events that are closer than their uncertainties, because their order is unknown. It
+// also reports hits of coupled contacts whose times differ by less than the data are accurate: delta does not include
+// accumulated errors, and successive hits have other results than simultaneous hits.
 #pragma once
 
 #include <optional>
@@ -28,14 +30,14 @@ namespace signorini::run {
 //
 //   t_2 - t_1 < e_1 + e_2      e: uncertainty of an event's time;   events of one instant are not compared
 //
-// Each event is compared with the last earlier event whose guard reached zero.
+// Each event is compared with the last earlier event whose t_uncertainty is known.
 
 class EventOrder {
  public:
   /// Model and report must outlive the object. Warnings go to the report.
   EventOrder(const Model& model, Report& report) : model_(model), report_(report) {}
 
-  /// Adds an event whose t_uncertainty is known.
+  /// Adds an event whose t_uncertainty is known. resolution: times closer than this are one instant.
   void event(const Event& event, double resolution);
   void load_jump(double t);
   void warn(const std::string& which);
@@ -46,23 +48,24 @@ class EventOrder {
 
   const Model& model_;
   Report& report_;
-  Event last_;  // last event with a contact and a guard
-  int unordered_ = 0;
+  Event last_;         // last event with a contact and a known t_uncertainty
+  int unordered_ = 0;  // number of pairs of events whose order is unknown
 };
 
-/// Event type of a change of state; nullopt if the change is no event. let_go: the contact slipped within the
-/// instant, although it sticks before and after.
+/// Event type of a change of state; nullopt if the change is no event. let_go: the contact sticks before and after the
+/// instant, but slipped within it.
 [[nodiscard]] std::optional<EventType> classify(State from, State to, bool let_go);
 
-/// Uncertainty of the time at which a guard is zero, for an error of its value; nullopt: no derivative is known.
+/// Uncertainty of the time at which a guard is zero. error: error of the guard's value; nullopt: all known derivatives of
+/// the guard are zero.
 [[nodiscard]] std::optional<double> time_uncertainty(const decide::Crossing& crossing, double error);
 
-/// Writes the events of a run. guard_rate, whose unit depends on the guard, is in the scene's units; all
-/// other values are in the units of the model.
+/// Writes the events of a run. Values are in the units of the model, except guard_rate, which is in the scene's units,
+/// because its unit depends on the guard.
 class EventLog {
  public:
-  /// Counts by type and warnings go to the report. whole: false for the events of a part, whose order among
-  /// events of other parts is unknown.
+  /// The report receives the number of events by type, and warnings. whole: false for a part of a model; PartRows then
+  /// checks the order of events.
   EventLog(const Model& model, Recorder& recorder, Report& report, bool whole)
       : model_(model), recorder_(recorder), report_(report), order_(model, report), whole_(whole) {}
 
@@ -71,15 +74,15 @@ class EventLog {
     const decide::Decision* decision = nullptr;
     const contact::ContactStates* before = nullptr;  ///< states just before
     bool load_jumps = false;
-    /// Durations for which the triggered guards had been zero up to rounding (ZeroTracker), one entry per
-    /// contact; empty if no guard had.
+    /// Durations for which the triggered guards had been zero up to rounding before t (ZeroTracker), one entry per
+    /// contact; empty if no triggered guard had been zero.
     std::vector<double> unseen = {};
   };
-  /// Logs hits of rigid contacts; there are no other events at the start.
+  /// Logs the events of the start, which are hits of rigid contacts only.
   void start(const Instant& now, const engine::Stepper& stepper);
   void instant(const Instant& now, const engine::Stepper& stepper);
   void finish();
-  /// Rows of the last instant that have a contact, in the units of the model except guard_rate.
+  /// Events of the last instant that have a contact, in the units of the model; guard_rate is in the scene's units.
   [[nodiscard]] const std::vector<Event>& latest() const { return latest_; }
 
  private:
@@ -95,7 +98,7 @@ class EventLog {
   struct Hit {
     double t = 0.0;
     std::size_t contact = 0;
-    std::vector<bool> moves;  ///< contacts whose normal velocities the hit changed; empty: no hit
+    std::vector<bool> moves;  ///< for each contact: the hit changed its normal velocity; empty: no hit so far
   } last_hit_;
   long load_jumps_ = 0;
   EventOrder order_;

@@ -1,7 +1,7 @@
-// forwarding_recorder.hpp: a recorder in front of another one. It forwards everything, and stores the time
-// reached; derived classes examine the data they need, or request a stop.
+// forwarding_recorder.hpp: a recorder that forwards all data to another recorder, and stores the time reached. Derived
+// classes read the data they need, or request a stop.
 //
-//   run -> this -> next,   reached = t of the last event, row or step that `next` has taken
+//   run -> this -> next,   reached = t of the last event, row or step that `next` has received
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace signorini::run {
 
 class ForwardingRecorder : public Recorder {
  public:
-  /// `next` must outlive the object; without it nothing is forwarded and no data are wanted.
+  /// `next` must outlive the object. If it is null, nothing is forwarded and no data are requested.
   explicit ForwardingRecorder(Recorder* next = nullptr) : next_(next) {}
 
   void event(const Event& event) override {
@@ -21,7 +21,7 @@ class ForwardingRecorder : public Recorder {
   }
   void sample(const Sample& sample) override {
     if (next_ != nullptr) next_->sample(sample);
-    reached_ = sample.t;  // a failure of a file within a step leaves rows after the previous step
+    reached_ = sample.t;  // if writing a file fails within a step, the last row is later than the last step
   }
   void frame(const Sample& sample) override {
     if (next_ != nullptr) next_->frame(sample);

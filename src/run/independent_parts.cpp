@@ -14,7 +14,7 @@
 namespace signorini::run {
 namespace {
 
-constexpr std::size_t max_of_all_parts = 50;  // limit over all parts
+constexpr std::size_t max_of_all_parts = 50;  // limit for the different warnings of all parts
 
 int number_of(const assembly::PartModel& part, int contact) {
   return contact < 0 ? contact : static_cast<int>(part.contacts[static_cast<std::size_t>(contact)]);
@@ -121,21 +121,21 @@ double merge_results(const Model& whole, const std::vector<assembly::PartModel>&
 
 namespace {
 
-/// Number of parts of t_end: rows of at most one such part wait for parts that are behind, and an interrupted run is as
-/// far behind. Chosen value.
+/// Least number of stages in t_end. All parts reach the end of a stage before the next stage starts, so rows wait, and an
+/// interrupted run loses, at most one stage. Chosen value.
 constexpr double stages = 32.0;
-constexpr double max_waiting = 8e6;  // limit for the numbers in these rows
+constexpr double max_waiting = 8e6;  // limit for the count of numbers in waiting rows
 constexpr std::size_t max_events =
-    2000;  // waiting events, less than a megabyte: the next stage is shorter if there are more
+    2000;  // events per stage (less than a megabyte); after more events, the next stage is shorter
 
-/// Run data with the flow chosen for the whole model, so that parts do not choose again.
+/// Run data with the flow that was chosen for the whole model, so that all parts use the same flow.
 RunSpec as_chosen(RunSpec spec, const Method& method) {
   if (engine_row(spec.engine).capabilities.closed_form_flow)
     spec.flow = method.flow == "modal" ? Flow::modal : Flow::taylor;
   return spec;
 }
 
-/// Keeps only the curves that are drawn in pictures of the whole model.
+/// Removes the columns of parts that pictures of the whole model do not show.
 void keep_drawn(const Model& whole, std::vector<assembly::PartModel>& parts) {
   std::set<std::string> drawn;
   for (const Column& column : drawn_columns(whole)) drawn.insert(column.name);
@@ -200,7 +200,7 @@ class IndependentParts {
 
   [[nodiscard]] bool over() const { return interrupted_ || stopped_ != nullptr; }
 
-  /// Returns the number of events passed on.
+  /// Runs all parts to `until` and forwards their rows. Returns the number of forwarded events.
   std::size_t stage(double until) {
     const double from = reported_;
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
@@ -212,7 +212,7 @@ class IndependentParts {
     return over() ? 0 : rows_.forward(until == spec_.t_end ? until : reached(), until == spec_.t_end);
   }
 
-  /// Time that all parts have reached.
+  /// Earliest time reached by any part: all rows up to it are complete.
   [[nodiscard]] double reached() const {
     double t = spec_.t_end;
     for (const auto& loop : loops_) t = std::min(t, loop->t());
@@ -231,7 +231,7 @@ class IndependentParts {
     stopped_ = &parts_[i];
   }
 
-  /// Advances all parts to the end. A step may have gone far beyond the stage in which its part was found to stop.
+  /// Advances all parts to the time at which a part stopped: this time may lie far beyond the stage.
   void catch_up() {
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
       loops_[i]->advance_to(end_);
@@ -265,12 +265,12 @@ class IndependentParts {
     return result;
   }
 
-  /// True if no part was refused at the start; otherwise there are no rows.
+  /// True if the contact states of every part could be decided at the start; otherwise there are no rows.
   [[nodiscard]] bool begun() const {
     return std::all_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop->begun(); });
   }
 
-  /// Runs a part again, to an earlier end, and returns its results without rows.
+  /// Runs a part again up to the earlier time `end`, and returns its results without rows.
   [[nodiscard]] RunEnd until(double end, assembly::PartModel& part, PartRecorder& recorder) const {
     RunSpec spec = spec_;
     spec.t_end = end;
@@ -307,7 +307,7 @@ class IndependentParts {
   std::size_t columns_ = 0;
   std::vector<std::unique_ptr<PartRecorder>> recorders_;
   std::vector<std::unique_ptr<Loop>> loops_;
-  double reported_ = 0.0;                                 // of the reported progress
+  double reported_ = 0.0;                                 // time up to which progress was reported
   double end_ = std::numeric_limits<double>::infinity();  // time at which the first part stops
   const assembly::PartModel* stopped_ = nullptr;
   bool interrupted_ = false;

@@ -1,13 +1,12 @@
-// independent_parts.hpp: uncoupled parts of a model run separately, each with its own time steps.
+// independent_parts.hpp: runs uncoupled parts of a model separately, each with its own time steps.
 //
-//   for s = s_1 < s_2 < ... t_end:   every part to s;   rows up to the time reached by all are merged and passed on
+//   for s = s_1 < s_2 < ... t_end:   run every part to s;   merge and forward the rows up to the time that all reached
 //
-// A stage is t_end / 32 at most, and shorter if many events would wait. The ends of stages do not influence
-// results. The steps and events of a part need the data of this part only, so n equal parts take n times as
-// long as one. In a common run each event of one part would need a pass over all parts. Data for decisions
-// (scales, velocities below which rebounds come to rest) are those of the whole model. If a part stops, the
-// others end at the same time. Listeners, steering, and records of both sides of instants need one motion of
-// the whole model: parts then run together (parts_to_run).
+// A stage (from one s to the next) is t_end / 32 at most, and shorter if there are many events. The ends of stages do
+// not influence results. The cost of n equal parts is n times the cost of one part; in a common run, each event of one
+// part would need a pass over all parts. The data for decisions (scales, velocity below which rebounds come to rest) are
+// those of the whole model. If a part stops, the other parts end at the same time. Listeners, steering, and records of
+// both sides of instants need one motion of the whole model, so the parts then run together (parts_to_run).
 #pragma once
 
 #include "model/assembly/parts.hpp"
@@ -18,13 +17,13 @@ namespace signorini::run {
 // Joins the results of parts that ran separately into one report.
 //
 //   works, energies, counters, scales of energy:   sums over parts
-//   extremes:                                      the largest of any part; error of the balance: the sum of the parts'
-//                                                  largest errors, an upper bound at any instant
+//   extremes:                                      the largest of all parts; the error of the energy balance is the sum of
+//                                                  the largest errors of the parts: an upper bound
 //
 // All values are in the units of the whole model.
 
-/// Adds the results of the parts to `report`, which has outcome, method, events and load jumps of the whole model
-/// already. Returns the sum of RunEnd::energy_rounding.
+/// Adds the results of the parts to `report`, which contains outcome, method, events and load jumps of the whole model
+/// already. Returns the sum of RunEnd::energy_rounding over the parts.
 double merge_results(const Model& whole, const std::vector<assembly::PartModel>& parts,
                      const std::vector<RunEnd>& endings, Report& report);
 
@@ -33,7 +32,7 @@ double merge_results(const Model& whole, const std::vector<assembly::PartModel>&
                                            const RunSpec& spec, const EngineRow& engine, Method method,
                                            Recorder& recorder);
 
-/// Parts of the model if it is to be run in parts; empty: it is run as a whole.
+/// Parts of the model that are to run separately; empty: the model runs as a whole.
 [[nodiscard]] std::vector<assembly::PartModel> parts_to_run(const Model& model, const Method& method,
                                                             const Recorder& recorder, const RunHooks& hooks);
 

@@ -13,10 +13,11 @@
 namespace signorini::run {
 namespace {
 
-// Stretches shorter than this are skipped: engines divide by h^2, which must not overflow. In any unit of time.
+// Shorter intervals between breakpoints are skipped, because engines compute 1 / h^2, which must not overflow. The value
+// suits every unit of time.
 constexpr double shortest_stretch = 1e-100;
 
-/// Entries of u that pictures show inside steps.
+/// Indices of the entries of u that pictures show inside steps; nullopt: all.
 std::optional<std::vector<int>> watched_entries(const Model& model, const Recorder& recorder) {
   if (!model.is_physical()) return std::nullopt;
   return recorder.wants_motion() ? drawn_entries(model) : std::vector<int>{};
@@ -31,7 +32,7 @@ std::vector<std::size_t> concerned(const decide::Instant& now,
   return contacts;
 }
 
-/// Converts graze and near hits to the units of the scene.
+/// Converts the graze and the near hits of the engine's report to the units of the scene.
 void rescale(const Model& model, engine::StepperReport& engine) {
   if (engine.graze) engine.graze->t = model::time_in_scene_units(model, engine.graze->t);
   for (events::NearHit& hit : engine.near_hits) {
@@ -87,7 +88,7 @@ bool Loop::refuse(const Refusal& refusal) {
   return stop(refusal.reason);
 }
 
-/// False if the record of the motion up to here violates a law without an explanation.
+/// Returns false, and stops the run, if the motion so far violates a law without an explanation.
 bool Loop::laws_hold() { return record_.law_violated().empty() || stop(record_.law_violated()); }
 
 motion::Point Loop::decided_point(const decide::Decision& decision) const {
@@ -98,7 +99,7 @@ motion::Point Loop::decided_point(const decide::Decision& decision) const {
 
 bool Loop::start() {
   State& s = state_;
-  s.point.u = model_.u0;  // last point of a run that is refused here
+  s.point.u = model_.u0;  // last point of the run if its first states cannot be decided
   s.point.v = model_.v0;
   decide::Instant now;
   now.u = model_.u0;
@@ -127,13 +128,13 @@ bool Loop::start() {
                           &after});
   s.point = std::move(after);
   begun_ = true;
-  // A motion within the range of numbers may have squares beyond it: the balance is then unknown.
+  // If squares of the motion exceed the range of doubles, the energy balance is unknown.
   if (!std::isfinite(record_.energy().balance()))
     return stop("the energy at the start exceeds the range of doubles");
   return laws_hold();
 }
 
-/// Makes a step of the engine, and decides the instant at its end if there is one. Returns false if the run
+/// Makes one step of the engine. If the step ends at an instant, decides the contact states there. Returns false if the run
 /// ends.
 bool Loop::step() {
   State& s = state_;
@@ -162,7 +163,7 @@ bool Loop::step() {
   return !changes_.change().any || (instant({}) && steered());
 }
 
-/// Listeners receive the interior of the step first, then its end.
+/// Passes the completed step to the listeners: its interior first, then its end.
 void Loop::finish_step(const engine::Step& step) {
   engine::DenseOutput& motion = engine_->dense_output();
   const engine::StepFacts facts = motion.facts();
@@ -186,7 +187,8 @@ bool Loop::steer() {
   return on || stop("stopped by the observer", Outcome::Kind::interrupted);
 }
 
-/// Steers after an instant, as long as loads are changed there: each change is an instant of its own.
+/// Calls the steering recorder after an instant, repeatedly as long as it changes loads: each change is a new instant.
+/// Returns false if the run ends.
 bool Loop::steered() {
   do {
     if (!steer()) return false;
@@ -195,7 +197,7 @@ bool Loop::steered() {
   return true;
 }
 
-/// Input of a decision: the side before it.
+/// Input of a decision: the motion and the contact states just before the instant.
 decide::Instant Loop::instant_now(std::vector<decide::TriggeredGuard> fired) const {
   decide::Instant now;
   now.resolution = state_.resolution;
@@ -209,16 +211,17 @@ decide::Instant Loop::instant_now(std::vector<decide::TriggeredGuard> fired) con
   return now;
 }
 
-/// Decides the states at t, applies them and notifies listeners.
+/// Decides the contact states at t, applies them and notifies listeners. adopted: states that the engine found, which are
+/// not decided again. Returns false if the run ends.
 bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<contact::ContactStates> adopted) {
   State& s = state_;
-  // The motion before is computed under the forcing before. Without an open stretch it is the decision's
-  // point, since the engine may have none.
+  // Accelerations just before the instant follow from the forcing before it. At a second instant at the same time, the
+  // engine has made no step: s.point is then the point of the last decision.
   if (std::exchange(stretch_.open, false) && record_.needs_accelerations())
     engine_->dense_output().accelerate(s.t, s.point);
   decide::Instant now = instant_now(std::move(fired));
   hooks_.listeners.before(current_point());
-  // States found by the engine come first; a breakpoint at the same time is the next instant.
+  // States that the engine found are applied first; a breakpoint at the same time is a separate, later instant.
   LoadChanges::Change change;
   if (!adopted) {
     const BreakpointQueue::Passed passed = breakpoints_.pass(s.t, s.resolution);

@@ -1,11 +1,11 @@
-// loop.hpp: the time loop of signorini/simulate.hpp, in the units of its model, which may be a part.
+// loop.hpp: the time loop of signorini/simulate.hpp, for a model or for one of its independent parts.
 //
 //   Loop loop(model, spec, engine, method, recorder, hooks);
 //   loop.begin();   loop.advance_to(t_1);   loop.advance_to(t_2); ...   loop.end()
 //
-// The loop advances, decides, applies and notifies: listeners in their order (run_listener.hpp), the last of them its
-// record (run_record.hpp). The time at which advance_to() pauses does not influence results: the current stretch
-// continues with its next step.
+// At each event the loop decides the contact states, applies them and notifies the listeners (run_listener.hpp). The last
+// listener is the loop's own record (run_record.hpp). The time at which advance_to() pauses does not influence results:
+// the next call continues with the next step of the engine.
 #pragma once
 
 #include <memory>
@@ -20,10 +20,10 @@
 
 namespace signorini::run {
 
-/// Results of a loop, in the units of its model, except times in texts, which are in the scene's units.
+/// Results of a loop, in the units of its model; times in texts are in the scene's units.
 struct RunEnd {
   Report report;
-  /// Rounding of the stored energy, whose terms may be far larger than their sum.
+  /// Rounding error of the stored energy; it is large if the terms of this energy are far larger than their sum.
   double energy_rounding = 0.0;
   bool law_violated = false;  ///< the law checker stopped the run
 };
@@ -33,7 +33,7 @@ class Loop {
   /// All referenced objects must outlive the loop.
   Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
        RunHooks hooks, const PartShare& share = {});
-  /// Listeners hold references to the loop.
+  /// Not copyable, because members refer to other members.
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
@@ -82,7 +82,7 @@ class Loop {
   BreakpointQueue breakpoints_;
   LoadChanges changes_;
   struct State {
-    motion::Forcing forcing;  // forcing after t
+    motion::Forcing forcing;  // forcing from t on
     decide::Decision decision = {};
     motion::Point point = {};
     double t = 0.0, resolution = 0.0;
@@ -91,7 +91,7 @@ class Loop {
     double end = 0.0;
     bool open = false;
     bool same_forcing = false;  // the last instant has not changed the forcing
-  } stretch_;                   // the current stretch
+  } stretch_;                   // interval of smooth motion from the last instant to `end`
   bool begun_ = false, running_ = false;
 };
 

@@ -12,13 +12,13 @@
 namespace signorini::run {
 namespace {
 
-// Limits that give a file of about five megabytes if motions are slow.
+// Limits for the number of rows: the file then has at most about five megabytes if motions are slow.
 constexpr std::size_t max_in_all = 40000, max_of_one = 8000, min_of_one = 400;
-constexpr double min_intervals = 250.0;  // per run, so that a contact at rest also has rows
-constexpr std::size_t max_drawn = 24;    // contacts with a picture of their own
-// A pixel of the widest picture is 1/1250 of the run: fewer than two rows per pixel for straight lines.
+constexpr double min_intervals = 250.0;  // least number of row intervals in a run, also for a contact at rest
+constexpr std::size_t max_drawn = 24;    // number of contacts with a picture
+// The widest picture has 1250 pixels per run, so straight lines have fewer than two rows per pixel.
 constexpr double pieces_of_run = 2000.0;
-constexpr double growth = 0.2;  // of the row spacing, per time between two rows; chosen
+constexpr double growth = 0.2;  // growth of the row spacing per elapsed time; chosen
 
 }  // namespace
 
@@ -40,11 +40,11 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
 
 void MotionRecord::step(double begin, double end, std::span<const double> turning_points) {
   at_ = begin;
-  end_ = std::min(end, t_end_);  // an overflowing motion may end anywhere
+  end_ = std::min(end, t_end_);  // the end of a step may be wrong if the motion overflows
   turn_ = 0;
   turns_.clear();
-  // Bodies with the same motion have the same turning points except for rounding: a thousand of them become
-  // one row. A motion that overflows may have turning points that are not numbers.
+  // Turning points of bodies with equal motions differ by rounding only; they become one row. If the motion overflows,
+  // its turning points may not be finite.
   for (const double t : turning_points)
     if (std::isfinite(t) && (turns_.empty() || t - turns_.back() > rounding::time_resolution * std::abs(t)))
       turns_.push_back(t);
@@ -53,7 +53,7 @@ void MotionRecord::step(double begin, double end, std::span<const double> turnin
 std::optional<MotionRecord::RowTime> MotionRecord::next() {
   const double never = std::numeric_limits<double>::infinity();
   const double turn = turn_ < turns_.size() ? turns_[turn_] : never;
-  double line = enabled_ ? std::max(at_, last_ + spacing_) : never;  // independent of the steps between
+  double line = enabled_ ? std::max(at_, last_ + spacing_) : never;  // does not depend on the step size
   if (!(line < end_ - 0.5 * spacing_)) line = never;
   if (turn == never && line == never) return std::nullopt;
   at_ = std::min(turn, line);
@@ -127,7 +127,7 @@ void MotionRecord::keep(Track& track, const MotionRow& row) {
   length_ = std::max({length_, std::abs(row.sample.gap), std::abs(row.sample.ut)});
 }
 
-/// Row spacing that a contact needs. A quantity of rounding size, compared with other contacts, has no bends.
+/// Row spacing that a contact needs. Quantities whose range is rounding, relative to other contacts, need no rows.
 double MotionRecord::spacing_for_track(Track& track, const MotionRow& row) const {
   double asked = std::numeric_limits<double>::infinity();
   const auto [first, second] = std::exchange(track.last, {track.last[1], row});

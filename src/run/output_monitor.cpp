@@ -82,22 +82,22 @@ double magnitude_of(const Output& output, double t, motion::Side side, const mot
 
 namespace {
 
-// Values this close are equal: the earlier one keeps its time.
+// Extremes whose relative difference is smaller are equal; the earlier extreme keeps its time.
 constexpr double tie = rounding::few_operations;
-// Fraction of |r|: allowed error of p where its turning points are used. An error d of such a time changes r by r d^2.
+// Allowed error of p, as a fraction of |r|, if the turning points of p are used. A phase error d of a turning point changes
+// the extreme by about |r| d^2.
 constexpr double located = 1e-12;
-// Radians of the fastest motion in a part: five points detect whether it oscillates there. Chosen value; a peak that is
-// narrower than a fifth of a part and occurs nowhere else in it may be missed.
+// Length of a part in radians of the fastest motion: five points detect whether the motion oscillates there. Chosen value;
+// a single peak that is narrower than a fifth of a part may be missed.
 constexpr double longest = 32.0;
-// Limit for the number of such parts in a run: at least 1e8 points, hours for most models. Chosen value.
+// Limit for the number of parts in a run: they have at least 1e8 points, which take hours for most models. Chosen value.
 constexpr double max_pieces = 1e7;
-// Fraction of the error of p, or of the rounding: a polynomial through 17 points is off by less than four times the
-// motion that it does not resolve (Lebesgue's constant of the points, and that motion itself).
+// Motion below this fraction of the allowed error need not be resolved: a polynomial through 17 points has an error of
+// less than four times the unresolved motion (1 + the Lebesgue constant of the points).
 constexpr double hidden = 0.25;
 
-/// Allowed error e of half the degree for this accuracy, if values vary by this much in a part: errors of degree n are
-/// proportional to the power n + 1 of the part's length, relative to the variation there. A ripple on a large value is
-/// compared with the variation, not with the value.
+/// Allowed error e of the polynomial of half the degree, so that p has an error of at most `accuracy`. varies: variation of
+/// the values in the part. Errors of degree n, relative to this variation, are proportional to (length of the part)^(n+1).
 double resolved(std::size_t stride, double varies, double accuracy) {
   if (!(varies > accuracy)) return accuracy;
   const double power = stride == 1 ? 9.0 / 17.0 : stride == 2 ? 5.0 / 9.0 : 3.0 / 5.0;
@@ -220,14 +220,14 @@ void OutputMonitor::search_step(engine::DenseOutput& motion, double begin, doubl
       parts.pop_back();
       if (!sample_part(motion, part, begin)) continue;
       const double middle = 0.5 * (part.begin + part.end);
-      // The earlier half first: the first of equal extremes counts.
+      // The earlier half is searched first, because the first of equal extremes is reported.
       parts.push_back({middle, part.end, part.open});
       parts.push_back({part.begin, middle, std::move(part.open)});
     }
   }
 }
 
-/// Rate of the motion that outputs show in a step. Its ranges include at least those at the points of the whole step.
+/// Rate, in rad per time, of the fastest motion that outputs show in a step.
 double OutputMonitor::turning(engine::DenseOutput& motion, const Part& step) {
   const engine::StepFacts facts = motion.facts();
   double omega = fast_mode_cutoff_.max_rate(facts.phase_angle, step.begin, step.end);
@@ -242,19 +242,19 @@ double OutputMonitor::turning(engine::DenseOutput& motion, const Part& step) {
     omega = fast_mode_cutoff_.output_rate(
         *modes, omega, [&](const engine::FastModeBound& r) { return is_rounding(r, whole); });
   }
-  // A step that is one part costs no more than other steps.
+  // The limit of max_pieces never applies to a step that is a single part.
   const double most =
       std::max(fast_mode_cutoff_.fastest(max_pieces * longest), longest / (step.end - step.begin));
   if (omega > most && !coarse_warning_)
     coarse_warning_ = fmt::format(
-        "outputs: the motion turns by {:.2g} radians in the run; extremes between rows were searched in "
+        "outputs: the fastest motion advances by {:.2g} radians in the run; extremes were searched in "
         "intervals of {:.2g} radians, so a peak may be missed",
         omega / fast_mode_cutoff_.fastest(1.0), omega / most * longest);
   return std::min(omega, most);
 }
 
-/// True if the contribution of `ripple` is negligible for every output, at every position of its
-/// segments. It is then rounding of the terms or of the sums over modes, or less than the allowed error of p.
+/// True if the fast motion `ripple` is negligible in every output, at every position of its segments: it is smaller than
+/// the rounding of the output's terms, the rounding of the sums over modes (`whole`), or the allowed error of p.
 bool OutputMonitor::is_rounding(const engine::FastModeBound& ripple,
                                 const engine::FastModeBound& whole) const {
   for (const Watched& watched : watched_) {
@@ -302,7 +302,8 @@ void OutputMonitor::sample(engine::DenseOutput& motion, const Part& part, double
     const Watched& watched = watched_[k];
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
       samples_[i][point] = value_of(*forms_[i], t, side, point_, model_.layout, none_);
-      if (watched.stretch < 0 || point == 0)  // for the many points of segments the first time is enough
+      // The many forms of segments have their magnitudes computed only once per part.
+      if (watched.stretch < 0 || point == 0)
         magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_, model_.layout));
     }
     const double value = samples_[watched.first][point];
@@ -344,7 +345,7 @@ bool OutputMonitor::settled(const Watched& watched, engine::DenseOutput& motion,
   const ValueBounds at = bounds_along(all, stride, false);
   if (within(at, 2.0 * error + (at.greatest - at.least))) return true;
   if (stride < 4 && within(bounds_along(all, stride, true), 2.0 * error)) return true;
-  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // includes samples
+  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // the samples are included
   double magnitude = 0.0;
   for (std::size_t i = watched.first; i < watched.first + watched.count; ++i)
     magnitude = std::max(magnitude, magnitudes_[i]);

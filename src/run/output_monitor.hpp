@@ -1,22 +1,20 @@
-// output_monitor.hpp: outputs during a run: rows, and extremes between them.
+// output_monitor.hpp: values of outputs during a run: rows, and extremes between rows.
 //
 //   rows      at output times, and on both sides of every event instant
-//   extremes  of each step's motion r, in parts of a few periods of the fastest motion:
-//             p through r at 5, then 9, then 17 nested Chebyshev points of the part,
-//             e = |r - the polynomial of every other point| at the new ones
-//             done if p, also between its points, +- 2 e stays within the known extremes;
-//             if e is below a fraction of |r|: p' = 0 gives the times, r its values there;
-//             otherwise more points, then both halves, until no phase advances by over a radian in a part
+//   extremes  of the output r(t); each step is divided into parts of a few periods of the fastest motion:
+//             p: polynomial through r at 5, then 9, then 17 nested Chebyshev points of the part
+//             e = |r - polynomial through every other point|, at the new points
+//             the part is done if p +- 2 e, also between the points, stays within the known extremes;
+//             if e is small relative to |r|, p' = 0 gives the times of extremes, and r at these times their values;
+//             otherwise more points are taken, then the part is halved, until it is shorter than a radian
 //
-// An output with segments (an envelope, the extremes of a stress) is evaluated segment by segment, at the
-// points of each; the peaks of output_resolution.hpp then replace those of p. The fastest motion is the
-// fastest one that outputs show: modes whose oscillations are rounding of every output are left out
-// (output_resolution.hpp).
+// An output with segments (an envelope, the extremes of a stress) is evaluated at the points of each segment;
+// output_resolution.hpp then finds its peaks. The fastest motion excludes modes whose oscillations are only rounding in
+// every output (output_resolution.hpp).
 //
-// The motion is the engine's own: a closed form in `exact`, the polynomial of the step in `ida`, average
-// acceleration in `newmark`. The latter is in equilibrium at the ends of its steps only, so extremes of
-// forces and accelerations are taken there. Losses never decrease, so their extremes are at the first and the
-// last row.
+// The motion within a step is that of the engine: a closed form in `exact`, the polynomial of the step in `ida`, average
+// acceleration in `newmark`. The motion of `newmark` is in equilibrium only at the ends of steps, so extremes of forces
+// and accelerations are taken there. Losses never decrease, so their extremes are in the first and the last row.
 #pragma once
 
 #include <optional>
@@ -44,14 +42,14 @@ struct OutputReading {
   OutputPlace at_greatest, at_least;
 };
 
-/// Value of a linear output; losses: of all contacts.
+/// Value of a linear output. losses: energy dissipated by friction, one entry per contact.
 [[nodiscard]] double value_of(const Output& output, double t, motion::Side side, const motion::Point& point,
                               const ForceLayout& layout, const std::vector<double>& losses);
-/// Value of any output; for one with segments also its extremes and their positions.
+/// Value of any output; for an output with segments, also its extremes over all segments and their positions.
 [[nodiscard]] OutputReading reading_of(const Output& output, double t, motion::Side side,
                                        const motion::Point& point, const ForceLayout& layout,
                                        const std::vector<double>& losses);
-/// Extremes along the i-th segment, with their positions.
+/// Extremes along the i-th segment, with their positions. values: the output at the points of the segment.
 [[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i,
                                           const base::PolynomialInterpolation::Values& values);
 
@@ -61,23 +59,24 @@ struct OutputReading {
 
 class OutputMonitor {
  public:
-  /// Model and recorder must outlive the object, which is inactive if the model has no outputs. dense: forces
-  /// and accelerations are in equilibrium with the motion inside a step, not only at its ends.
+  /// Model and recorder must outlive the object, which does nothing if the model has no outputs. dense: forces and
+  /// accelerations are in equilibrium with the motion inside a step, not only at its ends.
   OutputMonitor(const Model& model, double t_end, Recorder& recorder, bool dense);
 
   /// Updates the frequencies after a change of the model's loads.
   void loads_changed() { fast_mode_cutoff_.loads_changed(); }
   [[nodiscard]] bool has_outputs() const { return !model_.outputs.empty(); }
-  /// Writes a row, with the losses of all contacts so far; the point must have a = M^-1 (...) if an output needs it.
+  /// Writes a row. losses: energy dissipated by friction since t = 0, one entry per contact. The point must contain the
+  /// accelerations if an output needs them.
   void row(double t, motion::Side side, const motion::Point& point, const std::vector<double>& losses);
-  /// Keeps the side before an event instant; the following call of `row` writes both sides.
+  /// Keeps the values just before an event instant; the following call of row() writes both sides.
   void before(double t, const motion::Point& point, const std::vector<double>& losses);
   /// Finds extremes inside a step.
   void search_step(engine::DenseOutput& motion, double begin, double end);
-  /// Largest |sum of reactions - loads + inertia| of the rows.
+  /// Largest |sum of reactions - loads + inertia| of all rows, a force.
   [[nodiscard]] const Extreme& reactions() const { return reactions_; }
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
-  /// Warning if the motion was too fast for a search between all of its turning points.
+  /// Warning if the motion has more turning points than the search could resolve; nullopt: none.
   [[nodiscard]] const std::optional<std::string>& coarse_warning() const { return coarse_warning_; }
 
  private:
@@ -85,11 +84,11 @@ class OutputMonitor {
   struct Watched {
     std::size_t output = 0;
     int stretch = -1;                  ///< -1: a linear output
-    std::size_t first = 0, count = 1;  ///< in forms_
+    std::size_t first = 0, count = 1;  ///< range of indices in forms_
   };
   struct Part {
     double begin = 0.0, end = 0.0;
-    std::vector<char> open;  // watched functions that are not settled in this part
+    std::vector<char> open;  // for each watched function: its extremes in this part are not settled yet
   };
 
   void evaluate(double t, motion::Side side, const motion::Point& point, const std::vector<double>& losses,
@@ -101,7 +100,7 @@ class OutputMonitor {
                                  const engine::FastModeBound& whole) const;
   void update_from_samples(const Watched& watched, const Part& part, std::size_t stride);
   [[nodiscard]] std::span<const Chebyshev::Values> samples_of(const Watched& watched) const;
-  /// Samples a part and closes settled functions; false: none is left.
+  /// Samples a part and marks settled functions. Returns true if some function is not settled: the part is then halved.
   [[nodiscard]] bool sample_part(engine::DenseOutput& motion, Part& part, double begin);
   void sample(engine::DenseOutput& motion, const Part& part, double begin, std::size_t point);
   [[nodiscard]] bool settled(const Watched& watched, engine::DenseOutput& motion, const Part& part,
@@ -111,13 +110,13 @@ class OutputMonitor {
                      std::size_t stride);
   void refine_stretch(const Watched& watched, engine::DenseOutput& motion, const Part& part,
                       std::size_t stride);
-  /// Updates extremes with the engine's own values at t.
+  /// Updates extremes with the output of the engine's motion at t.
   void update_from_motion(const Watched& watched, engine::DenseOutput& motion, double t);
 
   const Model& model_;
   Recorder& recorder_;
   FastModeCutoff fast_mode_cutoff_;
-  double radian_ = 0.0;  // duration of a radian of the step's fastest motion, or of a load
+  double radian_ = 0.0;  // time in which the fastest motion or load of the step advances by one radian
   bool dense_;
   bool began_ = false;
   std::vector<OutputExtremes> extremes_;
@@ -125,8 +124,8 @@ class OutputMonitor {
   std::vector<double> last_, none_;
   std::vector<Watched> watched_;
   std::vector<const Output*> forms_;  // linear outputs
-  std::vector<double> magnitudes_;    // largest sum of terms of each form so far
-  std::vector<FormNorm> form_norms_;  // of each form, once the engine has provided modes
+  std::vector<double> magnitudes_;    // for each form: largest magnitude_of() so far
+  std::vector<FormNorm> form_norms_;  // one entry per form; empty until the engine has provided modes
   double last_t_ = 0.0, before_t_ = -1.0;
   std::vector<Chebyshev::Values> samples_;  // one entry per form
   motion::Point point_;

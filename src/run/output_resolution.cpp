@@ -11,12 +11,12 @@
 namespace signorini::run {
 namespace {
 
-/// An oscillating piece of a history, while it acts.
+/// An oscillating piece of a history, with its time interval and its angular frequency.
 struct HalfPeriod {
   double from, to, omega;
 };
 
-/// Adds the oscillating pieces that are longer than the resolution of the clock.
+/// Adds the oscillating pieces of a history that are longer than the resolution of the clock.
 void add_swings(const History& history, std::vector<HalfPeriod>& all) {
   constexpr double ever = std::numeric_limits<double>::infinity();
   const std::vector<double>& starts = history.starts();
@@ -113,13 +113,14 @@ double FastModeCutoff::output_rate(
 
 namespace {
 
-constexpr int halvings = 40;  // of the distance of two points: 1e-12 of the part, and p depends on its square
+// Bisections of the interval between two points: the time of a peak is then exact to 1e-12 of the part.
+constexpr int halvings = 40;
 
 ValueBounds bounds_of(const Chebyshev::Values& values, std::size_t stride, bool between) {
   return between ? between_points(values, stride) : at_points(values, stride);
 }
 
-/// Largest value of p at one time, and its rate.
+/// Largest value of p over the segment at one time, and its rate of change at this position.
 struct PeakPoint {
   double value = 0.0, rate = 0.0;
 };
@@ -147,7 +148,7 @@ class PeakSearch {
   double sign_;
 };
 
-/// Value at which both tangents meet, at least the values at the ends: an upper bound.
+/// Upper bound between two points: the value at which both tangents meet, or the larger end value.
 double greatest_below_tangents(const PeakPoint& a, const PeakPoint& b, double width) {
   const double to = (b.value - a.value - b.rate * width) / (a.rate - b.rate);
   return std::max({a.value, b.value, a.value + a.rate * std::clamp(to, 0.0, width)});

@@ -1,12 +1,12 @@
-// output_resolution.hpp: frequency of the motion in a step that outputs show.
+// output_resolution.hpp: highest frequency that outputs show in a step.
 //
-//   omega   the lowest rate, to a factor of 2, above which all motion together is rounding of every output
-//           (engine/dense_output.hpp):
+//   omega   the lowest rate, to a factor of 2, such that all faster motion together is rounding in every output
+//           (U, V, A, n_k, t_k: bounds of this motion, engine/dense_output.hpp):
 //             reach_u U + reach_v V + reach_a A + sum |N_k| n_k + |T_k| t_k  <=  threshold
 //
-// A stiff structure at rest has modes whose oscillations are the rounding of its displacements. Their frequencies are
-// thousands of times higher than those of the motion, and their peaks have no meaning. Loads and other histories count
-// with their own frequency while they act: a pulse is fast between its ends, and its consequences are not.
+// A stiff structure at rest has modes whose oscillations are only rounding of its displacements. Their frequencies are
+// thousands of times higher than those of the motion, and their peaks have no meaning. Loads and other histories are
+// included with their own frequency while they act.
 #pragma once
 
 #include <functional>
@@ -19,17 +19,17 @@
 
 namespace signorini::run {
 
-/// Norms of the parts of a linear output on u, v and a: reach_u, reach_v, reach_a.
+/// Norms reach_u, reach_v, reach_a of the coefficients of u, v and a in a linear output.
 struct FormNorm {
   double u = 0.0, v = 0.0, a = 0.0;
 };
-/// Norms of a linear output, from the engine's modes.
+/// Norms of a linear output, computed with the engine's modes.
 [[nodiscard]] FormNorm form_norm_of(const engine::FastModes& modes, const Output& linear);
-/// Upper bound of the contribution of a ripple to a linear output.
+/// Upper bound of the contribution of fast motion (`ripple`) to a linear output, in the output's unit.
 [[nodiscard]] double fast_mode_contribution(const engine::FastModeBound& ripple, const FormNorm& reach,
                                             const Output& linear, const ForceLayout& layout);
 
-/// Frequencies in a run. All rates are in rad per time.
+/// Highest frequencies of motion and loads in the steps of a run. All rates are in rad per time.
 class FastModeCutoff {
  public:
   /// The model must outlive the object.
@@ -37,54 +37,55 @@ class FastModeCutoff {
 
   /// Updates the frequencies after a change of the model's loads.
   void loads_changed();
-  /// Rate of structure and loads in a step whose motion advances by this phase angle, in rad
-  /// (StepFacts::phase_angle).
+  /// Highest rate of structure and loads in the step. radians: phase angle by which the fastest motion advances in the
+  /// step (StepFacts::phase_angle).
   [[nodiscard]] double max_rate(double radians, double begin, double end);
-  /// Rate of the motion that outputs show in the step of the last max_rate(): at least that of loads, at most
-  /// `all`.
+  /// Highest rate that outputs show in the step of the last call of max_rate(): between the rate of loads and `all`.
+  /// is_rounding: true if motion within this bound is rounding in every output.
   [[nodiscard]] double output_rate(
       const engine::FastModes& modes, double all,
       const std::function<bool(const engine::FastModeBound&)>& is_rounding) const;
-  /// Rate at which the phase advances by so many radians in the whole run.
+  /// Rate at which a phase advances by `radians` in the whole run.
   [[nodiscard]] double fastest(double radians) const { return radians / t_end_; }
 
  private:
   const Model& model_;
   double t_end_;
   std::vector<double> changes_;  // times at which the fastest acting load changes, ascending
-  std::vector<double> fastest_;  // its rate before the first of these times, and from each of them on
-  double load_rate_ = 0.0;       // fastest load in the step, at least 1/t_end
+  std::vector<double> fastest_;  // rate of this load: before changes_[0], then from each changes_[i] on
+  double load_rate_ = 0.0;       // rate of the fastest load in the step, at least 1/t_end
 };
 
-// Peaks in time of the largest value of p(x, t): at each time a polynomial in x along a segment of an output.
+// Peaks in time of the largest value of p(x, t), which is, at each time, a polynomial in x along a segment of an output.
 //
-//   f_i(t)   values at the points of the segment, each at the Chebyshev points of the part (curve_record.hpp)
-//   bound    of the ends f_0, f_m, plus twice the bound of the distances of the others from the line between them
-//   peak     x*(t) is the position of the largest p(., t); p_t(x*(t), t) = 0 with a change from + to -: the largest of
-//            several smooth branches has kinks, but none of them is a peak
+//   f_i(t)   values at the points of the segment, given at the Chebyshev points of the part (curve_record.hpp)
+//   bound    the bound of the end values f_0, f_m, plus the Lebesgue constant times the largest distance of the other f_i
+//            from the straight line between f_0 and f_m
+//   peak     p_t(x*(t), t) = 0 with a change from + to -; x*(t): position of the largest p(., t). The largest of several
+//            smooth branches has kinks, but a kink is never a peak
 //
-// The smallest value is minus the largest one of -p.
+// The smallest value of p is minus the largest value of -p.
 
 struct ValueBounds {
   double least = 0.0, greatest = 0.0;
 };
 
-/// Least and greatest value of one function at its points.
+/// Least and greatest value of one function at the points of the stride.
 [[nodiscard]] ValueBounds at_points(const Chebyshev::Values& values, std::size_t stride);
-/// Bounds that also hold between the points: if p rises at one point and decreases at the next, it is below
-/// both tangents.
+/// Bounds that are also valid between the points: if p increases at one point and decreases at the next, p is assumed to
+/// lie below both tangents.
 [[nodiscard]] ValueBounds between_points(const Chebyshev::Values& values, std::size_t stride);
 
-/// Bounds of p on the segment. `between`: the bounds also hold between the Chebyshev points in time.
+/// Bounds of p on the segment. between: the bounds are also valid between the Chebyshev points in time.
 [[nodiscard]] ValueBounds bounds_along(std::span<const Chebyshev::Values> f, std::size_t stride,
                                        bool between);
 
-/// Times in [-1, 1], between the points, of peaks of p's largest (sign 1) or smallest (-1) value, if the tangents allow
-/// a value above (below) `known`.
+/// Times in [-1, 1] of peaks of the largest (sign 1) or smallest (sign -1) value of p. Peaks are omitted if the tangents
+/// show that they do not exceed (sign -1: do not go below) `known`.
 [[nodiscard]] std::vector<double> peaks_along(std::span<const Chebyshev::Values> f, std::size_t stride,
                                               double sign, double known);
 
-/// Values at the points of the segment at time x.
+/// Values at the points of the segment at the time x in [-1, 1].
 [[nodiscard]] base::PolynomialInterpolation::Values values_along(std::span<const Chebyshev::Values> f,
                                                                  std::size_t stride, double x);
 

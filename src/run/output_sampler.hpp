@@ -1,4 +1,4 @@
-// output_sampler.hpp: rows at requested times: those of history.csv and those of frames.
+// output_sampler.hpp: rows at requested times: the output times of history.csv and the times of frames.
 //
 //   for (double t = samples.next(); t < step.end; t = samples.next()) samples.emit(t, state at t)
 #pragma once
@@ -13,7 +13,7 @@ namespace signorini::run {
 
 class OutputSampler {
  public:
-  /// All arguments must outlive the object. grid: output times shared by several runs; null: those of `run`.
+  /// All arguments must outlive the object. grid: output times shared by several runs; null: the output times of `run`.
   OutputSampler(const Model& model, const RunSpec& run, Auditor& auditor, Recorder& recorder,
                 std::shared_ptr<const std::vector<double>> grid = nullptr)
       : model_(model),
@@ -22,12 +22,12 @@ class OutputSampler {
         recorder_(recorder),
         grid_(grid ? std::move(grid) : std::make_shared<const std::vector<double>>(run.grid())) {}
 
-  /// The next time of the grid or of a frame; infinity after the last.
+  /// The next output time or frame time; infinity after the last time.
   [[nodiscard]] double next() const;
-  /// Records the time t = next(). ahead: works that the auditor has and that belong to times after t.
+  /// Records the row at t = next(). ahead: the works after t that the auditor has received already.
   void emit(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
             const contact::ContactStates& states, const motion::Point& point);
-  /// Sample at t, whose u and v are valid until the next call. ahead: as above.
+  /// Sample at t; its pointers u and v are valid until the next call. ahead: the works after t, as in emit().
   [[nodiscard]] Sample sample(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
                               const contact::ContactStates& states, const motion::Point& point);
 
@@ -38,7 +38,7 @@ class OutputSampler {
   Recorder& recorder_;
   std::shared_ptr<const std::vector<double>> grid_;
   std::size_t next_row_ = 0, next_frame_ = 0;
-  Vector physical_u_, physical_v_;  // of a model with other unknowns
+  Vector physical_u_, physical_v_;  // physical u and v, if the model has other unknowns
 };
 
 }  // namespace signorini::run

@@ -65,7 +65,7 @@ std::size_t PartRows::forward_events(double t, bool last) {
       ++report_.counters.time_events;
       order_.load_jump(event.t);
     }
-    // The length of its step is unknown here; it is at most the length of the run.
+    // The length of the step is unknown here; t is an upper bound.
     if (event.t_uncertainty) order_.event(event, motion::resolution_at(event.t, event.t));
     if (event.contact < 0 || event.type != EventType::time) ++report_.events_by_type[to_string(event.type)];
     recorder_.event(event);
@@ -133,7 +133,7 @@ namespace {
 
 constexpr std::size_t energy_values = energy_columns.size() + 1;
 
-/// Change of one line at t: its value by `jump`, its slope by `bend`.
+/// Change of one line at t: the value changes by `jump`, the slope by `bend`.
 struct Change {
   double t = 0.0;
   EnergyValues jump{}, bend{};
@@ -145,7 +145,7 @@ EnergyValues slope_between(const EnergyRow& a, const EnergyRow& b) {
   return slope;
 }
 
-/// Row on the straight line between two rows.
+/// Row at t on the straight line between two rows.
 EnergyRow row_at(double t, const EnergyRow& a, const EnergyRow& b) {
   const EnergyValues slope = slope_between(a, b);
   EnergyRow row{t, a.values};
@@ -153,7 +153,8 @@ EnergyRow row_at(double t, const EnergyRow& a, const EnergyRow& b) {
   return row;
 }
 
-/// Removes the changes of the line up to `until`, which the line reaches; one row remains there.
+/// Appends the changes of the line up to `until` to `changes`, and removes their rows; one row at `until` remains. The line
+/// must reach `until`.
 void take_changes(EnergyLine& line, double until, std::vector<Change>& changes) {
   EnergyValues slope{};
   const auto add_change = [&](double t, const EnergyValues& next, const EnergyValues& jump) {
@@ -231,7 +232,7 @@ void EnergySum::write(Curves& curves) {
   double greatest = 0.0;
   for (std::size_t i = 0; i + 1 < energy_values; ++i) greatest = std::max(greatest, curves_[i].size(0));
   for (std::size_t i = 0; i < energy_values; ++i) {
-    const bool balance = i + 1 == energy_values;  // the balance consists of rounding
+    const bool balance = i + 1 == energy_values;  // the balance is only rounding error: no threshold
     curves_[i].close({balance ? 0.0 : rounding::elimination * greatest});
     curves.names.emplace_back(balance ? balance_column : energy_columns[i].name);
     curves.points.push_back(curves_[i].take());

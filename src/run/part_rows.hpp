@@ -1,11 +1,12 @@
 // part_rows.hpp: merges rows and energies of parts that run separately into those of the whole model.
 //
-//   events:  ascending in t; at equal times jumps of loads come first, then events in the order of the parts
-//   rows:    at each time of the grid u, v and contacts of all parts; energies are summed
+//   events:  ascending in t; at equal times jumps of loads first, then events in the order of the parts
+//   rows:    u, v and contacts of all parts at each output time; energies are summed
 //
-//   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.forward(t); ...
+//   PartRows rows(whole, parts, t_end, recorder, report);   rows.add(recorder of part i), for all parts
+//   rows.forward(t), each time all parts have reached t; ...   rows.finish();   rows.forward_motion(t, recorders);
 //
-// All values are in the units of the whole model. A jump of a load is one row, for any number of parts it acts on.
+// All values are in the units of the whole model. A jump of a load is one row, even if the load acts on several parts.
 #pragma once
 
 #include <array>
@@ -26,18 +27,18 @@ struct Energy;
 
 namespace signorini::run {
 
-// Data that a run of a part has in common with the runs of the other parts.
+// Data of the whole model that the run of a part needs.
 //
-//   rows per contact, points per curve:   as if all parts ran together
+//   rows per contact, points per curve:   limited as in a common run of all parts
 
 /// Share of a part in the data of the whole model; the default is the whole model.
 struct PartShare {
   std::size_t parts = 1;
-  std::size_t contacts = 0, columns = 0;  ///< counts in the whole model; columns: drawn ones
-  std::vector<std::size_t> numbers = {};  ///< numbers of its contacts in the whole model
-  std::shared_ptr<const std::vector<double>> grid = nullptr;  ///< output times; null: its own
+  std::size_t contacts = 0, columns = 0;  ///< numbers of contacts and of drawn columns in the whole model
+  std::vector<std::size_t> numbers = {};  ///< for each contact of the part: its index in the whole model
+  std::shared_ptr<const std::vector<double>> grid = nullptr;  ///< output times; null: those of the RunSpec
   std::function<void(double t, const Energy&)> energies =
-      {};  ///< receives energies as often as a picture needs them
+      {};  ///< receives the part's energies at the rows that a picture needs
 
   [[nodiscard]] bool whole() const { return parts == 1; }
   [[nodiscard]] std::size_t number(std::size_t k) const { return whole() ? k : numbers[k]; }
@@ -45,18 +46,18 @@ struct PartShare {
 
 // Energies of parts that run separately, summed for pictures during the run.
 //
-//   s(t) = sum_i y_i(t)     y_i: linear between the rows of part i; two rows at one time are a jump, and a jump of s
+//   s(t) = sum_i y_i(t)     y_i: linear between the rows of part i; two rows at one time are a jump of y_i and of s
 //
-// The rows of a part are as close as its own energies need (curve_record.hpp). The sum is thinned, not its terms: a
-// peak of a sum need not be a peak of a term. Sums restart with every piece, so that rounding of steep slopes does not
-// accumulate.
+// The spacing of a part's rows suits its own energies (curve_record.hpp). The sum is thinned, not its terms, because a
+// peak of a sum need not be a peak of a term. Each call of take() restarts the sum, so that the rounding errors of steep
+// slopes do not accumulate.
 
-/// All energies in the order of energy_columns, then the balance.
+/// All energies in the order of energy_columns, and the balance as the last entry.
 using EnergyValues = std::array<double, energy_columns.size() + 1>;
 /// The energies as an array.
 [[nodiscard]] EnergyValues values_of(const Energy& energy);
 
-/// Energies at one time, in any units; times of one part ascend.
+/// Energies of a part at one time; the times of successive rows do not decrease.
 struct EnergyRow {
   double t = 0.0;
   EnergyValues values{};
@@ -65,13 +66,13 @@ using EnergyLine = std::deque<EnergyRow>;
 
 class EnergySum {
  public:
-  /// Arguments are in the units of `whole`; curves are in those of its scene. most: rows per curve.
+  /// Arguments are in the units of `whole`; curves are in the units of its scene. most: largest number of rows per curve.
   EnergySum(const Model& whole, double t_end, std::size_t most);
 
-  /// Adds the lines up to `until`, or to the end of the shortest line, and removes the added rows except one per line
-  /// at that time. All lines begin at the same time.
+  /// Adds the lines up to `until`, or to the end of the shortest line, and removes the added rows; one row per line remains
+  /// at this time. All lines must begin at the same time.
   void take(const std::vector<EnergyLine*>& lines, double until);
-  /// Appends the curves and ends the sum.
+  /// Appends the summed curves to `curves`, and ends the sum.
   void write(Curves& curves);
 
  private:
@@ -80,11 +81,11 @@ class EnergySum {
   };
   void add(double t, const EnergyValues& values);
 
-  double time_, energy_;  // units
+  double time_, energy_;  // factors to the scene's units
   std::vector<base::Downsampled<CurvePoint, 1, ValueOf>> curves_;
 };
 
-/// Rows that a part has recorded and that are not merged yet; contacts have their numbers in the whole model.
+/// Recorder of a part: keeps rows until they are merged. Events contain contact indices of the whole model.
 class PartRecorder final : public Recorder {
  public:
   struct Row {
@@ -123,8 +124,8 @@ class PartRecorder final : public Recorder {
 
 class PartRows {
  public:
-  /// All arguments must outlive the object. The report receives events by type, load jumps, and events of unknown
-  /// order.
+  /// All arguments must outlive the object. The report receives the number of events by type and of load jumps, and
+  /// warnings about events whose order is unknown.
   PartRows(const Model& whole, const std::vector<assembly::PartModel>& parts, double t_end,
            Recorder& recorder, Report& report);
 
@@ -133,13 +134,12 @@ class PartRows {
     recorders_.push_back(&recorder);
     energy_lines_.push_back(&recorder.energy_rows);
   }
-  /// Passes on rows up to t and events before t, with `last` also events at t. Returns the number of these
-  /// events, including those left out because another part has recorded the same jump of a load.
+  /// Forwards rows up to t and events before t; with `last` also events at t. Returns the number of these events; a jump of
+  /// a load that several parts recorded is forwarded once, but included several times in this number.
   std::size_t forward(double t, bool last = false);
   /// Ends the merge, after the last event.
   void finish() { order_.finish(); }
-  /// Passes on the picture data of a run that ended at t. Called once; `from`: recorders in the order of the
-  /// parts.
+  /// Forwards the picture data of a run that ended at t. Called once. from: recorders in the order of the parts.
   void forward_motion(double t, const std::vector<PartRecorder*>& from);
 
  private:

@@ -13,13 +13,14 @@
 namespace signorini::run {
 namespace {
 
-// Modes of a state are used if they reproduce a motion to 1e-12 of its size (src/engine/exact/modal), relative to the
-// rounding of other sums.
+// Modes of a contact state are used only if they reproduce a motion to 1e-12 of its size (src/engine/exact/modal).
+// of_round_trip: this error relative to the rounding error of other sums.
 constexpr double round_trip = 1e-12, of_round_trip = round_trip / rounding::elimination;
 
 }  // namespace
 
-// A sum over modes starts a flight at g = 0 and does not detect its return if it is lower than the rounding of the sum.
+// An engine that sums over modes does not resolve low flights: the return of a flight that is lower than the rounding of
+// the sum is not detected.
 CheckedEngine checked_engine(const RunSpec& run, const engine::Tolerance& tolerance, const std::string& flow,
                              bool low_flights) {
   CheckedEngine engine;
@@ -126,10 +127,10 @@ void CheckedMotion::fill(const motion::Forcing& forcing, double t, double depend
                          law_check::CheckedSide& side) const {
   side.layout = model_.layout;
   for (std::size_t turns : {0U, 1U}) {
-    // Between two instants the motion may reach the scene's displacements, even if it is at rest at both.
+    // Between two instants the motion may reach the scene's displacements, even if it is at rest at both instants.
     const double own = turns ? model_.scales.rotation : model_.scales.displacement;
     side.max_u[turns] = std::max({own, u_reach_[turns], dependence * of_round_trip * u_modal_[turns]});
-    // A body at rest on a surface that starts to move has the rounding of that motion: A cos(w t - pi/2) at t = 0.
+    // The velocity of a body at rest has the rounding of the prescribed motion, for example A cos(w t - pi/2) at t = 0.
     const double given = rounding::few_operations / rounding::elimination *
                          (turns ? model_.scales.angular_velocity : model_.scales.velocity);
     side.max_v[turns] = std::max({given, v_reach_[turns], dependence * of_round_trip * v_modal_[turns]});
@@ -169,7 +170,7 @@ void CheckedMotion::update_maxima(const law_check::LawChecker& witness, const Ve
   const std::array<double, 2> by_energy = witness.modal_size(std::sqrt(energy_));
   const double period = model_.omega1 > 0.0 ? 1.0 / model_.omega1 : 0.0;
   for (std::size_t turns : {0U, 1U}) {
-    // In a sum over modes, displacements are amplitudes times sines, and the amplitudes are v/omega.
+    // In a sum over modes, displacements have amplitudes up to v / omega, omega being at least omega1.
     u_modal_[turns] =
         std::max({u_modal_[turns], of_u[turns], period * by_energy[turns], period * of_v[turns]});
     v_modal_[turns] = std::max({v_modal_[turns], of_v[turns], by_energy[turns]});
@@ -185,7 +186,7 @@ std::array<double, 2> CheckedMotion::acceleration_terms(const law_check::LawChec
 
 namespace {
 
-/// Event with the guard's rate in the units of the computation, which are not those of its row.
+/// Event with guard_rate in the units of the computation; Event::guard_rate is in the scene's units.
 law_check::RecordedEvent recorded(const Event& event, const decide::Decision& decision) {
   law_check::RecordedEvent result = recorded_event(event);
   const decide::Crossing* crossing = event.t_uncertainty ? decision.crossing(result.contact) : nullptr;
@@ -220,7 +221,7 @@ RunLawChecker::RunLawChecker(const Model& model, const CheckedEngine& engine, Re
 
 namespace {
 
-/// Copy of the data that the record points to.
+/// Copy of a record for the Recorder; the record only points to its data.
 InstantRow row_of(const law_check::InstantRecord& record) {
   const auto side = [](const law_check::CheckedSide& s) {
     return InstantSide{*s.u, *s.v, s.a != nullptr ? *s.a : Vector(), *s.mode, *s.forces};
@@ -252,7 +253,7 @@ void RunLawChecker::instant(const Instant& now) {
   law_check::InstantRecord record;
   record.t = now.t;
   record.resolution = now.resolution;
-  record.before = std::move(before_);  // their memory is reused
+  record.before = std::move(before_);  // reuses the memory of the previous instant
   record.after = std::move(after_);
   motion_.fill(*now.forcing_before, now.t, now.eigenvector_condition, record.before);
   record.before.u = &now.before->u;
@@ -317,7 +318,7 @@ void RunLawChecker::between(double t, const motion::Forcing& forcing,
 
 namespace {
 
-/// Deformation of the springs of a compliance split along n and t, in addition to the motion of its surfaces.
+/// Deformations along n and t of the springs that a compliance split takes from the structure; 0 without a split.
 std::pair<double, double> borrowed(const Contact& c, const ForceLayout& layout, std::size_t k,
                                    const Vector& forces) {
   if (!c.compliance_split()) return {0.0, 0.0};
@@ -344,7 +345,7 @@ void RunLawChecker::observe(double t, const motion::Forcing& forcing, const moti
 
 void RunLawChecker::observe(std::size_t k, double t, const motion::Forcing& forcing,
                             const motion::Point& point) {
-  if (engine_.limits.step > 0.0) return;  // peaks are taken at the ends of steps
+  if (engine_.limits.step > 0.0) return;  // engines with fixed steps record peaks only at the ends of steps
   const Contact& c = model_.contacts[k];
   ObservedPeak& p = observed_peaks_[k];
   p.most.N = std::max(p.most.N, std::abs(point.N(model_.layout, k)));
@@ -355,7 +356,7 @@ void RunLawChecker::observe(std::size_t k, double t, const motion::Forcing& forc
   p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));
 }
 
-/// Size of the terms of a contact's g and ut, with the largest displacement of each kind.
+/// Bound for the terms of a contact's g and ut, from the largest displacements and rotations so far.
 double RunLawChecker::place_of(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const auto size = [&](const Combination& form) {
@@ -374,8 +375,8 @@ void RunLawChecker::peaks(double t, const std::vector<Peak>& recorded) {
   for (std::size_t k = 0; k < observed_peaks_.size() && k < recorded.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const ObservedPeak& p = observed_peaks_[k];
-    // Both values are the same sum, at different points. A fixed point moves by the rounding of the scene's
-    // displacements.
+    // The observed and the recorded peak are the same sum at different points. Even a contact at rest moves by the
+    // rounding of the scene's displacements.
     const law_check::LawLimits& tol = engine_.limits;
     const double place = place_of(k);
     const double length = rounding::elimination * (place + model_.scales.displacement) +

@@ -9,11 +9,10 @@
 namespace signorini::run {
 namespace {
 
-// A bouncing ball with e = 0.99 passes its accumulation point with 2000 events; one with e = 0.999 needs 20000, in a
-// longer time.
+// A bouncing ball comes to rest after 2000 events if e = 0.99, and after 20000 events, in a longer time, if e = 0.999.
 constexpr int watched_events = 10000;
-constexpr double least_progress = 1e-5;          // fraction of the run, for this number of events
-constexpr double resolutions_of_instant = 10.0;  // largest distance of events of one instant from the first
+constexpr double least_progress = 1e-5;          // least duration of watched_events, as a fraction of the run
+constexpr double resolutions_of_instant = 10.0;  // duration of one instant, in resolutions of the clock
 
 }  // namespace
 
@@ -45,7 +44,7 @@ std::optional<std::string> StallDetector::slow_progress(double t) {
 
 namespace {
 
-constexpr double large = 0.25;  // rad; 1 - cos is 3 %: chosen value
+constexpr double large = 0.25;  // rad; 1 - cos is 3 %. Chosen value
 
 }  // namespace
 

@@ -1,7 +1,8 @@
-// run_limits.hpp: detects events without progress in time, and large motions. Many events alone are no error.
+// run_limits.hpp: detects runs whose events no longer advance in time, and large motions. A run ends if one of these
+// conditions is violated:
 //
-//   at one instant   at most max_events_at_once, an instant being ten resolutions of the clock
-//   altogether       10 000 events take at least 1e-5 of the run
+//   at one instant (ten resolutions of the clock)   at most max_events_at_once events
+//   in the whole run                                10 000 successive events cover at least 1e-5 of the run
 #pragma once
 
 #include <optional>
@@ -15,15 +16,15 @@ namespace signorini::run {
 
 class StallDetector {
  public:
-  /// unit: factor that converts times for messages.
+  /// most_at_once: RunSpec::max_events_at_once. unit: factor that converts times to the scene's unit in messages.
   StallDetector(double t_end, int most_at_once, double unit = 1.0)
       : t_end_(t_end), max_at_once_(most_at_once), unit_(unit) {}
 
-  /// Counts an instant; times must not decrease. Returns the reason for ending the run; nullopt if it
-  /// continues. contacts: those whose guards were triggered, or whose states an engine has changed.
+  /// Counts an instant; times must not decrease. Returns the reason why the run must end; nullopt: it continues.
+  /// contacts: contacts whose guards were triggered, or whose states the engine has changed.
   [[nodiscard]] std::optional<std::string> count(double t, double resolution,
                                                  const std::vector<std::size_t>& contacts = {});
-  /// Contacts of the instants that exceeded a limit, ascending.
+  /// Contacts of the events that exceeded a limit, in ascending order.
   [[nodiscard]] std::vector<std::size_t> contacts() const { return {contacts_.begin(), contacts_.end()}; }
 
  private:
@@ -33,7 +34,7 @@ class StallDetector {
   double t_end_;
   int max_at_once_;
   double unit_;
-  double cluster_ = 0.0;  // time of the first of the simultaneous events
+  double cluster_ = 0.0;  // time of the first of the current simultaneous events
   int at_once_ = 0;
   double mark_ = 0.0;  // time of the last check of progress
   int since_mark_ = 0;
@@ -44,17 +45,17 @@ class StallDetector {
 //
 //   |rotation| > 1/4 rad,   |ut| > R/4 of a pendulum:   cos differs from 1 by 3 %
 //
-// All computations use cos = 1 and sin = tan for motions of any size; one warning per run therefore reports the first
-// large motion and the largest one.
+// The model is linear: it sets cos = 1 for motions of any size. One warning per run reports the first large motion and the
+// largest motion.
 
 class LargeMotionDetector {
  public:
-  /// Amplitudes of modes (reduced models) are not examined. The model must outlive the object.
+  /// Reduced models are not examined, because their unknowns are amplitudes of modes. The model must outlive the object.
   explicit LargeMotionDetector(const Model& model);
 
-  /// Examines the end of a step.
+  /// Examines the motion at the end of a step.
   void examine(double t, const motion::Forcing& forcing, const motion::Point& now);
-  /// Text of the warning; nullopt: all motions stayed small.
+  /// Text of the warning; nullopt: all motions were small.
   [[nodiscard]] std::optional<std::string> warning() const;
 
  private:

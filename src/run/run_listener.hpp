@@ -1,13 +1,12 @@
 // run_listener.hpp: interface of listeners to the steps and decisions of a run.
 //
-//   begin(decision at 0)
-//   { step(dense output) reached(its end)   before(an instant) instant(decision before, after) } ...
-//   end
+//   begin(decision at t = 0)
+//   { step(dense output) reached(end of the step)   before(point before an instant) instant(both sides) } ...
+//   end(last point)
 //
-// All values are in the units of the computed model. Arguments are valid during the call. A listener does not
-// influence the run.
-// The two objects that influence a run have interfaces of their own: EventShift here, and FaultInjector
-// (run/fault_injector.hpp); loads are steered by a Recorder (signorini/result.hpp).
+// All values are in the units of the computed model. Arguments are valid only during the call. A listener does not
+// influence the run. Objects that influence a run have other interfaces: EventShift below, FaultInjector
+// (run/fault_injector.hpp), and a Recorder that steers loads (signorini/result.hpp).
 #pragma once
 
 #include <cstdint>
@@ -28,12 +27,13 @@ class FaultInjector;
 struct RunStep {
   const engine::Step& step;
   const engine::StepFacts& facts;
-  const decide::Decision& decision;  ///< the contact states of the step
+  /// Decision at the last instant; its contact states are those of the step.
+  const decide::Decision& decision;
   const motion::Forcing& forcing;
   engine::DenseOutput& motion;
 };
 
-/// Motion at a time, in the contact states before it.
+/// Motion at the time t, before any change of contact states at t.
 struct RunPoint {
   double t = 0.0;
   const motion::Forcing& forcing;
@@ -41,7 +41,7 @@ struct RunPoint {
   const motion::Point& point;
 };
 
-/// An instant at which states were decided.
+/// An instant at which contact states were decided.
 struct RunInstant {
   double t = 0.0, resolution = 0.0;
   const std::vector<decide::TriggeredGuard>& triggered;
@@ -49,10 +49,10 @@ struct RunInstant {
   const contact::ContactStates& states_before;
   const decide::Decision& after;
   const motion::Forcing &forcing_before, &forcing_after;
-  const Vector& v_before;  ///< velocities before; u is that of `after`
+  const Vector& v_before;  ///< velocities just before the instant; displacements u: those of `after`
   bool load_jumps = false;
-  bool adopted = false;  ///< the engine found states, and no time
-  /// Points of the loop; null if an instant is computed again without a loop.
+  bool adopted = false;  ///< the engine found the states, but did not locate the time
+  /// Motion just before and just after; null if the instant is computed again outside of a run's loop.
   const motion::Point *point_before = nullptr, *point_after = nullptr;
 };
 
@@ -60,9 +60,9 @@ struct RunInstant {
 struct ListenerNeeds {
   /// Data that engine `exact` in modes shares with the listener (engine/exact/modal/modal_flow.hpp); null: none.
   modal::SharedModalData* modal = nullptr;
-  /// True if the largest N, T, gap and ut inside steps are needed. `exact` in modes computes them only then.
+  /// True if the listener needs the extremes of N, T, gap and ut inside steps; if false, `exact` in modes omits them.
   bool peaks = true;
-  /// Seed, not 0: engine `exact` in series varies the lengths of its steps randomly.
+  /// Seed for random step lengths of engine `exact` with series; 0: the usual step lengths.
   std::uint64_t step_seed = 0;
 };
 
@@ -71,7 +71,7 @@ class RunListener {
   virtual ~RunListener() = default;
   virtual void begin(const RunInstant& /*start*/) {}
   virtual void step(const RunStep& /*step*/) {}
-  /// Receives the end of the step, after step().
+  /// Receives the motion at the end of the step; called after step().
   virtual void reached(const RunStep& /*step*/, const RunPoint& /*end*/) {}
   /// Receives the motion just before an instant whose states are not decided yet.
   virtual void before(const RunPoint& /*point*/) {}
@@ -110,16 +110,16 @@ class RunListeners final : public RunListener {
   std::vector<RunListener*> list_;
 };
 
-/// Shifts located events, so that a companion run represents the uncertainty that rounding hides in their
+/// Shifts located events of a companion run, so that its difference to the run includes the rounding errors of event
 /// times.
 class EventShift {
  public:
   virtual ~EventShift() = default;
-  /// Time by which the event at the end of the step is shifted.
+  /// Time that is added to the time of the event at the end of the step.
   virtual double shift(const engine::Step& step) = 0;
 };
 
-/// Listeners of a run, and objects that influence it; empty or null: none.
+/// Listeners of a run, and objects that influence the run. Every member may be empty or null.
 struct RunHooks {
   RunListeners listeners = {};
   ListenerNeeds needs = {};
@@ -130,7 +130,7 @@ struct RunHooks {
   [[nodiscard]] bool none() const { return listeners.none() && !rounds && !event_shift && !faults; }
 };
 
-/// Run as in signorini/simulate.hpp with a listener, for any engine.
+/// Same as simulate() in signorini/simulate.hpp, with a listener. event_shift: null, or shifts of located events.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               RunListener& listener, const ListenerNeeds& needs = {},
                               EventShift* event_shift = nullptr);

@@ -107,7 +107,7 @@ void RunRecord::rows(const RunStep& step) {
   }
 }
 
-/// Records a row. works_: from t to the end of the step.
+/// Records a row at t. Before the call, works_ must contain the works from t to the end of the step.
 void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
   samples_.emit(t, works_, step.forcing, step.decision.states, point);
   if (response_.has_outputs()) {
@@ -119,7 +119,7 @@ void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
   residual_due_ = true;
 }
 
-/// Audits each contact at its own turning points, for a motion that is not drawn.
+/// Audits each contact at its own turning points; used if no motion is drawn.
 void RunRecord::turns(const RunStep& step) {
   for (const events::TurningPointDetector::TurningPoint& turn : *step.facts.contact_turning_points) {
     if (!std::isfinite(turn.time)) continue;
@@ -165,8 +165,8 @@ void RunRecord::instant(const RunInstant& now) {
   after(now, now.breakpoint ? std::nullopt : std::optional(changed_contacts(now)));
 }
 
-/// Records the side after an instant; a row requested at its time shows this side. changed: contacts whose states or
-/// velocities have changed; absent: possibly all.
+/// Records the side after an instant; a row requested at this time shows this side. changed: contacts whose states or
+/// velocities have changed; nullopt: possibly all.
 void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std::size_t>>& changed) {
   const double t = now.t;
   const decide::Decision& decision = now.after;
@@ -187,7 +187,7 @@ void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std
   curves_.add(t, point.u, last_energy_);
 }
 
-/// Adds a row of curves. step: the one that contains t; the auditor has its works up to its end.
+/// Adds a row of curves at t. step: the step that contains t, if the auditor has received its works already.
 void RunRecord::add_curves(double t, const contact::ContactStates& states, const motion::Point& point,
                            const RunStep* step) {
   works_.clear();
@@ -209,7 +209,7 @@ void RunRecord::end(const RunPoint& last, const engine::StepperReport& engine) {
   curves_.write(recorder_);
   report_.warnings.insert(report_.warnings.end(), engine.warnings.begin(), engine.warnings.end());
   auditor_.finish(report_, last_energy_, last.t, last.states);
-  // Rows of a step without an instant at its end are kept, but it contributes no peaks.
+  // If the run stopped, rows of its last step may exceed the peaks, which do not include this step.
   if (report_.outcome.kind == Outcome::Kind::done) law_checker_.peaks(last.t, report_.peaks);
   report_.law_checks = std::move(law_checker_.law_checks());
   report_.response = response_.extremes();

@@ -1,10 +1,10 @@
 // run_record.hpp: listener that records rows, events, extremes, pictures, audit and law-check data of a run.
 //
-//   a step       works of the whole step, so that rows change no digit of the results; rows inside the step;
-//                extremes of outputs; times for pictures and peaks; the end of the step
-//   an instant   outputs before it, audit, event log, law check; a row at its time shows the side after it
+//   a step       works of the whole step, so that output times do not change the results; rows inside the step;
+//                extremes of outputs; rows for pictures and peaks; the end of the step
+//   an instant   outputs before the instant, audit, event log, law check; a row at this time shows the side after it
 //
-// This is the only list of recorders and their order: each point inside a step is evaluated once for all of them.
+// All recorders and their order are listed here only: each point inside a step is evaluated once for all recorders.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ namespace signorini::run {
 
 class RunRecord final : public RunListener {
  public:
-  /// All arguments except method and share must outlive the object. faults: null, or errors injected by a test.
+  /// All arguments except method and share must outlive the object. faults: faults injected by a test; null: none.
   RunRecord(const Model& model, const RunSpec& run, const Method& method,
             const linear::SystemMatrices& structure, const engine::Stepper& engine, Recorder& recorder,
             Report& report, FaultInjector* faults, const PartShare& share);
@@ -40,17 +40,17 @@ class RunRecord final : public RunListener {
   /// Completes the report.
   void end(const RunPoint& last, const engine::StepperReport& engine) override;
 
-  /// Records a point at which no states could be decided.
+  /// Records the energy at a point at which no contact states could be decided.
   void refused(const RunPoint& point) { last_energy_ = auditor_.energy(point.t, point.states, point.point); }
   /// Updates the frequencies of outputs after a change of the model's loads.
   void loads_changed() { response_.loads_changed(); }
   /// Sample for a steering recorder, valid until the next row.
   [[nodiscard]] Sample sample(const RunPoint& point);
-  /// Reason for ending the run: a violated law without an explanation. Empty: none.
+  /// Message about a violated law without an explanation, for which the run must end; empty: no such violation.
   [[nodiscard]] const std::string& law_violated() const { return law_checker_.unexplained(); }
   /// Energy after the last decision.
   [[nodiscard]] const Energy& energy() const { return last_energy_; }
-  /// True if outputs need accelerations in the points before instants.
+  /// True if the points just before instants must contain accelerations, because the model has outputs.
   [[nodiscard]] bool needs_accelerations() const { return response_.has_outputs(); }
 
  private:
@@ -70,7 +70,7 @@ class RunRecord final : public RunListener {
   Recorder& recorder_;
   Report& report_;
   FaultInjector* faults_;
-  std::unique_ptr<Model> exact_model_;  // null: same as model_
+  std::unique_ptr<Model> exact_model_;  // model without injected faults; null: no faults
   RunLawChecker law_checker_;
   Auditor auditor_;
   EventLog log_;
@@ -81,11 +81,11 @@ class RunRecord final : public RunListener {
   LargeMotionDetector large_;
   ZeroTracker zero_since_;
   DecisionWarnings warnings_;
-  motion::Point point_;  // inside a step
+  motion::Point point_;  // buffer for points inside a step
   motion::WorkIntegrals works_;
   Energy last_energy_;
   double condition_ = 1.0;     // StepFacts::eigenvector_condition of the last step
-  bool residual_due_ = false;  // at the end of the step: once for every row
+  bool residual_due_ = false;  // a row was written: audit the residual at the end of its step
 };
 
 }  // namespace signorini::run

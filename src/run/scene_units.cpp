@@ -64,7 +64,7 @@ class ToScene {
 
 }  // namespace
 
-// Converts every column by the unit of its name; guard_rate has the unit of its guard (unit_of) and is not converted.
+// Converts every column by its unit in event_columns. guard_rate has no such unit and is not converted.
 Event to_scene_units(Event event, const Factors& of) {
   const ToScene convert(of);
   for (const EventColumn& column : event_columns)

@@ -2,7 +2,7 @@
 //
 //   value in the scene's units = value * factor        factors: Model::unit of the computed model
 //
-// Factors are powers of two: the conversion is exact.
+// Factors are powers of two, so the conversion has no rounding error.
 #pragma once
 
 #include "model/internal_units.hpp"
@@ -17,15 +17,15 @@ namespace signorini::run {
 [[nodiscard]] Sample to_scene_units(Sample sample, const Factors& of);
 /// Converts a report, except the extremes of outputs.
 [[nodiscard]] Report to_scene_units(Report report, const Factors& of);
-/// Converts a report, with the extremes of the outputs of the computed model.
+/// Converts a report, including the extremes of the outputs of the computed model.
 [[nodiscard]] Report to_scene_units(Report report, const Model& computed);
 /// Converts displacements, velocities (order 1) or accelerations (order 2) of these degrees of freedom.
 [[nodiscard]] Vector to_scene_units(Vector motion, const std::vector<Dof>& dofs, int order,
                                     const Factors& of);
-/// Converts both sides of an instant. dofs: of the computed model; for a reduced model they are amplitudes.
+/// Converts both sides of an instant. dofs: degrees of freedom of the computed model; amplitudes in a reduced model.
 [[nodiscard]] InstantRow to_scene_units(InstantRow row, const std::vector<Dof>& dofs, const Factors& of);
 
-/// Forwards all data in the scene's units.
+/// Recorder that converts all data to the scene's units and forwards them.
 class SceneUnitsRecorder : public Recorder {
  public:
   /// Model and recorder must outlive the object.
@@ -54,7 +54,8 @@ class SceneUnitsRecorder : public Recorder {
   std::vector<double> values_;
 };
 
-/// Listener that forwards rounds in the scene's units; empty if `listener` is. `model` must outlive it.
+/// Listener that converts rounds to the scene's units and calls `listener`; empty if `listener` is empty. The model must
+/// outlive the result.
 [[nodiscard]] RoundListener to_scene_units(const RoundListener& listener, const Model& model);
 
 }  // namespace signorini::run

@@ -1,4 +1,4 @@
-// Runs a model and reports: converts to the units of the computation, and back.
+// Runs a model in the units of the computation, and reports its results in the units of the scene.
 
 #include "signorini/simulate.hpp"
 
@@ -128,7 +128,7 @@ SavedState last_state(const Model& model, const Result& result) {
   const Result::Row& last = result.rows.back();
   SavedState state;
   const std::vector<Dof>& dofs = model.physical_dofs();
-  // Sliding points are the last degrees of freedom; "c.slip" represents them.
+  // Sliding points are the last degrees of freedom; the state file has them as "CONTACT.slip", not as displacements.
   const auto sliding = std::count_if(model.contacts.begin(), model.contacts.end(),
                                      [](const Contact& c) { return c.sliding_point() != nullptr; });
   const std::size_t structural = dofs.size() - (model.reduction ? 0 : static_cast<std::size_t>(sliding));

@@ -50,20 +50,21 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
 
 namespace {
 
-/// A breakpoint and its history.
+/// A breakpoint, and the history to which it belongs.
 struct Owned {
   Breakpoint at;
   const History* history;
 };
 
-/// True if the changes of f between the two times, which count as one, change its value.
+/// True if the value of f before the breakpoint at `first` differs from its value after the breakpoint at `last` by more
+/// than rounding.
 bool leaps(const History& f, double first, double last) {
   const Piece &before = f.piece_before(first), &after = f.piece(last);
   return std::abs(after.value(last) - before.value(first)) >
          history::roundoff(before, first) + history::roundoff(after, last);
 }
 
-/// Merges the breakpoints [first, last) into one instant.
+/// Merges the breakpoints [first, last) into one, at the last of their times.
 Breakpoint merged(std::vector<Owned>::const_iterator first, std::vector<Owned>::const_iterator last) {
   Breakpoint one{std::prev(last)->at.time, false};
   for (auto i = first; i != last; ++i) {

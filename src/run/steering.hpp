@@ -1,8 +1,8 @@
 // steering.hpp: changes of loads during a run, and breakpoints of the forcing.
 //
-//   f(t) <- f before now, the new history from now on;   breakpoints are updated
+//   set_load at t_1:   f(t) stays the old history for t < t_1, and is the new history for t >= t_1
 //
-// Pieces of a history that forcings refer to stay in memory until the run ends.
+// Replaced histories stay in memory until the run ends, because forcings refer to their pieces.
 #pragma once
 
 #include "run/engines.hpp"
@@ -10,7 +10,7 @@
 
 namespace signorini::run {
 
-/// Converts requests, in the scene's units, to changes of the computed model.
+/// Applies requests for other loads, given in the scene's units, to the computed model.
 class LoadChanges final : public Steering {
  public:
   /// All arguments must outlive the object.
@@ -21,11 +21,11 @@ class LoadChanges final : public Steering {
 
   /// Sets the current time, in the units of the computation.
   void set_time(double t) { t_ = t; }
-  /// Flags: a load has changed; a value jumps.
+  /// any: a load has changed; jump: the value of a load jumps.
   struct Change {
     bool any = false, jump = false;
   };
-  /// Puts the requests since the last call in force.
+  /// Makes the requests since the last call the change at the current instant.
   void apply() { change_ = std::exchange(requested_, {}); }
   /// Change at the current instant.
   [[nodiscard]] const Change& change() const { return change_; }
@@ -40,28 +40,27 @@ class LoadChanges final : public Steering {
   std::vector<History> past_;
 };
 
-// Times at which the forcing of a model is not smooth; integrators stop there.
+// Breakpoints: times at which the forcing of a model is not smooth; integrators stop at these times.
 
-/// Breakpoints of all forcing in (0, t_end), ascending; `jump` is set if a value jumps. Breakpoints closer
-/// than the resolution of the clock are merged into one at the last of their times, where every history is on
-/// its next piece. If one history has several breakpoints there, `jump` is set if its values before and after
-/// differ.
+/// Breakpoints of all forcing in (0, t_end), ascending; `jump` is set if a value jumps. Breakpoints closer than the
+/// resolution of the clock are merged into one at the last of their times, so that every history is on its next piece.
+/// If one history has several of these breakpoints, `jump` is set if its values before and after differ.
 [[nodiscard]] std::vector<Breakpoint> breakpoints(const Model& model, double t_end);
 
-/// Breakpoints of a run, in order.
+/// Breakpoints of a run, in ascending order.
 class BreakpointQueue {
  public:
   BreakpointQueue(const Model& model, double t_end) : list_(breakpoints(model, t_end)), t_end_(t_end) {}
 
   /// Time up to which the forcing is smooth: the next breakpoint, or t_end.
   [[nodiscard]] double next() const { return next_ < list_.size() ? list_[next_].time : t_end_; }
-  /// Flags: a breakpoint was passed; a value jumps there.
+  /// any: a breakpoint was passed; jump: a value jumps at one of the passed breakpoints.
   struct Passed {
     bool any = false, jump = false;
   };
-  /// Moves t to the last breakpoint that is within the resolution of t, if there is one.
+  /// Passes all breakpoints up to t + resolution, and sets t to the last passed breakpoint, if there is one.
   Passed pass(double& t, double resolution);
-  /// Updates the breakpoints after t for changed loads.
+  /// Computes the breakpoints after t again, for changed loads.
   void loads_changed(const Model& model, double t);
 
  private:

@@ -1,8 +1,8 @@
-// touch_tracker.hpp: last touches of contacts, times since when guards are zero, and landings.
+// touch_tracker.hpp: last touches of contacts, times since which guards are zero, and landings.
 //
-// At its last touch a contact has exactly g = 0; from then on rounding accumulates in its gap.
+// At its last touch a contact has exactly g = 0; afterwards rounding accumulates in the gap.
 //
-//   touched_k = the last instant at which k was closed, before or after, or took an impulse; 0: never
+//   last touch of k = last instant at which contact k was closed, before or after it, or had an impulse; 0: none
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@
 
 namespace signorini::run {
 
-/// Stores the last touch of each contact.
+/// Stores the time of the last touch of each contact.
 class TouchTracker {
  public:
   explicit TouchTracker(std::size_t contacts) : times_(contacts, 0.0) {}
@@ -31,16 +31,16 @@ class TouchTracker {
   std::vector<double> times_;
 };
 
-// Times since when guards are zero up to rounding.
+// Times since which guards are zero up to rounding.
 //
-//   since_k = last change of the forcing's formula at which guard k and all its known derivatives were zero
+//   since_k = last change of the forcing at which guard k and all its known derivatives were zero
 //
-// A guard that changes with a high power of time stays below its rounding for a long time: if a guard was never
-// observed above it, its event may have happened at any time since then.
+// A guard that changes with a high power of time stays below its rounding error for a long time. If it was never above
+// this error, its event may have happened at any time after since_k.
 
 class ZeroTracker {
  public:
-  /// Updates the times after a decision at t. changed: the forcing has another formula from t on.
+  /// Updates the times after a decision at t. changed: the forcing follows another formula from t on.
   void update(double t, const decide::Decision& decision, bool changed) {
     layout_ = decision.layout;
     since_.resize(decision.guards.size(), none);
@@ -55,8 +55,8 @@ class ZeroTracker {
     for (std::size_t slot = 0; slot < kinds_.size(); ++slot) kinds_[slot] = decision.guards[slot].kind;
   }
 
-  /// Durations for which the guards triggered at t had been zero, one entry per contact; empty if no guard
-  /// had.
+  /// Durations for which the guards triggered at t had been zero, one entry per contact; empty if no triggered guard had
+  /// been zero before t.
   [[nodiscard]] std::vector<double> zero_durations(double t,
                                                    const std::vector<decide::TriggeredGuard>& fired) const {
     std::vector<double> result;
@@ -81,7 +81,7 @@ class ZeroTracker {
 //
 //   impulse = sum of Pn at hits + integral of -N dt,   from the instant of closing to that of opening
 //
-// Forces are never impulses divided by a step: a hit without a closure has an impulse and a peak force of zero.
+// Impulses are never converted to forces: a hit without a closure has an impulse, but its peak force is zero.
 
 class LandingTracker {
  public:
@@ -89,18 +89,18 @@ class LandingTracker {
       : model_(model), ended_(model.contacts.size()), now_(model.contacts.size()) {}
 
   void begin(double t, const contact::ContactStates& states);
-  /// Adds the integrals of -N since the last call.
+  /// Adds the integrals of -N over the time since the last call.
   void add(const motion::WorkIntegrals& works);
   void observe(std::size_t contact, double N);
   void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states);
-  /// Ends the landings that last at t. One list per contact.
+  /// All landings, one list per contact; landings that have not ended end at t.
   [[nodiscard]] std::vector<std::vector<Landing>> finish(double t,
                                                          const contact::ContactStates& states) const;
 
  private:
   const Model& model_;
   std::vector<std::vector<Landing>> ended_;  // one list per contact
-  std::vector<Landing> now_;                 // one entry per contact; valid while its landing lasts
+  std::vector<Landing> now_;                 // current landing of each contact; valid while active_[k]
   std::vector<bool> active_;
 };
 

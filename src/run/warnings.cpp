@@ -16,14 +16,13 @@
 namespace signorini::run {
 namespace {
 
-// Limit of a load's oscillation in a step, in rad: the impulse of a half wave is off by its square / 12, a
-// twelfth.
+// Limit for the phase angle a of a load in one step, in rad: the impulse of a half wave has the relative error a^2 / 12.
 constexpr double max_turned = 1.0;
-constexpr double much_energy = 1e-3;  // fraction of the exchanged energy: a larger error is reported
-// Fraction of the scene's scales, or of the stored energy, below which no energy is exchanged: at rest there
-// is only rounding.
+constexpr double much_energy = 1e-3;  // an error above this fraction of the exchanged energy is reported
+// An error below this fraction of force scale * length scale, or of the initial energy, is rounding of a structure at
+// rest and is not reported.
 constexpr double least_energy = 1e-9;
-constexpr int max_warnings_of_a_kind = 5;  // limit for the warnings of one kind in a run
+constexpr int max_warnings_of_a_kind = 5;  // further warnings of the same kind are omitted
 
 }  // namespace
 
@@ -32,7 +31,7 @@ std::vector<std::string> shear_limit_warnings(const Model& model, const decide::
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     const double asked = c.initial_shear, found = start.after[k].T;
-    // The limit fs |N|, N = kn g, has the rounding of the terms of g: a start with friction ends at it.
+    // The limit fs |N|, N = kn g, has the rounding error of the terms of g; a smaller reduction of T causes no warning.
     const double limit = c.normal_spring() ? contact::static_friction(c) * c.normal_stiffness *
                                                  (std::abs(c.gap) + c.normal.magnitude(model.u0))
                                            : std::abs(asked);
@@ -63,8 +62,8 @@ std::vector<std::string> fast_load_warnings(const Model& model, const RunSpec& r
     }
     if (omega * *run.dt > max_turned)
       sentences.push_back(fmt::format(
-          "'{}' turns by {:.3g} rad in a step of run.dt = {:.6g}, which does not resolve it; use a "
-          "smaller dt",
+          "'{}': its phase advances by {:.3g} rad in a step of run.dt = {:.6g}, which is too coarse; use a "
+          "smaller run.dt",
           load.name, omega * *run.dt, model::time_in_scene_units(model, *run.dt)));
   }
   return sentences;
@@ -72,7 +71,8 @@ std::vector<std::string> fast_load_warnings(const Model& model, const RunSpec& r
 
 namespace {
 
-// t: in the scene's unit.
+// Texts of warnings. t: time in the unit of the scene.
+
 
 std::string impact_gain(double t, double gain) {
   return fmt::format(
@@ -90,7 +90,7 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
             linear::has_share(shared.null, static_cast<Eigen::Index>(i)) &&
             (names.empty() || names.back() != name))
           names.push_back(name);
-  // Slip at the limit without a guard of the slip rate: other contacts hold the contact.
+  // A contact at its limit that has no guard of the slip rate is held at rest by other contacts.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     bool held_at_limit = slip_sign(decision.states[c].state) != 0 && model.contacts[c].sticks_rigidly();
     for (std::size_t slot = model.layout.guard(c); slot < model.layout.guard_end(c); ++slot)

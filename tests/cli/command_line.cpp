@@ -86,7 +86,7 @@ TEST_CASE("cli: what a command does not take is named, with what was meant") {
   CHECK(told({"plot", "a-run", "--lang", "de"}) ==
         "error: plot: no option --lang; did you mean \"--language\"?\nsee signorini plot --help\n");
   CHECK(told({"sensitivity", "a.toml", "--engine", "exact", "--parameter", "b"}) ==
-        "error: sensitivity: no option --engine; --set run.engine=NAME does it\nsee signorini sensitivity "
+        "error: sensitivity: no option --engine; use --set run.engine=NAME\nsee signorini sensitivity "
         "--help\n");
   CHECK(told({"run", "a.toml", "extra"}) ==
         "error: run: unexpected argument \"extra\"\nsee signorini run --help\n");

@@ -223,7 +223,7 @@ TEST_CASE(
   const Ending full = shell.wait(shell.start(command, ".out", 3000));
   CHECK(full.code == 6);
   CHECK_MESSAGE(has(full.err, "belt-sweep/rows.jsonl: cannot be written: File too large"), full.err);
-  CHECK(has(full.err, "the sweep stopped where a file could not be written; "));
+  CHECK(has(full.err, "a file could not be written, so the sweep stopped; "));
   const std::string kept = shell.read("belt-sweep/rows.jsonl");
   CHECK(kept.size() > 1000);
   CHECK(kept.back() == '\n');

@@ -100,7 +100,7 @@ TEST_CASE("cli sweep: where every run is refused the sweep is, by the code of a 
       "= \"b\"\nmass = 1.0\n");
   const Ending ending = shell.run({"sweep", "falls.toml", "--vary", "masses.1.mass=1,2", "--no-plots"});
   CHECK(ending.code == 3);
-  CHECK(has(ending.err, "every run of the sweep was refused, the first of them: "));
+  CHECK(has(ending.err, "every run of the sweep was refused; reason of the first run: "));
   CHECK(has(ending.err, "nothing restrains the"));
   const json list = rows(shell, "falls-sweep");
   REQUIRE(list.size() == 2);

@@ -37,10 +37,10 @@ constexpr double patience = 20.0, least_steps = 1e5;
 constexpr std::chrono::milliseconds now_and_then{50};
 
 /// A thread with all signals blocked, so that the calling thread receives all signals.
-class QuietThread {
+class SignalBlockedThread {
  public:
   template <class Work>
-  explicit QuietThread(Work work) {
+  explicit SignalBlockedThread(Work work) {
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, &before);
@@ -52,9 +52,9 @@ class QuietThread {
     }
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }
-  ~QuietThread() { thread_.join(); }
-  QuietThread(const QuietThread&) = delete;
-  QuietThread& operator=(const QuietThread&) = delete;
+  ~SignalBlockedThread() { thread_.join(); }
+  SignalBlockedThread(const SignalBlockedThread&) = delete;
+  SignalBlockedThread& operator=(const SignalBlockedThread&) = delete;
 
  private:
   std::thread thread_;
@@ -200,9 +200,9 @@ class Companions {
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::condition_variable ended_;
-  std::size_t done_ = 0;            // guarded by mutex_
+  std::size_t done_ = 0;  // guarded by mutex_
   // The last member, so that threads are joined before other members are destroyed.
-  std::list<QuietThread> threads_;
+  std::list<SignalBlockedThread> threads_;
 };
 
 /// True if the plan is cheap enough to certify the run automatically.

@@ -54,11 +54,11 @@ struct CompanionRun {
 
 struct CompanionPlan {
   std::vector<CompanionRun> runs;
-  std::string name;        ///< "exact", "ida, rtol 1e-10"
-  std::string choice;      ///< "as given", or "auto: ..."
+  std::string name;    ///< "exact", "ida, rtol 1e-10"
+  std::string choice;  ///< "as given", or "auto: ..."
   /// Reason why the companion cannot certify the run; empty: the companion can certify it.
   std::string limitation;
-  double factor = 1.0;     ///< c
+  double factor = 1.0;  ///< c
   /// Fraction of t_uncertainty that is added to error bounds, because the difference of the runs does not contain it.
   double local = 1.0;
   double cost = 0.0;     ///< expected cost of the companions / cost of the run; 0: unknown

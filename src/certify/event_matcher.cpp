@@ -78,10 +78,10 @@ class EventMatcher {
       }
     }
     for (const EventSequence* track : {&run_, &companion})
-      if (track->forgiven_at)
-        certified_until_.at(
-            *track->forgiven_at,
-            fmt::format("at t = {:.9g} rounding left several contact states possible", *track->forgiven_at));
+      if (track->first_undecided_t)
+        certified_until_.at(*track->first_undecided_t,
+                            fmt::format("at t = {:.9g} rounding left several contact states possible",
+                                        *track->first_undecided_t));
     for (const EventSequence* track : {&run_, &companion})
       if (track->first_violation)
         certified_until_.at(track->first_violation->t, track->first_violation->sentence);
@@ -116,7 +116,7 @@ class EventMatcher {
     const double apart = i > 0 && since > 0.0 ? own_rounding(own, other, i, companion) : 0.0;
     const double shift = factor_ * change + apart;
     if (same(*a, *b) && shift <= 0.5 * since) {
-      if (!flies_or_rests(*a, *b, past)) return false;
+      if (!rebound_is_decided(*a, *b, past)) return false;
       deviation_[own[i]] = std::max(deviation_[own[i]], std::abs(off));
       uncertainty_[own[i]] = std::max(uncertainty_[own[i]], b->uncertainty);
       return true;
@@ -145,7 +145,7 @@ class EventMatcher {
   }
 
   /// Returns false if the decision between rest and rebound depends on less than the error of the speed.
-  bool flies_or_rests(const TimedEvent& a, const TimedEvent& b, Past& past) {
+  bool rebound_is_decided(const TimedEvent& a, const TimedEvent& b, Past& past) {
     const double r = a.departure, other = b.departure;
     if (std::isnan(r) || std::isnan(other)) return true;
     past.speeds[past.next++ % difference_window] = std::abs(r - other) / std::max({r, other, 1.0});

@@ -48,7 +48,7 @@ struct TimedEvent {
   double t = 0.0;
   /// Event::t_uncertainty, or the fraction of it that is added to t_error; 0: none.
   float uncertainty = 0.0F;
-  int contact = -1;          ///< -1: a jump of a load
+  int contact = -1;  ///< -1: a jump of a load
   EventType type = EventType::time;
   State from = State::open, to = State::open;
   bool is_located = false;  ///< true: a guard reached zero; false: a jump of a load changed the state
@@ -72,7 +72,7 @@ struct EventSequence {
   double reached = 0.0;
   std::string stop;  ///< reason why the run stopped early; empty: it reached t_end
   /// First time at which rounding left several contact states possible (Report::first_undecided).
-  std::optional<double> forgiven_at = {};
+  std::optional<double> first_undecided_t = {};
   /// For a companion: a guard that came within the companion's tolerance of zero without an event.
   std::optional<events::Graze> graze = {};
   std::optional<FirstViolation> first_violation = {};

@@ -107,7 +107,7 @@ bool line_has(const std::string& line, const std::string& word) {
   return false;
 }
 
-bool speaks_of(const std::vector<std::string>& row, const std::vector<std::string>& words) {
+bool matches_words(const std::vector<std::string>& row, const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& cell : row) line += small(cell) + " ";
   return std::all_of(words.begin(), words.end(),
@@ -128,7 +128,7 @@ std::string key_list(const std::vector<std::string>& words) {
       if (key.table != table) continue;
       const std::vector<std::string> row = {path_of(key), scene::describe_type(key), std::string(key.unit),
                                             default_of(key), std::string(key.meaning)};
-      if (!speaks_of(row, words)) continue;
+      if (!matches_words(row, words)) continue;
       any = true;
       rows.row(row);
     }

@@ -53,15 +53,16 @@ class BranchWatch final : public Recorder {
 };
 
 /// Writes the checkpoints DIR/last while the branch is followed; writing takes a limited fraction of the time.
-class MarkWriter {
+class CheckpointWriter {
  public:
   /// before: number of points of the resumed branch.
-  MarkWriter(const fs::path& path, const SceneReader& read, const BranchOptions& over, std::size_t before)
+  CheckpointWriter(const fs::path& path, const SceneReader& read, const BranchOptions& over,
+                   std::size_t before)
       : path_(path), read_(read), over_(over), before_(before) {}
 
   void see(const std::function<BranchCheckpoint()>& mark) {
     const auto begin = Clock::now();
-    if (written_ && begin - *written_ < marks_apart * took_) return;
+    if (written_ && begin - *written_ < checkpoint_interval_factor * took_) return;
     write(mark());
     written_ = Clock::now();
     took_ = *written_ - begin;
@@ -73,7 +74,8 @@ class MarkWriter {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int marks_apart = 20;  // time between two checkpoints / time to write one. Chosen value.
+  static constexpr int checkpoint_interval_factor =
+      20;  // time between two checkpoints / time to write one. Chosen value.
 
   const fs::path& path_;
   const SceneReader& read_;
@@ -140,7 +142,7 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   Interrupt interrupt;
   BranchWatch watch;
   for (const BranchPoint& point : before) writer.add(point);
-  MarkWriter marks(path, read, over, before.size());
+  CheckpointWriter marks(path, read, over, before.size());
   over.on_checkpoint = [&marks](const std::function<BranchCheckpoint()>& mark) { marks.see(mark); };
   Branch branch = continue_branch(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
   branch.points.insert(branch.points.begin(), before.begin(), before.end());

@@ -73,7 +73,7 @@ namespace {
 volatile std::sig_atomic_t noting = 0, noted = 0;
 
 // Signal handler; it may call only functions that are async-signal-safe in POSIX.
-void end_or_note(int signal) {
+void handle_signal(int signal) {
   if (signal != SIGALRM && noting != 0 && noted == 0) {
     noted = 1;
     alarm(Interrupt::grace_seconds);
@@ -88,7 +88,7 @@ void end_or_note(int signal) {
 
 void end_on_interrupt() {
   struct sigaction action {};
-  action.sa_handler = end_or_note;
+  action.sa_handler = handle_signal;
   action.sa_flags = SA_RESTART;
   for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaction(signal, &action, nullptr);
 }

@@ -91,7 +91,7 @@ std::string certificate_text(const Scene& scene, const Model& model, const Certi
 
 /// Suggestion of another engine or a reduction for a run that is expected to take `seconds`; empty if none is much
 /// faster.
-std::string quicker_choices(const Scene& scene, const Model& model, double seconds) {
+std::string faster_settings_advice(const Scene& scene, const Model& model, double seconds) {
   constexpr double time_of_trial = 0.2;  // s, for each engine and cutoff
   const Engine own = run::choose_engine(model, scene.run).engine;
   std::vector<double> cutoffs;
@@ -132,7 +132,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   {
     ProgressDisplay live(directory, model, scene.run.t_end, !options.quiet, !plain);
     if (!options.quiet && stderr_is_terminal())
-      live.set_long_run_advice([&](double seconds) { return quicker_choices(scene, model, seconds); });
+      live.set_long_run_advice([&](double seconds) { return faster_settings_advice(scene, model, seconds); });
     kept = prepared.run_to_disk(directory, live,
                                 CertifyOptions{listener, [] { return !Interrupt::requested(); }});
     if (options.tables() || !plain)

@@ -103,13 +103,13 @@ void check(const StudyOptions& options) {
     throw UsageError("-o: expected the name of a directory");
 }
 
-bool says_how_accurate(const std::string& path) {
+bool sets_accuracy(const std::string& path) {
   return path == accuracy_key(Accuracy::tolerance) || path == accuracy_key(Accuracy::step);
 }
 
 /// Refuses a key that another option sets, or with whose change runs could not be compared. Errors: UsageError.
 void refuse_key(const std::string& option, const std::string& path) {
-  if (says_how_accurate(path)) throw UsageError(option + ": --rtol and --dt set the accuracy of runs");
+  if (sets_accuracy(path)) throw UsageError(option + ": --rtol and --dt set the accuracy of runs");
   for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
                           "title", "schema", "units"})
     if (path == key || path.starts_with(std::string(key) + "."))
@@ -130,7 +130,7 @@ void check_settings(const StudyOptions& options) {
     const std::string option = "--set " + change.path;
     if (colon != std::string::npos && colon < change.path.find('.'))
       refuse_key(option, change.path.substr(colon + 1));
-    else if (says_how_accurate(change.path))
+    else if (sets_accuracy(change.path))
       refuse_key(option, change.path);
   }
 }

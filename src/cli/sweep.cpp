@@ -88,9 +88,8 @@ void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
 }
 
 /// Sets --carry and --back: whether each run starts from the final state of the previous run. Errors: UsageError.
-void carry_on(const SweepOptions& options, sweep::SweepSpec& spec) {
-  if (options.back && !options.carry)
-    throw UsageError("--back: has no effect without --carry; add --carry");
+void specify_carry(const SweepOptions& options, sweep::SweepSpec& spec) {
+  if (options.back && !options.carry) throw UsageError("--back: has no effect without --carry; add --carry");
   if (!options.carry) return;
   const auto refuse = [](bool given, const char* option, const char* why) {
     if (given) throw UsageError(fmt::format("--carry: cannot be combined with {}: {}", option, why));
@@ -160,7 +159,7 @@ Specified specify(const SweepOptions& options) {
   spec.scene = options.scene;
   spec.settings = options.settings;
   vary_keys(options, spec);
-  carry_on(options, spec);
+  specify_carry(options, spec);
   if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
   if (options.share) spec.share = sweep::parse_share(*options.share, environment);
   specified.text = scene::scene_text(options.scene);
@@ -325,7 +324,7 @@ void conclude(const SweepOptions& options, const sweep::SweepDirectory& director
 }
 
 /// Prints a note if --strobe does not fit the first or the last row: a varied key may change the period of the loads.
-void print_strobe_doubt(const SweepOptions& options, const sweep::SweepSpec& spec, const std::string& text) {
+void print_strobe_note(const SweepOptions& options, const sweep::SweepSpec& spec, const std::string& text) {
   const auto all = sweep::points(spec.vary);
   for (const auto* point : {&all.front(), &all.back()}) {
     std::vector<Override> changes = overrides_of(options.settings);
@@ -349,7 +348,7 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
     for (const sweep::ParameterRange& vary : spec.vary)
       if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
-  if (!options.quiet && !options.strobe.empty()) print_strobe_doubt(options, spec, text);
+  if (!options.quiet && !options.strobe.empty()) print_strobe_note(options, spec, text);
   (void)jobs_of(options);  // reports an invalid --jobs before anything is written
   sweep::SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
   sweep::RowTask common{options.scene, text, overrides_of(options.settings), 0, {}, {}, command_line};

@@ -34,7 +34,7 @@ std::string text_of(const directory_check::DirectoryLawCheck& found, const std::
   return text;
 }
 
-ExitCode hear_witness(const WitnessOptions& options) {
+ExitCode check_laws_of_run(const WitnessOptions& options) {
   const directory_check::DirectoryLawCheck found = directory_check::check_directory_laws(options.directory);
   print_unchecked(options.directory);
   if (!found.complete)
@@ -62,7 +62,8 @@ void add_witness(Program& program) {
   command->add_option("DIR", options->directory, "a directory that `signorini run --instants` wrote")
       ->required();
   command->add_flag("--json", options->json, "print JSON instead of text");
-  command->callback([&program, options] { program.action = [options] { return hear_witness(*options); }; });
+  command->callback(
+      [&program, options] { program.action = [options] { return check_laws_of_run(*options); }; });
 }
 
 }  // namespace signorini::cli

@@ -26,7 +26,7 @@
 namespace signorini::cli {
 namespace {
 
-constexpr int between_looks = 200;    // ms, longest wait for reports before `idle` is called
+constexpr int between_looks = 200;  // ms, longest wait for reports before `idle` is called
 // Tasks per worker: the current task, and one that waits in the worker's pipe.
 constexpr std::size_t max_ahead = 2;
 
@@ -67,18 +67,18 @@ struct Pipe {
 };
 
 /// Blocks SIGINT and SIGTERM and makes them readable from fd(), so that no signal is lost between a check and a wait.
-class HeldSignals {
+class SignalDescriptor {
  public:
-  HeldSignals() {
+  SignalDescriptor() {
     sigemptyset(&held_);
     for (const int signal : {SIGINT, SIGTERM}) sigaddset(&held_, signal);
     sigprocmask(SIG_BLOCK, &held_, &before_);
     fd_ = Descriptor(signalfd(-1, &held_, SFD_CLOEXEC | SFD_NONBLOCK));
     if (fd_.get() < 0) fail("signalfd");
   }
-  ~HeldSignals() { restore(); }
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
+  ~SignalDescriptor() { restore(); }
+  SignalDescriptor(const SignalDescriptor&) = delete;
+  SignalDescriptor& operator=(const SignalDescriptor&) = delete;
   [[nodiscard]] int fd() const { return fd_.get(); }
   void restore() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
 
@@ -127,7 +127,7 @@ bool report(int fd, std::uint64_t task, std::int64_t code, std::string text) {
 }
 
 /// Executes one task in a worker; returns the exit code and the report of the task.
-std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task, const SendReport& tell) {
+std::pair<ExitCode, std::string> execute_task(const Work& work, std::size_t task, const SendReport& tell) {
   try {
     return {ExitCode::done, work(task, tell)};
   } catch (const Error& error) {
@@ -143,14 +143,14 @@ std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task,
 
 /// Closes all file descriptors except a, b and the standard streams. Otherwise a worker would keep the lock of a directory
 /// for some milliseconds after its parent was killed.
-void keep_only(int a, int b) {
+void close_other_descriptors(int a, int b) {
   const auto low = static_cast<unsigned>(std::min(a, b)), high = static_cast<unsigned>(std::max(a, b));
   if (low > 3) (void)close_range(3, low - 1, 0);
   if (high > low + 1) (void)close_range(low + 1, high - 1, 0);
   (void)close_range(high + 1, ~0U, 0);
 }
 
-[[noreturn]] void be_worker(pid_t parent, const HeldSignals& signals, const Work& work, int tasks,
+[[noreturn]] void be_worker(pid_t parent, const SignalDescriptor& signals, const Work& work, int tasks,
                             int reports) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // the worker ends with its parent
   if (getppid() != parent) _exit(static_cast<int>(ExitCode::bug));
@@ -159,13 +159,13 @@ void keep_only(int a, int b) {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   signals.restore();
-  keep_only(tasks, reports);
+  close_other_descriptors(tasks, reports);
   std::uint64_t task = 0;
   while (receive(tasks, &task, sizeof task)) {
     const SendReport tell = [&](const std::string& text) {
       (void)report(reports, task, Head::not_done, text);
     };
-    auto [code, text] = carried_out(work, static_cast<std::size_t>(task), tell);
+    auto [code, text] = execute_task(work, static_cast<std::size_t>(task), tell);
     if (!report(reports, task, static_cast<std::int64_t>(code), std::move(text))) break;
     if (code == ExitCode::bug) _exit(0);  // memory may be corrupt: a new process continues with the next task
   }
@@ -183,7 +183,8 @@ struct Worker {
 
 class Pool {
  public:
-  Pool(const HeldSignals& signals, const Work& work) : signals_(signals), work_(work), parent_(getpid()) {}
+  Pool(const SignalDescriptor& signals, const Work& work)
+      : signals_(signals), work_(work), parent_(getpid()) {}
   ~Pool() { end_all(); }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -214,7 +215,7 @@ class Pool {
   }
 
   /// Sends a first task to each worker without one, then a second task that waits in the worker's pipe.
-  void hand_out(std::deque<std::size_t>& queue) {
+  void send_tasks(std::deque<std::size_t>& queue) {
     for (std::size_t ahead = 1; ahead <= max_ahead; ++ahead)
       for (Worker& w : workers_) {
         if (queue.empty()) return;
@@ -233,7 +234,7 @@ class Pool {
     for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
     if (poll(watched.data(), watched.size(), between_looks) <= 0) return false;
     for (auto worker = workers_.begin(); worker != workers_.end();) {
-      const bool alive = hear(*worker, ends);
+      const bool alive = read_reports(*worker, ends);
       if (alive) {
         ++worker;
         continue;
@@ -260,7 +261,7 @@ class Pool {
   }
 
   /// Reads the complete reports of a worker; returns false if the worker has closed its pipe.
-  static bool hear(Worker& w, std::vector<TaskResult>& ends) {
+  static bool read_reports(Worker& w, std::vector<TaskResult>& ends) {
     char block[65536];
     bool open = true;
     for (;;) {
@@ -302,7 +303,7 @@ class Pool {
     queue.insert(queue.begin(), w.given.begin(), w.given.end());
   }
 
-  const HeldSignals& signals_;
+  const SignalDescriptor& signals_;
   const Work& work_;
   pid_t parent_;
   std::list<Worker> workers_;
@@ -313,14 +314,14 @@ class Pool {
 bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const Work& work,
                  const std::function<bool(const TaskResult&)>& ended,
                  const std::function<void(std::size_t)>& idle) {
-  const HeldSignals signals;
+  const SignalDescriptor signals;
   const auto pipes = std::signal(SIGPIPE, SIG_IGN);  // writing to a dead worker would raise SIGPIPE
   Pool pool(signals, work);
   std::deque<std::size_t> queue(tasks.begin(), tasks.end());
   bool go_on = true, whole = true;
   while (whole && ((go_on && !queue.empty()) || pool.under_way() > 0)) {
     while (go_on && pool.size() < std::min(jobs, queue.size() + pool.under_way())) pool.start();
-    if (go_on) pool.hand_out(queue);
+    if (go_on) pool.send_tasks(queue);
     idle(pool.under_way());
     std::vector<TaskResult> ends;
     whole = !pool.listen(queue, ends);

@@ -193,8 +193,9 @@ bool InstantLawChecker::shear_stays(std::size_t k) const {
 
 /// True if |N| of a sliding contact drops and T is at the new kinetic limit. The new state may be any: an impact that makes
 /// N jump may reverse the slip at the same instant, or the contact may stick with this T.
-bool InstantLawChecker::falls_with_it(std::size_t k, const ContactKinematics& before,
-                                      const ContactKinematics& after, double off_N, double off_T) const {
+bool InstantLawChecker::friction_follows_drop(std::size_t k, const ContactKinematics& before,
+                                              const ContactKinematics& after, double off_N,
+                                              double off_T) const {
   const Contact& c = model_.contacts[k];
   const State old = (*record_.before.mode)[k].state;
   const int s = slip_direction(old);
@@ -225,7 +226,7 @@ void InstantLawChecker::friction_continuity(std::size_t k) {
       fs * off_N;
   if (const RecordedEvent* event = event_of(k); event != nullptr && event->t_uncertainty > 0.0)
     limit += uncertainty_factor * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
-  if (falls_with_it(k, b, a, off_N, limit)) return;
+  if (friction_follows_drop(k, b, a, off_N, limit)) return;
   const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
   const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
   const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // |N| has dropped

@@ -164,13 +164,13 @@ class InstantLawChecker {
   void friction_of(std::size_t k, const ContactKinematics& m);
   void old_rows(std::size_t k);
   void necessity(std::size_t k);
-  [[nodiscard]] bool own_guard_crosses(std::size_t k, const ContactState& old,
+  [[nodiscard]] bool old_guard_is_zero(std::size_t k, const ContactState& old,
                                        const ContactKinematics& before) const;
   void guard_of(const RecordedEvent& event);
   [[nodiscard]] bool shear_stays(std::size_t k) const;
   void friction_continuity(std::size_t k);
-  [[nodiscard]] bool falls_with_it(std::size_t k, const ContactKinematics& before,
-                                   const ContactKinematics& after, double off_N, double off_T) const;
+  [[nodiscard]] bool friction_follows_drop(std::size_t k, const ContactKinematics& before,
+                                           const ContactKinematics& after, double off_N, double off_T) const;
   [[nodiscard]] Vector closing() const;
   [[nodiscard]] double massless_uncertainty(int dof) const;
   [[nodiscard]] ContactKinematics touching(std::size_t k, const CheckedSide& side) const;
@@ -184,7 +184,7 @@ class InstantLawChecker {
   [[nodiscard]] double step_error(std::size_t k, double of_u, double of_v) const;
   [[nodiscard]] double settled(const RecordedEvent& event) const;
   [[nodiscard]] bool is_released(std::size_t k) const;
-  [[nodiscard]] double left_terms(const Contact& c) const;
+  [[nodiscard]] double continued_position_scale(const Contact& c) const;
   /// Motion that a contact would have in its old state, and the uncertainty of its forces due to rounding of accelerations.
   struct OldStateMotion {
     ContactKinematics m;

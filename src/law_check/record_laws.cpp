@@ -45,7 +45,7 @@ void InstantLawChecker::releases() {
 /// Scale of the rounding error of gap and slip of a contact whose state is continued from another run. If the structure
 /// passes its rest position, its displacements are small but have the rounding error of the whole motion before; gaps
 /// within this error are closed, which shifts and rotates the body. So each term has at least the scene's scale.
-double InstantLawChecker::left_terms(const Contact& c) const {
+double InstantLawChecker::continued_position_scale(const Contact& c) const {
   double sum = 0.0;
   for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
     for (const auto& [dof, factor] : form->terms) {
@@ -63,7 +63,7 @@ void InstantLawChecker::continuation() {
     const Contact& c = model_.contacts[k];
     const SavedState::FinalContact& left = model_.saved_contacts[k];
     const ContactKinematics m = kinematics(c, k, record_.before);
-    const double limit = rounding::elimination * (m.displacement_size + left_terms(c));
+    const double limit = rounding::elimination * (m.displacement_size + continued_position_scale(c));
     const auto check = [&](double was, double is) {
       if (const double off = std::abs(was - is); off > limit)
         add(static_cast<int>(k), "continuation", off, limit, seen::length, true);

@@ -343,7 +343,7 @@ void InstantLawChecker::necessity(std::size_t k) {
   // If N jumps, T stays the same: a contact that slid sticks until T reaches the new limit. A jump anywhere in the
   // structure may cause a small jump of N.
   if (c.tangential_stiffness && slip_direction(old.state) != 0 && force_jumps(c, before, after)) return;
-  if (own_guard_crosses(k, old, before)) return;
+  if (old_guard_is_zero(k, old, before)) return;
   const std::optional<OldStateMotion> before_it = motion_in_old_state(k);
   if (!before_it) return;
   const GuardValues guards = guards_of(c, old, before_it->m, context_.limits);
@@ -371,7 +371,7 @@ void InstantLawChecker::necessity(std::size_t k) {
 
 /// True if a guard of contact k was zero just before the instant, although with the new states of other contacts it would
 /// be positive.
-bool InstantLawChecker::own_guard_crosses(std::size_t k, const ContactState& old,
+bool InstantLawChecker::old_guard_is_zero(std::size_t k, const ContactState& old,
                                           const ContactKinematics& before) const {
   const Contact& c = model_.contacts[k];
   const RecordedEvent* event = event_of(k);

@@ -84,7 +84,7 @@ void Auditor::begin(const decide::Decision& decision, const contact::ContactStat
   landings_.instant(decision.jet.t, decision, first);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
-  seen_at_start_ = model_.correction_energy(decision.jet.t);
+  correction_energy_at_start_ = model_.correction_energy(decision.jet.t);
   audit_.initial = energy(decision.jet.t, decision.states, point);
   begun_ = true;
 }
@@ -243,7 +243,7 @@ Energy Auditor::energy(double t, const motion::WorkIntegrals& ahead, const conta
 Energy Auditor::audit_balance(double t, Energy e) {
   const double unseen = model_.correction_energy(t);
   e.elastic -= unseen;
-  e.loads -= unseen - seen_at_start_;
+  e.loads -= unseen - correction_energy_at_start_;
   audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));
   const double exchanged =
       std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});

@@ -81,7 +81,7 @@ class Auditor {
   [[nodiscard]] Place place_of(std::size_t contact, const motion::Forcing& forcing, double t, State state,
                                const motion::Point& point) const;
   std::vector<Place> at_start_;
-  double seen_at_start_ = 0.0;  ///< Model::correction_energy at t = 0
+  double correction_energy_at_start_ = 0.0;  ///< Model::correction_energy at t = 0
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
   LandingTracker landings_;

@@ -127,7 +127,7 @@ class CurveRecord {
   bool enabled_;
   // Receives the energies of a part; empty for a whole model.
   std::function<void(double, const Energy&)> energies_;
-  std::vector<Curve> curves_;                            // displacements, energies, the balance
+  std::vector<Curve> curves_;  // displacements, energies, the balance
 };
 
 }  // namespace signorini::run

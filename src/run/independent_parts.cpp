@@ -171,7 +171,7 @@ class IndependentParts {
 
   RunEnd run() {
     for (const auto& loop : loops_) loop->begin();
-    see_stops();
+    update_stops();
     const double longest = longest_stage();
     double length = longest / stages;  // short at first: the density of events is not known yet
     while (reported_ < spec_.t_end && !over()) {
@@ -206,7 +206,7 @@ class IndependentParts {
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
       reported_ = from + (until - from) * static_cast<double>(i) / static_cast<double>(loops_.size());
       loops_[i]->advance_to(std::min(until, end_));
-      see_stops(i);
+      update_stops(i);
     }
     reported_ = until;
     return over() ? 0 : rows_.forward(until == spec_.t_end ? until : reached(), until == spec_.t_end);
@@ -219,11 +219,11 @@ class IndependentParts {
     return t;
   }
 
-  void see_stops() {
-    for (std::size_t i = 0; i < loops_.size(); ++i) see_stops(i);
+  void update_stops() {
+    for (std::size_t i = 0; i < loops_.size(); ++i) update_stops(i);
   }
 
-  void see_stops(std::size_t i) {
+  void update_stops(std::size_t i) {
     const Outcome& outcome = loops_[i]->outcome();
     if (outcome.kind == Outcome::Kind::interrupted) interrupted_ = true;
     if (outcome.kind != Outcome::Kind::stopped || !(loops_[i]->t() < end_)) return;
@@ -235,7 +235,7 @@ class IndependentParts {
   void catch_up() {
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
       loops_[i]->advance_to(end_);
-      see_stops(i);
+      update_stops(i);
     }
   }
 

@@ -87,7 +87,7 @@ class MotionRecord {
   double requested_spacing_ = std::numeric_limits<double>::infinity();  // least since the last adapt()
   // Largest values of all drawn contacts.
   double force_ = 0.0, length_ = 0.0;
-  double at_ = 0.0, end_ = 0.0;                                         // current time and end of the step
+  double at_ = 0.0, end_ = 0.0;  // current time and end of the step
   std::vector<double> turns_;
   std::size_t turn_ = 0;  // index of the next turning point
   std::vector<Track> tracks_;

@@ -17,7 +17,7 @@ struct HalfPeriod {
 };
 
 /// Adds the oscillating pieces of a history that are longer than the resolution of the clock.
-void add_swings(const History& history, std::vector<HalfPeriod>& all) {
+void add_oscillating_pieces(const History& history, std::vector<HalfPeriod>& all) {
   constexpr double ever = std::numeric_limits<double>::infinity();
   const std::vector<double>& starts = history.starts();
   for (std::size_t i = 0; i < history.pieces().size(); ++i) {
@@ -29,16 +29,16 @@ void add_swings(const History& history, std::vector<HalfPeriod>& all) {
   }
 }
 
-std::vector<HalfPeriod> swings_given(const Model& model) {
+std::vector<HalfPeriod> oscillating_pieces(const Model& model) {
   std::vector<HalfPeriod> all;
-  for (const Load& load : model.loads) add_swings(load.history, all);
+  for (const Load& load : model.loads) add_oscillating_pieces(load.history, all);
   for (const Contact& contact : model.contacts) {
-    add_swings(contact.normal_force, all);
-    add_swings(contact.surface_motion, all);
+    add_oscillating_pieces(contact.normal_force, all);
+    add_oscillating_pieces(contact.surface_motion, all);
   }
   for (const Output& output : model.outputs)
     for_each_linear(output, [&](const Output& o) {
-      for (const Output::Given& given : o.given) add_swings(given.history, all);
+      for (const Output::Given& given : o.given) add_oscillating_pieces(given.history, all);
     });
   return all;
 }
@@ -68,7 +68,7 @@ void FastModeCutoff::loads_changed() {
     bool begins;
   };
   std::vector<Change> ends;
-  for (const HalfPeriod& swing : swings_given(model_)) {
+  for (const HalfPeriod& swing : oscillating_pieces(model_)) {
     ends.push_back({swing.from, swing.omega, true});
     ends.push_back({swing.to, swing.omega, false});
   }

@@ -74,7 +74,7 @@ class CheckedMotion {
   std::vector<double> jerk_;         // |s'''| of each surface just after the last instant
   // Largest |u_i|, |v_i|: translations, rotations.
   std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};
-  double energy_ = 0.0;                                                // largest LawChecker::twice_energy
+  double energy_ = 0.0;  // largest LawChecker::twice_energy
   // Largest v^T M v, if motions are sums over modes.
   double kinetic_ = 0.0;
   // For each contact: LawChecker::speed_per_energy_root, and this * sqrt(energy_).

@@ -73,7 +73,6 @@ namespace {
 
 // Texts of warnings. t: time in the unit of the scene.
 
-
 std::string impact_gain(double t, double gain) {
   return fmt::format(
       "the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction can add "

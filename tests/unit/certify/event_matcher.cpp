@@ -253,13 +253,13 @@ TEST_CASE("judge: rest or flight by less than the speed may be off is not certai
 
 TEST_CASE("judge: nothing is certain from where rounding left several states open, in either run") {
   certify::EventSequence run = track({1.0, 2.0, 3.0}), companion = run;
-  run.forgiven_at = 2.5;
+  run.first_undecided_t = 2.5;
   const certify::MatchResult own = certify::match_events(run, {companion}, 2.0, names);
   CHECK(own.until == 2.5);
   CHECK(certain(own) == 2);
   CHECK(own.reason.find("left several contact states") != std::string::npos);
-  run.forgiven_at.reset();
-  companion.forgiven_at = 1.5;
+  run.first_undecided_t.reset();
+  companion.first_undecided_t = 1.5;
   CHECK(certify::match_events(run, {companion}, 2.0, names).until == 1.5);
 }
 

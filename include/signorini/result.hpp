@@ -19,7 +19,7 @@
 
 namespace signorini {
 
-/// One contact at an output time. Signs: docs/theory.md. slip: p; N and T: force.
+/// One contact at an output time. slip: p, see contact.hpp; N and T: force. Signs: docs/theory.md.
 struct ContactSample {
   State state = State::open;
   double gap = 0.0, ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
@@ -35,7 +35,7 @@ struct Energy {
   [[nodiscard]] double balance() const { return stored() + damping + friction + impact - loads - surface; }
 };
 
-/// Names of the energies; `balance` follows from them.
+/// Names of the energies in files; `balance` is computed from the others.
 struct EnergyColumn {
   const char* name;
   double Energy::*value;
@@ -68,53 +68,53 @@ struct CurvePoint {
   double t = 0.0, value = 0.0;
 };
 
-/// curves.csv: displacements and energies for a picture, each with its own times.
+/// Data of curves.csv: displacements and energies for a picture; each curve has its own times.
 struct Curves {
   std::vector<std::string> names;
-  std::vector<std::vector<CurvePoint>> points;  ///< one list per name; t ascends, and may repeat
+  std::vector<std::vector<CurvePoint>> points;  ///< one list per name; t never decreases
 };
 
-/// State on one side of an instant, for all degrees of freedom of the model; in a reduced model they are amplitudes.
+/// State on one side of an instant, for all degrees of freedom of the model (in a reduced model: mode amplitudes).
 struct InstantSide {
-  Vector u, v, a;                    ///< a: after the instant; just before it empty
+  Vector u, v, a;                    ///< acceleration after the instant; empty before the instant
   std::vector<ContactState> states;  ///< one for each contact
   Vector forces;                     ///< forces of all contacts, in the order of the model's layout
 };
 
-/// Impulse of one impact on a rigid contact; the successive impacts of an instant have the numbers 1, 2, ...
+/// Impulse of one impact on a rigid contact. Successive impacts at an instant are numbered 1, 2, ...
 struct InstantImpact {
   int contact = 0, impact_number = 1;
   double normal = 0.0, tangent = 0.0;  ///< on the body along n and t; force * time
 };
 
-/// An instant at which contact states were decided, whether or not any changed: two rows of instants.csv.
+/// An instant at which contact states were decided, changed or not: two rows of instants.csv.
 struct InstantRow {
   double t = 0.0;
-  double resolution = 0.0;  ///< times closer than this are one instant
-  /// Violation of the states that were accepted as undecided, in units of their rounding errors.
+  double resolution = 0.0;  ///< two times closer than this are treated as one instant
+  /// Violation, in units of its rounding error, by states that were accepted although rounding left them undecided.
   double tolerated_violation = 0.0;
-  /// Engine `exact`: condition of the mode shapes, the factor by which rounding errors of modal sums grow.
+  /// Engine `exact`: condition number of the mode shapes, by which rounding errors of modal sums are multiplied.
   double eigenvector_condition = 1.0;
   bool start = false;       ///< start of the run
   bool breakpoint = false;  ///< the forcing is not smooth here
   bool load_jumps = false;
-  /// A guard is zero here; false: the instant is the end of a step at which a change of states was found.
+  /// True: a guard is zero here. False: the instant is the end of a step in which a change of state was detected.
   bool located = true;
   InstantSide before, after;
   std::vector<InstantImpact> impacts;
-  /// Impulses along n and t beyond the impact law, in the order of forces: they bring persistent contacts to rest and
+  /// Impulses along n and t in addition to the impact law, in the order of forces. They stop contacts that stay closed, and
   /// remove the remainder that rounding and tolerances leave in velocities that are zero. Empty: none.
   Vector capture_impulses;
-  std::vector<int> released;  ///< contacts from which parts without mass separate at once
+  std::vector<int> released;  ///< contacts from which massless parts separate instantaneously
 };
 
 /// Changes that an observer may make during a run.
 class Steering {
  public:
   virtual ~Steering() = default;
-  /// From the present instant on, the load with this name ("load 1", or a given name) follows another function of the
-  /// run's time, amplitude included; outputs follow. Errors: SceneError if the name is not a force or moment, or if the
-  /// engine refuses the history.
+  /// From the present instant on, replaces the history of the load with this name ("load 1", or a given name) by a function
+  /// of the run's time that includes the amplitude. Outputs that contain the load change too. Errors: SceneError if the load
+  /// is not a force or moment, or if the engine refuses the history.
   virtual void set_load(const std::string& name, const History& history) = 0;
 };
 
@@ -127,24 +127,24 @@ class Recorder {
   virtual void sample(const Sample& sample) = 0;
   /// Called at the times of RunSpec::frames with a deformed shape.
   virtual void frame(const Sample& /*sample*/) {}
-  /// True if `motion` and `curves` are used; they cost a little time.
+  /// True if `motion` and `curves` are used; recording their data slows the run slightly.
   [[nodiscard]] virtual bool wants_motion() const { return false; }
-  /// Called at the end of a run, once per contact, with the motion data for a picture (run/motion_record.hpp).
+  /// Called at the end of a run, once per contact, with the contact's motion for a picture (run/motion_record.hpp).
   virtual void motion(int /*contact*/, const std::vector<MotionRow>& /*rows*/) {}
-  /// Called once at the end of a run, with the remaining data for a picture (run/curve_record.hpp).
+  /// Called once at the end of a run, with the other curves for a picture (run/curve_record.hpp).
   virtual void curves(const Curves& /*curves*/) {}
-  /// Called with the model's outputs at output times and on both sides of every instant; t ascends, and may repeat.
+  /// Called with the model's outputs at output times and on both sides of every instant, so t never decreases.
   virtual void response(double /*t*/, const std::vector<double>& /*values*/) {}
-  /// True if `instant` is used; each call passes several vectors of the model's size.
+  /// True if `instant` is used; each call copies several vectors of the model's size.
   [[nodiscard]] virtual bool wants_instants() const { return false; }
-  /// Called after the events of the instant; the first call is the start.
+  /// Called after the events of an instant; the first call is for the start of the run.
   virtual void instant(const InstantRow& /*instant*/) {}
-  /// True if `steer` is used; it ends no step early, but each step costs a sample.
+  /// True if `steer` is used. A steered run takes the same steps, but computes one sample for each of them.
   [[nodiscard]] virtual bool steers() const { return false; }
-  /// Called with the current state at the start, at the end of every engine step, and after every event and breakpoint.
-  /// Changes hold from then on, as after a jump of a load. Return false to end the run.
+  /// Called with the current state at the start, at the end of every engine step, and after every event and breakpoint. A
+  /// change by `run` acts from then on, like a jump of a load. Return false to end the run.
   virtual bool steer(const Sample& /*now*/, Steering& /*run*/) { return true; }
-  /// Called often with the current time; return false to ask for a stop (an interrupt).
+  /// Called often with the current time; return false to interrupt the run.
   virtual bool progress(double /*t*/) { return true; }
 };
 
@@ -152,22 +152,22 @@ class Recorder {
 struct Outcome {
   enum class Kind { done, stopped, interrupted } kind = Kind::done;
   double t = 0.0;      ///< time reached
-  std::string reason;  ///< one sentence with time, contact, guard; empty when done
-  Refusal refusal;     ///< details if states could not be decided
+  std::string reason;  ///< one sentence with time, contact and guard; empty if `done`
+  Refusal refusal;     ///< details if the contact states could not be decided
 };
 
 /// Largest violation of a condition, its time and its contact.
 struct Extreme {
-  double value = 0.0;  ///< in the unit that Audit gives
+  double value = 0.0;  ///< unit: see the member of Audit
   double t = 0.0;
   int contact = -1;
 };
 
 struct Audit {
-  Extreme gap;          ///< (6) g < 0 beyond N/kn, length
+  Extreme gap;          ///< (6) -(g - N/kn), penetration beyond the spring's deformation, length
   Extreme tension;      ///< (6) N > 0, force
-  Extreme product;      ///< (6) |g N| with g - N/kn, energy
-  Extreme friction;     ///< (7) |T| - T_U, force; static limit in stick, kinetic in slip
+  Extreme product;      ///< (6) |(g - N/kn) N|, energy
+  Extreme friction;     ///< (7) |T| - T_U, force; T_U: static limit in stick, kinetic in slip
   Extreme direction;    ///< (7) -T p' > 0, power
   Extreme equilibrium;  ///< residual of the equation of motion, force
   Extreme penetration;  ///< rigid contacts, length

@@ -43,8 +43,7 @@ struct Unit {
 
 enum class HistoryType { constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table };
 
-/// f(t) = offset + amplitude * shape(t). The history of a load has offset 0 and amplitude 1; its amplitude is
-/// LoadSpec::amplitude.
+/// f(t) = offset + amplitude * shape(t). For loads offset is 0 and amplitude 1; LoadSpec::amplitude scales the history.
 struct HistorySpec {
   HistoryType type = HistoryType::constant;
   double offset = 0.0;
@@ -82,8 +81,7 @@ struct Direction {
   std::vector<std::pair<std::string, double>> against = {};
 };
 
-/// newmark: how an event is located in time. root: the step is repeated until the guard is zero at its end; linear: the step
-/// is repeated once, up to the interpolated time.
+/// newmark: locates an event in time. root: repeats the step until the guard is zero at its end; linear: only once.
 enum class Refine { root, linear };
 /// newmark: doubling searches for a step size such that doubling it changes the result by less than the tolerance.
 enum class StepControl { fixed, doubling };
@@ -175,8 +173,7 @@ struct SavedState {
     double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
   };
   std::vector<FinalContact> final_contacts;  ///< empty: contacts.csv has no such rows
-  /// Scales of the saved run: displacement, rotation, velocity, angular velocity, force. With the same scales, tolerances and
-  /// the limit of rest do not change.
+  /// Scales (displacement, rotation, velocity, angular velocity, force) of the saved run, so that tolerances stay the same.
   std::optional<std::array<double, 5>> scales;
   std::optional<Prestress> prestress;  ///< static forces of the saved run, if it had run.geometric
   /// Normal forces of pendulums that are part of K in the saved run, by name of the contact.

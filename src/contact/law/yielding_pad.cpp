@@ -18,7 +18,7 @@ UserContactLaw yielding_pad(double normal_stiffness, double yield_force) {
   UserContactLaw law{"yielding", {}};
   law.states = {{"off", State::open, {{.N = 1.0}}, no_friction, {{above_dent, elastic}}},
                 {"elastic", State::closed, spring, no_friction, {{presses, off}, {yields, crushed}}},
-                // The kind is slip, so that files and pictures distinguish it from elastic.
+                // The kind is slip, so that files and pictures can distinguish `crushed` from `elastic`.
                 {"crushed", State::slip_minus, yields, no_friction, {{sinks, elastic, dent}}}};
   return law;
 }

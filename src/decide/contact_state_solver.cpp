@@ -506,7 +506,7 @@ Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const 
     sticking[c].state = State::stick;
     if (systems_.system_of(sticking)) continue;
     Refusal why = dependent_rows({c});
-    why.reason += fmt::format(" ('{}' slips no more); {} makes them unique", model_.contacts[c].name,
+    why.reason += fmt::format(" ('{}' stops slipping); {} makes them unique", model_.contacts[c].name,
                               springs_for_uniqueness(model_, why.contacts));
     return why;
   }

@@ -51,7 +51,7 @@ Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   if (!best->alternative.empty()) {
     refusal.kind = Refusal::Kind::ambiguous;
     refusal.reason =
-        fmt::format("{}; guards that fail in the last that was tried: {}",
+        fmt::format("{}; guards that fail in the states tried last: {}",
                     several_motions(model_, choices, *best), names_of(model_, solver_state.failed));
   }
   if (!best->acceptable()) return refusal;

@@ -1,7 +1,7 @@
 // cycle_fallback.hpp: continues a decision whose states repeat.
 //
-// 16 times the noise -> sliders decided with the rigid contacts -> all combinations of states of a block
-// -> massless parts leave a contact instantaneously
+//   16 times the noise -> sliders decided with the rigid contacts -> all combinations of states of a block
+//                      -> massless parts leave a contact instantaneously
 //
 // States repeat if rounding separates the zeros of several guards that are zero at the same time. Each step is tried only if
 // states repeat after the previous step. If the last step fails, the decision is refused.

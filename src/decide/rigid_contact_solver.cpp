@@ -136,9 +136,9 @@ bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, con
   return contact::gap_rate(contact, after) - contact::gap_rate(contact, before) < -rounding;
 }
 
-/// Adapts states to the velocities after an impact: sliders that stick rigidly slip as soon as their slip rate is not
-/// zero. If a dashpot makes |N| jump up, T is continuous and below its new limit: the element sticks. If |N| jumps
-/// down, T follows its limit; if N does not jump, the slip continues as long as its own guard holds.
+/// Changes states according to the velocities after an impact. Rigidly sticking sliders slip if their slip rate is not zero.
+/// If a dashpot makes |N| jump up, T is continuous and below its new limit, so the contact sticks. If |N| jumps down, T
+/// follows its limit. If N does not jump, slip continues until the guard of slip fails.
 void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& before,
                                          const motion::Forcing& after, const Block& block,
                                          const std::vector<ContactMotion>& motion,

@@ -1,23 +1,22 @@
-// pieces.hpp: rounding error and magnitude of a history.
+// pieces.hpp: rounding errors, bounds and time resolution of a history.
 //
 //   |computed f(t) - f(t)| <= 64 eps ( sum_j |c_j s^j| + |a| (1 + |w s + phi|) + (|t| + |t0|) |f'|~ )
 //   s = t - t0
 //
-// |f'|~ is the derivative with all terms taken positive: times themselves are rounded, so f has at least the error |f'|
-// eps |t|.
+// |f'|~ is the derivative with all terms taken as positive. Times are rounded, too, so f has at least the error |f'| eps |t|.
 #pragma once
 
 #include "signorini/history.hpp"
 
 namespace signorini::history {
 
-/// Bound of the rounding error of evaluating the piece at t; units of f.
+/// Bound of the rounding error when the piece is evaluated at t; units of f.
 [[nodiscard]] double roundoff(const Piece& piece, double t);
 /// Same for its first derivative.
 [[nodiscard]] double roundoff_of_rate(const Piece& piece, double t);
 
-/// Upper estimate of max |f| on [0, t_end]: exact for constants, lines, steps and pulses, sampled otherwise. Units of
-/// f.
+/// Upper estimate of max |f| on [0, t_end]: exact for constants, straight lines, steps and pulses, otherwise sampled. Units
+/// of f.
 [[nodiscard]] double magnitude(const History& f, double t_end);
 
 /// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]; each piece
@@ -29,16 +28,16 @@ namespace signorini::history {
 /// start of the next one.
 [[nodiscard]] double find_negative_time(const History& f, double t_end);
 
-// Merges starts of pieces that the time resolution of a run cannot separate.
+// Merges starts of pieces that are closer than the time resolution of a run.
 //
-//   starts s_i, s_j of pieces with 0 <= s_j - s_i <= 100 eps (s_i + t_end)  ->  one at the last of them
-//   starts in [0, 100 eps t_end]                                            ->  one at 0
+//   starts s_i, s_j of pieces with 0 <= s_j - s_i <= 100 eps (s_i + t_end)  ->  one start, at the last of them
+//   starts in [0, 100 eps t_end]                                            ->  one start, at 0
 //
-// Shorter pieces are skipped, because each engine would treat their unresolved steps differently.
+// Pieces shorter than the time resolution are dropped, because each engine would treat their steps differently.
 
-/// End of the group of starts that are one instant: those with the indices [from, result).
+/// End of a group of starts that are one instant: the group has the indices from `from` up to, but without, the result.
 [[nodiscard]] std::size_t end_of_instant(const History& f, std::size_t from, double t_end);
-/// The history with merged starts.
+/// Copy of the history with merged starts.
 [[nodiscard]] History resolved(const History& f, double t_end);
 
 }  // namespace signorini::history

@@ -12,20 +12,20 @@ namespace signorini::history {
 
 /// Bound of the rounding error when the piece is evaluated at t; units of f.
 [[nodiscard]] double roundoff(const Piece& piece, double t);
-/// Same for its first derivative.
+/// Bound of the rounding error of the first derivative at t; units of f per time.
 [[nodiscard]] double roundoff_of_rate(const Piece& piece, double t);
 
 /// Upper estimate of max |f| on [0, t_end]: exact for constants, straight lines, steps and pulses, otherwise sampled. Units
 /// of f.
 [[nodiscard]] double magnitude(const History& f, double t_end);
 
-/// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]; each piece
-/// counts with its largest |f|. Units of f times time.
+/// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]. Each piece
+/// contributes with its largest |f|. Units of f times time.
 [[nodiscard]] double max_impulse(const History& f, double t_end, double width);
 
-/// A time in [0, t_end] at which f is negative beyond rounding, or -1 if there is none: proved with the minima of sines
-/// and with bounds of polynomials, not sampled (except user-defined functions). A piece counts up to and including the
-/// start of the next one.
+/// A time in [0, t_end] at which f is negative by more than rounding, or -1 if there is none. The result is proved with
+/// minima of sines and bounds of polynomials; only user-defined functions are sampled. A piece is examined up to and
+/// including the start of the next piece.
 [[nodiscard]] double find_negative_time(const History& f, double t_end);
 
 // Merges starts of pieces that are closer than the time resolution of a run.

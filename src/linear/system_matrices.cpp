@@ -107,8 +107,8 @@ double SystemMatrices::quadratic(const std::vector<double>& values, const double
 namespace {
 
 constexpr std::size_t rows_of_lanes = 4;
-// Greatest number of places in the band per entry: a diagonal of four rows, two loads of matrices and two of
-// motions, costs as much as three entries one by one.
+// Largest number of places in the band per matrix entry for which the band format saves time. One diagonal of four rows (two
+// loads of matrix entries, two of motions) costs as much as three single entries.
 constexpr std::size_t most_of_entries = 3;
 
 /// Blocks of four rows, all columns of which exist, numbered [first, last).

@@ -232,7 +232,7 @@ TEST_CASE("fit: events are those that were measured, and other columns of their 
   CHECK_THROWS_WITH_AS(
       static_cast<void>(fit(oscillator(), {"springs.1.stiffness"}, data)),
       doctest::Contains("event 2 of the run is reversal of contact \"plate\" at t = 0.628318531, "
-                        "but the data have separation"),
+                        "but the measurements give separation"),
       UsageError);
   Measurements late = turns_of(1.0, 1e-4);
   late.rows[8].value *= 1000.0;

@@ -296,7 +296,7 @@ TEST_CASE("tables that are no measurements, and measurements that the run has no
   refused("event_index,t\n1,0.5\n0,0.6\n",
           ":3:1: event_index: found 0, expected a row of events.csv, from 1");
   refused("event_index,t\n1,soon\n", ":2:2: t: found \"soon\", expected a finite number");
-  refused("t,d0.u,sigma\n1,0.5,-1\n", ":2:3: sigma: found -1, expected more than zero");
+  refused("t,d0.u,sigma\n1,0.5,-1\n", ":2:3: sigma: found -1, expected a number > 0");
   refused("t,d0.u\n", ":2: found no measurement, expected at least one row");
   refused("t,d0.u\n1,0.5\n2\n", ":3: found 1 cells, expected 2 as in the header");
   refused("t,d0.u\n1,0.5,3\n", ":2: found 3 cells, expected 2 as in the header");

@@ -46,7 +46,6 @@ class Forcing {
   void expand(double t, double scale, std::size_t count, ForcingSeries& out) const;
   /// P += coefficient k of the load vector, from the series.
   void add_load(const ForcingSeries& series, std::size_t k, double* P) const;
-  /// Same with the magnitudes of the terms, to which the rounding error of loads that balance each other is
   /// Same with the magnitudes of all terms. The rounding error of loads that balance each other is relative to these
   /// magnitudes.
   void add_load_terms(const ForcingSeries& series, std::size_t k, double* P) const;
@@ -79,7 +78,6 @@ class Forcing {
   void expand_surface(std::size_t k, double t, double scale, std::size_t count, double* out) const {
     surface_[k]->taylor(t, scale, count, out);
   }
-  /// Number of coefficients that represent a surface's motion on a step of up to a quarter of a radian. The
   /// Number of coefficients that represent a surface's motion on a step of up to a quarter of a radian, for which the
   /// relative remainder of a sine is 0.25^13 / 13!.
   [[nodiscard]] std::size_t surface_terms(std::size_t k) const;

@@ -6,7 +6,6 @@
 // sides perturbed by a few rounding errors; the difference shows which entries are zero to working precision. For most
 // contacts, which are far from a change of state, value and rate already decide the state. So the second computation ends
 // with the highest order that some contact needs.
-// contact needs.
 #pragma once
 
 #include <functional>

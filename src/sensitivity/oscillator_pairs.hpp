@@ -9,7 +9,6 @@
 // they are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2; if m t^2 is small for both modes, they are computed as
 // series in m t^2. Rates follow from c' = -l s, s' = c - alpha s, h' = s with (l s)[k, l] = k S + s(l). Required: alpha t <=
 // 4. S is double or Complex. Units follow from those of t and l.
-// those of t and l.
 #pragma once
 
 #include <cstddef>

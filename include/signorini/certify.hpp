@@ -32,9 +32,9 @@
 
 namespace signorini {
 
-/// Bounds of the errors of history.csv; empty if no rows were recorded.
+/// Error bounds of the values in history.csv; empty if the run recorded no rows.
 struct HistoryErrors {
-  std::vector<double> t;  ///< times of the rows that both runs have
+  std::vector<double> t;  ///< times of the rows that run and companion have in common
   /// Number of columns: those of the model; with CertifyOptions::forces also N and T of each contact, then the outputs.
   std::size_t width = 0;
   /// bounds[row, column], row by row; infinite from `Certificate::until` on. Units: those of the columns.
@@ -49,7 +49,7 @@ struct Truncation {
 };
 
 struct Certificate {
-  std::string companion;  ///< "exact", "ida, rtol 1e-10", ...
+  std::string companion;  ///< name of the companion run, for example "exact" or "ida, rtol 1e-10"
   std::string choice;     ///< reason for the choice of this companion: "as given" or "auto: ..."
   double factor = 1.0;    ///< factor c of the bound t_error_k above
   double until = 0.0;     ///< time; every earlier event is certain
@@ -59,14 +59,15 @@ struct Certificate {
   std::optional<std::size_t> first_uncertain;
   /// Error bounds of the times of events, one per row of events.csv; NaN: the event is not certain.
   std::vector<double> t_errors;
-  std::size_t unordered = 0;  ///< neighbouring events of different contacts that lie closer than their errors
+  std::size_t unordered = 0;  ///< number of pairs of neighbouring events, on different contacts, that lie closer than their
+                              ///< errors
   HistoryErrors history;
   /// Error bounds of Report::peaks, one per contact; empty unless `complete`.
   std::vector<std::optional<Peak>> peaks;
   std::vector<std::vector<std::optional<Landing>>> landings;  ///< error bounds of Report::landings
-  std::optional<Truncation> reduction;                        ///< only for a reduced model
-  double wall_time = 0.0;                                     ///< s, all companion runs together
-  double wait = 0.0;  ///< s, from the end of the run to the end of its companion runs
+  std::optional<Truncation> reduction;                        ///< present only for a reduced model
+  double wall_time = 0.0;                                     ///< wall time of all companion runs together, s
+  double wait = 0.0;  ///< time from the end of the run to the end of its companion runs, s
 
   [[nodiscard]] bool certain(std::size_t row) const { return t_errors[row] == t_errors[row]; }
   /// Number of certain rows of events.csv.
@@ -80,10 +81,10 @@ struct CertifiedReport {
 };
 
 struct CertifyOptions {
-  RoundListener listener = {};  ///< receives the decision rounds of the run, not of its companions
-  /// Polled on the calling thread while it waits for companions; false stops them.
+  RoundListener listener = {};  ///< receives the decision rounds of the run, but not those of companion runs
+  /// Called on the calling thread while it waits for companion runs; false stops them.
   std::function<bool()> go_on = [] { return true; };
-  bool forces = false;  ///< also compute bounds of N, T and outputs at the output times
+  bool forces = false;  ///< true: also computes bounds of N, T and outputs at the output times
 };
 
 /// simulate() together with a companion run if settings.certify asks for one; the companion changes no bit of the run.

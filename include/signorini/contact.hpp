@@ -47,7 +47,7 @@ struct Combination {
     for (const auto& [index, factor] : terms) sum += factor * u[index];
     return sum;
   }
-  /// Sum of the magnitudes of the terms of dot(): rounding errors of dot() are relative to it.
+  /// Sum of the magnitudes of the terms of dot(), to which the rounding error of dot() is relative.
   template <class V>
   [[nodiscard]] double magnitude(const V& u) const {
     double sum = 0.0;
@@ -71,7 +71,7 @@ struct ShearElement {
   double stiffness = 0.0, damping = 0.0;
 };
 
-/// The constants of one contact.
+/// All constants of one contact.
 struct Contact {
   std::string name;
   ContactLawPtr law;
@@ -87,14 +87,14 @@ struct Contact {
   double restitution = 0.0;  ///< rigid: Newton's coefficient
   /// rigid: a rebound with a departure speed below this velocity comes to rest; absent: the engine's default
   std::optional<double> capture_velocity;
-  History normal_force;    ///< slider: compression >= 0
+  History normal_force;    ///< slider: the given compression, >= 0
   History surface_motion;  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
   int initial_slip = 0;               ///< sign of the slip at t = 0; needed because T below the static limit does not
                                       ///< determine the sign
   std::size_t initial_law_state = 0;  ///< user law: initial state
   double initial_memory = 0.0;        ///< user law: initial memory p
-  std::uint32_t unused_forces = 0, unused_guards = 0;  ///< ForceLayout::Counts
+  std::uint32_t unused_forces = 0, unused_guards = 0;  ///< see ForceLayout::Counts
 
   [[nodiscard]] bool has_friction() const { return friction.any(); }
 
@@ -154,11 +154,11 @@ struct Contact {
   [[nodiscard]] bool forces_follow_motion() const {
     return obeys_coulomb() && !shear && !friction.is_rate_dependent();
   }
-  /// True if the contact's springs are compliance of the structure: results contain the motion of the
-  /// touching surfaces.
+  /// True if the contact's springs represent local compliance of the structure; results then contain the motion of the
+  /// touching surfaces, without the deformation of the springs.
   [[nodiscard]] bool compliance_split() const { return law->capabilities.compliance_split; }
 
-  /// True without a spring along the tangent: T may jump, and stick is a row on accelerations.
+  /// True if there is no spring along the tangent: T may then jump, and stick is a constraint on accelerations.
   [[nodiscard]] bool sticks_rigidly() const {
     return has_friction() && !law->capabilities.normal_spring && !tangential_stiffness && !shear;
   }
@@ -168,16 +168,16 @@ struct Contact {
   [[nodiscard]] bool holds_tangent(State state) const {
     return kind_of(state) == State::stick && !tangential_stiffness && !shear;
   }
-  /// g at displacements u.
+  /// Gap g at displacements u.
   template <class U>
   [[nodiscard]] double gap_at(const U& u) const {
     return gap + normal.dot(u);
   }
-  /// Tangential displacement of the touching body; equals `tangent` unless there is a shear element.
+  /// Tangential displacement of the touching body as a form; equal to `tangent` unless there is a shear element.
   [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
 };
 
-/// State and memory of one contact; only events change them.
+/// State and memory of one contact. They change only at events.
 struct ContactState {
   State state = State::open;
   /// Memory p; meaningful in stick with tangential stiffness. With a user law: the memory of that law.

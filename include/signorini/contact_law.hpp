@@ -50,9 +50,9 @@ struct LawCapabilities {
   /// The law obeys Signorini's conditions (6) and Coulomb's (7), which the audit and the law checker then check. Springs are
   /// N = kn g + cn g' and T = kt (ut - p). All states are built-in states.
   bool signorini_coulomb = true;
-  /// Guards are linear forms; otherwise they may contain products of forms.
+  /// True: guards are linear forms. False: guards may contain products of forms.
   bool linear_guards = true;
-  /// The law's springs are compliance of the structure: results contain the motion of the touching surfaces.
+  /// The springs of the law represent local compliance of the structure: results contain the motion of the touching surfaces.
   bool compliance_split = false;
   /// Number of forces along the surface and number of guards, for ForceLayout.
   std::uint32_t tangents = 1, guards = 3;
@@ -86,7 +86,7 @@ class ContactLaw {
 
   /// Name in check, messages and summary.json.
   [[nodiscard]] virtual std::string name() const = 0;
-  /// True if scenes can name the law. A law made in code need not have a name.
+  /// True if scenes can name the law. A law made in code may have no name.
   [[nodiscard]] virtual bool is_named() const { return true; }
 
   // Interface for engines and decisions. src/contact has functions with the same names that call these.
@@ -94,7 +94,7 @@ class ContactLaw {
   [[nodiscard]] virtual Rows rows(const Contact& contact, const ContactState& state) const = 0;
   /// Guards of this state; unused entries have the kind Guard::none.
   [[nodiscard]] virtual Guards guards(const Contact& contact, const ContactState& state) const = 0;
-  /// p' as a form, in a state that slips in direction s.
+  /// Slip rate p' as a form, in a state that slips in direction s.
   [[nodiscard]] virtual Form slip_rate(const Contact& contact, int s) const = 0;
   /// State after the guard `failed` of state `now` has reached zero; jet: the motion in state `now`.
   [[nodiscard]] virtual ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
@@ -120,18 +120,18 @@ class ContactLaw {
   [[nodiscard]] virtual std::vector<State> user_law_states() const { return {}; }
   /// True if the law has a rule that sets p at events.
   [[nodiscard]] virtual bool has_memory() const { return false; }
-  /// Copy of the law after `visit` was called for each of its constants; nullptr: the law has no constants.
+  /// Copy of the law after `visit` was called for each constant; nullptr: the law has no constants.
   [[nodiscard]] virtual std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const;
   [[nodiscard]] virtual bool equals(const ContactLaw& other) const { return this == &other; }
 };
 
-/// A law of a contact, never null.
+/// Shared pointer to the law of a contact; never null.
 class ContactLawPtr {
  public:
   ContactLawPtr(Law law = Law::compliant);  // NOLINT(google-explicit-constructor): by name
   ContactLawPtr(std::shared_ptr<const ContactLaw> law)
       : law_(std::move(law)) {}  // NOLINT(google-explicit-constructor)
-  /// A user law.
+  /// Makes a user law.
   ContactLawPtr(std::shared_ptr<const UserContactLaw> law);  // NOLINT(google-explicit-constructor)
 
   const ContactLaw* operator->() const { return law_.get(); }

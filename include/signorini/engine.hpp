@@ -20,7 +20,7 @@ enum class Accuracy { rounding, tolerance, step };
 
 struct EngineInfo {
   Engine engine = Engine::automatic;
-  std::string_view name;   ///< as in scene files
+  std::string_view name;   ///< name in scene files
   std::string_view title;  ///< name of the method in full
   Accuracy accuracy = Accuracy::rounding;
   std::string_view specific_keys;  ///< keys of [run], separated by blanks, that only this engine uses
@@ -35,11 +35,11 @@ inline constexpr std::array all_engines = {
                "relaxation max_iterations"},
 };
 
-/// "auto" for automatic.
+/// Name of the engine; "auto" for Engine::automatic.
 [[nodiscard]] std::string_view to_string(Engine engine);
 /// Row of an engine in all_engines; `engine` must not be automatic.
 [[nodiscard]] const EngineInfo& engine_info(Engine engine);
-/// Engine with this name; nullopt for "auto" and for names of no engine.
+/// Engine with this name; nullopt for "auto" and for unknown names.
 [[nodiscard]] std::optional<Engine> find_engine(std::string_view name);
 /// True if only this engine uses the key of [run].
 [[nodiscard]] bool has_key(const EngineInfo& engine, std::string_view key);

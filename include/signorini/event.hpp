@@ -21,11 +21,11 @@ enum class EventType { slip, stick, reversal, separation, contact, impact, time 
 
 struct EventTypeName {
   EventType type;
-  const char* name;     ///< as in events.csv
-  const char* meaning;  ///< for the documentation
+  const char* name;     ///< name in events.csv
+  const char* meaning;  ///< text for the documentation
 };
 
-/// In the order of lists and tables; the index of a row is the value of its type.
+/// Event types in the order of lists and tables. The index of a row is the value of its EventType.
 inline constexpr std::array all_event_types = {
     EventTypeName{EventType::slip, "slip", "a contact that stuck begins to slide"},
     EventTypeName{EventType::stick, "stick", "a contact that slid comes to rest"},
@@ -44,7 +44,7 @@ inline constexpr std::array all_event_types = {
   return all_event_types[static_cast<std::size_t>(type)].name;
 }
 
-/// Number of events that are changes of a state; jumps of loads are not counted.
+/// Number of events that change a state; jumps of loads are left out.
 [[nodiscard]] inline long count_state_changes(const std::map<std::string, long>& by_type) {
   long sum = 0;
   for (const auto& [type, count] : by_type) sum += type == to_string(EventType::time) ? 0 : count;

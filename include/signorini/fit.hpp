@@ -4,8 +4,8 @@
 //   covariance = (J^T J)^-1,  J_ij = (dx_i/dp_j) / sigma_i        J: the exact derivatives (sensitivity.hpp)
 //
 // Method: Levenberg-Marquardt (GSL). If no sigma is given, the covariance is multiplied by chi^2 / (rows - keys).
-// Units: those of the scene. A result is converged if three conditions hold: the Newton step by J is zero within the
-// tolerance, at the result and on both sides of every key; J distinguishes all keys; the measurements are explained.
+// Units: those of the scene. A fit is converged if three conditions are satisfied: the Newton step by J is zero within the
+// tolerance, at the result and on both sides of every key; J distinguishes all keys; the run explains the measurements.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@
 
 namespace signorini {
 
-/// One measured number.
+/// One measured number with its sigma.
 struct Measurement {
   std::size_t event = 0;  ///< row of events.csv, from 1; 0: the value belongs to a column
   std::string contact;    ///< contact of the event; empty: not checked
@@ -47,14 +47,14 @@ struct FittedKey {
 struct Fit {
   std::vector<FittedKey> keys;
   std::vector<std::vector<double>> covariance;  ///< NaN for keys that the measurements do not determine
-  std::vector<double> residuals;                ///< x_i - m_i at the result; NaN: the run has no such event
+  std::vector<double> residuals;                ///< x_i - m_i at the result; NaN: the run has no such event or column value
   double chi_squared = 0.0;
   long freedom = 0;  ///< degrees of freedom: number of measurements minus number of determined keys
   /// Probability of a chi^2 at least this large by chance. NaN: no sigma was given, or no degree of freedom is left.
   double probability = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0, runs = 0;
   bool converged = false;
-  std::string reason;               ///< reason for the end of the iteration
+  std::string reason;               ///< reason why the iteration ended
   std::vector<std::string> issues;  ///< reasons why the fit is not converged, one sentence each
 };
 

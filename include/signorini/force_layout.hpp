@@ -21,8 +21,8 @@ class ForceLayout {
   /// Number of tangential forces and of guards of one contact, and number of unused entries.
   struct Counts {
     std::uint32_t tangents = 1, guards = 3;
-    std::uint32_t unused_forces = 0;  ///< places after the tangents; their force is zero
-    std::uint32_t unused_guards = 0;  ///< slots after the guards, without a guard
+    std::uint32_t unused_forces = 0;  ///< number of places after the tangents, whose force is zero
+    std::uint32_t unused_guards = 0;  ///< number of slots after the guards, which have no guard
   };
 
   /// Layout without contacts.
@@ -45,10 +45,10 @@ class ForceLayout {
     contacts_ = contacts.size();
     table_ = std::move(table);
   }
-  /// Layout of contacts with the default Counts.
+  /// Layout of this number of contacts, each with the default Counts.
   explicit ForceLayout(std::size_t contacts) : ForceLayout(std::vector<Counts>(contacts)) {}
 
-  /// Layout of the listed contacts alone, in this order.
+  /// Layout of the listed contacts alone, in the order of the list.
   [[nodiscard]] ForceLayout part(const std::vector<std::size_t>& contacts) const {
     std::vector<Counts> counts;
     counts.reserve(contacts.size());
@@ -59,7 +59,7 @@ class ForceLayout {
   [[nodiscard]] std::size_t contacts() const { return contacts_; }
   [[nodiscard]] const Counts& counts(std::size_t contact) const { return table_->counts[contact]; }
 
-  /// Number of all places.
+  /// Number of places of all contacts together.
   [[nodiscard]] std::size_t size() const { return contacts_ == 0 ? 0 : starts_[contacts_].place; }
   [[nodiscard]] std::size_t tangents(std::size_t contact) const { return starts_[contact].tangents; }
   /// Place of the normal force N of a contact, and below the place of its i-th tangential force.
@@ -75,10 +75,10 @@ class ForceLayout {
     return place <= start.place + start.tangents;
   }
 
-  /// Number of all slots.
+  /// Number of slots of all contacts together.
   [[nodiscard]] std::size_t guard_count() const { return contacts_ == 0 ? 0 : starts_[contacts_].slot; }
   [[nodiscard]] std::size_t guards(std::size_t contact) const { return starts_[contact].guards; }
-  /// Slot of a contact's guard.
+  /// Slot of the i-th guard of a contact.
   [[nodiscard]] std::size_t guard(std::size_t contact, std::size_t i = 0) const {
     return starts_[contact].slot + i;
   }

@@ -67,7 +67,7 @@ struct ContactMotion {
   double an = 0.0, at = 0.0;   ///< g'', ut''
   double applied_normal_force = 0.0,
          applied_normal_force_rate = 0.0;  ///< normal_force(t) and its rate; sliders
-  double limit = 0.0, limit_rate = 0.0;    ///< F and its rate; only for friction that depends on N
+  double limit = 0.0, limit_rate = 0.0;    ///< F and its rate; nonzero only for friction that depends on N
 };
 
 struct Form {

@@ -24,16 +24,16 @@ namespace signorini {
 /// order is then decided by rounding. The function must be pure: the same t always gives the same result.
 using Function = std::function<double(double t, int order)>;
 
-/// One smooth piece. Units: those of f; times in the scene's unit of time.
+/// One smooth piece of a history. Units: those of f; times in the scene's unit of time.
 struct Piece {
   double origin = 0.0;               ///< t0
   std::vector<double> coefficients;  ///< c_j, ascending powers of (t - t0)
-  double amplitude = 0.0;            ///< a
-  double omega = 0.0;                ///< w, rad per time
-  double phase = 0.0;                ///< phi, rad
-  Function function = {};            ///< F; empty: none
+  double amplitude = 0.0;            ///< amplitude a of the sine
+  double omega = 0.0;                ///< circular frequency w of the sine, rad per time
+  double phase = 0.0;                ///< phase phi of the sine, rad
+  Function function = {};            ///< user-defined function F; empty: none
   double time_scale = 1.0;           ///< s, ratio of the function's time to the history's time
-  std::vector<double> rates = {};    ///< b_r
+  std::vector<double> rates = {};    ///< factors b_r of the derivatives F^(r)
 
   /// The piece f(t) = F(t).
   [[nodiscard]] static Piece of(Function function) {
@@ -59,7 +59,7 @@ class History {
  public:
   /// The zero function.
   History() : History(Piece{}) {}
-  /// One piece for all times.
+  /// A history with the same piece for all times.
   explicit History(Piece piece) : pieces_{std::move(piece)} {}
   /// pieces[0] is valid before starts[0], pieces[i] from starts[i-1] on. Errors: std::invalid_argument unless starts ascend
   /// strictly and pieces.size() == starts.size() + 1.
@@ -71,21 +71,21 @@ class History {
   /// The piece that is valid just before t.
   [[nodiscard]] const Piece& piece_before(double t) const;
   [[nodiscard]] double value(double t) const { return piece(t).value(t); }
-  /// Breakpoints, ascending.
+  /// All breakpoints, in ascending order.
   [[nodiscard]] std::vector<Breakpoint> breakpoints() const;
-  /// offset + factor * f.
+  /// The history offset + factor * f.
   [[nodiscard]] History scaled(double factor, double offset = 0.0) const;
   /// F(t) = integral of f from 0 to t, continuous. Errors: std::invalid_argument if there are user-defined functions.
   [[nodiscard]] History integrated() const;
-  /// c0 f + c1 f' + c2 f'', piece by piece; jumps of f do not contribute.
+  /// The history c0 f + c1 f' + c2 f'', piece by piece; jumps of f do not contribute to f' and f''.
   [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
   /// The history t -> f(t - dt). Errors: std::invalid_argument if rounding merges starts; the same error in repeated().
   [[nodiscard]] History shifted(double dt) const;
-  /// This history before t, `next` from t on.
+  /// The history that is equal to this one before t and to `next` from t on.
   [[nodiscard]] History then(double t, const History& next) const;
   /// Repeats f on [from, from + period) `rounds` times in all; the history is unchanged before and after.
   [[nodiscard]] History repeated(double from, double period, int rounds) const;
-  /// True if all pieces are the same constant.
+  /// True if the history has the same constant value in all pieces.
   [[nodiscard]] bool is_constant() const;
   /// True if no piece contains a user-defined function.
   [[nodiscard]] bool has_closed_form() const;

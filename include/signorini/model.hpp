@@ -1,4 +1,4 @@
-// model.hpp: a scene as system matrices.
+// model.hpp: a scene as system matrices, loads and contacts.
 //
 //   M u'' + C u' + K u = P(t) - sum_k ( n_k N_k + t_k T_k ),   P(t) = sum_i d_i f_i(t)
 //
@@ -83,7 +83,7 @@ struct StageEvent {
   State from = State::open, to = State::open;
 };
 
-/// Contact forces and states at the end of a part of a stage.
+/// Contact forces and states at the end of one step of a stage.
 struct StageEnd {
   std::string stage;
   double fraction = 1.0;
@@ -96,9 +96,9 @@ struct StaticStart {
   std::vector<double> reactions;          ///< -N of each contact, >= 0
   std::vector<std::string> free_motions;  ///< motions without stiffness: "horizontal motion held at contact 'first'"
   bool frictional = false;
-  std::vector<StageEvent> events;  ///< frictional
-  std::vector<StageEnd> stages;    ///< frictional
-  /// frictional: quantities that the data do not determine, one sentence each
+  std::vector<StageEvent> events;  ///< only frictional
+  std::vector<StageEnd> stages;    ///< only frictional
+  /// Quantities of a frictional start that the data do not determine, one sentence each.
   std::vector<std::string> undetermined;
 };
 
@@ -159,10 +159,11 @@ struct Reduction {
   int free_modes = 0;                           ///< kept modes without stiffness
   int truncated_modes = 0;                      ///< modes above the cutoff
   int massless_shapes = 0, massive_shapes = 0;  ///< shapes for the static compliance of the left-out modes
-  double highest_kept = 0.0;                    ///< rad per time; 0: rigid-body motions only
-  double first_truncated = 0.0;                 ///< rad per time, lowest frequency above the cutoff; 0: none
-  double highest_massive = 0.0;         ///< rad per time, highest frequency of the massive shapes; 0: none
-  std::vector<ComplianceShare> shares;  ///< contacts, then loads
+  double highest_kept = 0.0;                    ///< highest frequency of the kept modes, rad per time; 0: rigid-body motions
+                                                ///< only
+  double first_truncated = 0.0;                 ///< lowest frequency above the cutoff, rad per time; 0: none
+  double highest_massive = 0.0;         ///< highest frequency of the massive shapes, rad per time; 0: none
+  std::vector<ComplianceShare> shares;  ///< shares of contacts, then of loads
   /// Largest amplitude, at named nodes, of the left-out modes after jumps of the loads; length.
   double ringing = 0.0;
   /// Largest part of the initial displacement (velocity) that the reduced model cannot represent. Rotations are converted to
@@ -213,7 +214,7 @@ struct Geometric {
 struct Model {
   std::string title;
   Units units;
-  /// One unit of force, length and time of the numbers here, in the scene's units: 1 except inside a run.
+  /// Size of the model's units of force, length and time in units of the scene: 1 except inside a run.
   Factors unit;
   /// Units of a run's computation: powers of two, chosen by build_model (model/internal_units.hpp).
   Factors internal_units;
@@ -238,17 +239,17 @@ struct Model {
   /// no run of the same structure, or that run recorded no contacts.
   std::vector<SavedState::FinalContact> saved_contacts;
   Scales scales;
-  double alpha = 0.0, beta = 0.0;  ///< Rayleigh factors in use
+  double alpha = 0.0, beta = 0.0;  ///< factors of Rayleigh damping that are used
   double omega1 = 0.0;     ///< lowest circular frequency with initially closed contacts closed; 0: none
   double omega_max = 0.0;  ///< highest circular frequency with all contact springs acting
   std::optional<Reduction> reduction;
   /// Valid but suspicious input, one sentence each; the first warnings of every run.
   std::vector<std::string> warnings;
-  /// Set where massless motions needed a degree of freedom of their own (model/massless.hpp): displacements of the
-  /// first degrees of freedom = basis * u.
+  /// Set if massless motions needed separate degrees of freedom (model/massless.hpp): displacements of the first degrees of
+  /// freedom = basis * u.
   std::optional<SparseMatrix> basis;
   std::vector<LoadCorrection> load_corrections;
-  std::optional<Ties> ties;  ///< rigid bodies
+  std::optional<Ties> ties;  ///< rigid bodies and their tied nodes
   std::optional<Geometric> geometric;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
@@ -284,8 +285,7 @@ struct Model {
       x[ties->rows.cols() + g.tied] += g.motion.piece(t).value(t, order);
     return x;
   }
-  /// Amount by which the structure's energy and the work of loads are lower than the computed ones
-  /// (LoadCorrection).
+  /// Energy by which the structure's energy and the work of loads are lower than the computed values (LoadCorrection).
   [[nodiscard]] double correction_energy(double t) const {
     double sum = 0.0;
     for (const LoadCorrection& a : load_corrections)
@@ -302,7 +302,7 @@ struct Model {
   [[nodiscard]] bool is_rotation(const Column& column) const {
     return column.dof >= 0 && physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
   }
-  /// "m", "rad/s"
+  /// Unit of a column as text, for example "m" or "rad/s".
   [[nodiscard]] std::string unit_of(const Column& column) const {
     const std::string of_motion = is_rotation(column) ? "rad" : units.length;
     return column.velocity ? of_motion + "/" + units.time : of_motion;

@@ -33,7 +33,7 @@ struct OrbitOptions {
   std::optional<double> energy = {};
   int times = 1;       ///< number of load periods after which the orbit closes
   int transient = 20;  ///< periods simulated before Newton's method begins
-  /// Target of Newton's method: residual / amplitude; the iteration continues as long as the residual decreases.
+  /// Target for residual / amplitude in Newton's method; the iteration continues as long as the residual decreases.
   double tolerance = 1e-12;
 };
 
@@ -59,8 +59,8 @@ struct Orbit {
   double amplitude = 0.0;  ///< half the largest range of a displacement, rotations excluded; length
   std::vector<OrbitStep> steps;
 
-  /// Multipliers of all directions in which the state at the section can move, by descending magnitude. An autonomous
-  /// orbit has one multiplier 1, along the motion.
+  /// Multipliers for all directions in which the state at the section can move, in descending magnitude. An autonomous orbit
+  /// has one multiplier 1, along the motion.
   std::vector<std::complex<double>> multipliers;
   /// Error bound of a simple multiplier: the change from Phi at this state to Phi at the state one period later, plus errors
   /// common to both. Common errors are rounding of Phi, steps of its tangents, and with `ida` 100 rtol, each times the
@@ -90,7 +90,7 @@ struct Orbit {
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
                                Recorder* recorder = nullptr);
 
-/// The scene of one period of the orbit, starting on the orbit.
+/// The scene for one period of the orbit, with the orbit's state as initial state.
 [[nodiscard]] Scene orbit_scene(const SceneReader& read, const Orbit& orbit);
 
 /// A point of a branch at which the continuation can restart.
@@ -99,7 +99,7 @@ struct BranchCheckpoint {
   bool towards_to = true;                   ///< true: the branch is followed from `from` towards `to`
   Orbit orbit;                              ///< period, phase, autonomous, start
   std::vector<std::string> sequences = {};  ///< sequences of events that occurred so far, by number
-  std::size_t point_count = 0;              ///< number of Branch::points up to this checkpoint
+  std::size_t point_count = 0;              ///< number of Branch::points up to and including this checkpoint
 };
 
 /// Settings for a branch of orbits over a key of the scene.
@@ -131,7 +131,7 @@ struct BranchPoint {
   long events = 0;  ///< number of events in one period
   int branch = 1;   ///< 1: the first branch; larger numbers: a branch of Branch::sides
   /// Reasons why the point is special, joined with "+"; empty: the point is not special.
-  /// At a located point:
+  /// Reasons at a located point:
   ///   "fold"             the parameter reverses its direction along the branch
   ///   "flip", "neimark-sacker", "branch point"
   ///   "sequence"         the last point with its sequence of events
@@ -145,7 +145,7 @@ struct BranchPoint {
   std::string special;
 };
 
-/// A branch that leaves another branch.
+/// A branch that starts from another branch.
 struct SideBranch {
   int number = 2, from = 1;  ///< numbers as in BranchPoint::branch
   std::string kind;          ///< "flip", "branch point"

@@ -45,7 +45,7 @@ struct Output {
   };
   std::vector<Given> given = {};
   double constant = 0.0;
-  /// Index of the contact whose friction loss this output is; other terms are then ignored.
+  /// Index of the contact whose friction loss is the output; other terms are then ignored.
   std::optional<std::size_t> loss = {};
   /// Linear outputs at the points (base/curves.hpp) of a finite element, between which r is the interpolating polynomial; or
   /// one linear output at a single place.

@@ -95,8 +95,8 @@ struct InstantRow {
   double tolerated_violation = 0.0;
   /// Engine `exact`: condition number of the mode shapes, by which rounding errors of modal sums are multiplied.
   double eigenvector_condition = 1.0;
-  bool start = false;       ///< start of the run
-  bool breakpoint = false;  ///< the forcing is not smooth here
+  bool start = false;       ///< true: the instant is the start of the run
+  bool breakpoint = false;  ///< true: the forcing is not smooth here
   bool load_jumps = false;
   /// True: a guard is zero here. False: the instant is the end of a step in which a change of state was detected.
   bool located = true;
@@ -165,17 +165,17 @@ struct Extreme {
 
 struct Audit {
   Extreme gap;          ///< (6) -(g - N/kn), penetration beyond the spring's deformation, length
-  Extreme tension;      ///< (6) N > 0, force
+  Extreme tension;      ///< (6) N > 0 (tension), force
   Extreme product;      ///< (6) |(g - N/kn) N|, energy
   Extreme friction;     ///< (7) |T| - T_U, force; T_U: static limit in stick, kinetic in slip
-  Extreme direction;    ///< (7) -T p' > 0, power
+  Extreme direction;    ///< (7) -T p' > 0 (T acts along the slip), power
   Extreme equilibrium;  ///< residual of the equation of motion, force
-  Extreme penetration;  ///< rigid contacts, length
+  Extreme penetration;  ///< rigid contacts: |g| if closed, -g if open, length
   Extreme energy;       ///< |balance(t) - balance(0)|
   /// Sum of reactions minus loads and inertia, force; only if a reaction output is requested.
   std::optional<Extreme> reactions;
   double length_scale = 1.0, force_scale = 1.0, power_scale = 1.0, energy_scale = 1.0;
-  long impulses_on_closed = 0;        ///< impulses on contacts while they were closed
+  long impulses_on_closed = 0;        ///< number of impulses on contacts that were closed
   double work_of_loads = 0.0;         ///< largest |W_loads(t)|
   std::vector<double> friction_work;  ///< dissipation of each contact
   Energy initial, final;
@@ -184,16 +184,15 @@ struct Audit {
 struct Counters {
   long steps = 0, residuals = 0, jacobians = 0, factorisations = 0, refactorisations = 0, solves = 0;
   long error_test_failures = 0, convergence_failures = 0, guard_evaluations = 0, restarts = 0;
-  long rolled_back = 0;  ///< events that lay inside a step and were found by the polynomial check
+  long rolled_back = 0;  ///< number of events inside a step that only the check of the step's polynomial found
   long time_events = 0;
-  // `exact` in modes. contact_states: number of contact states whose modes were computed. proof_steps: number
-  // of intervals in which the modes gave the first event or proved that there is none. fallbacks: number of
-  // segments computed with the Taylor series instead.
+  // Counters of `exact` in modes. contact_states: contact states whose modes were computed. proof_steps: intervals in which
+  // the modes gave the first event or proved that there is none. fallbacks: segments computed with Taylor series instead.
   long contact_states = 0, proof_steps = 0, fallbacks = 0;
   std::map<int, long> steps_by_order;
 };
 
-/// Largest |u(t) - u(0)| over all steps, at the node of a contact.
+/// Largest displacements |u(t) - u(0)| of a contact's node and largest contact forces, over all steps.
 struct Peak {
   double tangential = 0.0, normal = 0.0;  ///< along the contact's tangent and normal
   double N = 0.0, T = 0.0;                ///< largest |N|, |T|
@@ -204,46 +203,46 @@ struct TimedExtreme {
   double value = 0.0, t = 0.0;
 };
 
-/// Extreme forces and slip of a contact, with signs, over all steps and instants (those of Peak included).
-/// min_N is the largest compression. Slip is taken in the state before the run's first event, and at the end.
+/// Extreme forces and slip of a contact, with signs, over all steps and instants. min_N is the largest compression.
+/// slip_at_start is taken just before the run's first event, slip_at_end at the end of the run.
 struct SupportLoad {
   TimedExtreme min_N, max_N, min_T, max_T;
   double slip_at_start = 0.0, slip_at_end = 0.0;
   [[nodiscard]] double residual_slip() const { return slip_at_end - slip_at_start; }
 };
 
-/// One contact phase; for an impact with immediate rebound start = end.
+/// One contact phase, from closing to opening. For an impact with immediate rebound start = end.
 struct Landing {
   double start = 0.0, end = 0.0;
   double impulse = 0.0;     ///< impulse of impacts and of -N over the phase, force * time
-  double peak_force = 0.0;  ///< largest -N
+  double peak_force = 0.0;  ///< largest -N in the phase, force
 };
 
-/// Position of an extreme on a segment of an output (Output::segments): the station on its piece.
+/// Position of an extreme on a segment of an output (Output::segments): station on the segment's piece.
 struct OutputPlace {
-  int segment = -1;  ///< -1: the output has none
+  int segment = -1;  ///< index of the segment; -1: the output has no segments
   double station = 0.0;
 };
 
-/// Extremes of one output over the whole motion, not only at its rows, and its last value. For an output with
-/// segments the extremes are signed and cover all places; the values in rows are magnitudes.
+/// Extremes of one output over the whole motion, not only at its rows, and its last value. For an output with segments the
+/// extremes have signs and cover all places, while rows contain magnitudes.
 struct OutputExtremes {
   double maximum = 0.0, minimum = 0.0, last = 0.0;  ///< in the unit of the output
-  double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, if several are equal to rounding
+  double t_maximum = 0.0, t_minimum = 0.0;          ///< if several extremes are equal up to rounding: the first time
   OutputPlace at_maximum = {}, at_minimum = {};
 };
 
 /// Engine of a run and its settings.
 struct Method {
-  Engine engine = Engine::ida;  ///< never automatic
-  bool automatic = false;       ///< the engine was chosen by the program
+  Engine engine = Engine::ida;  ///< the engine that was used; never automatic
+  bool automatic = false;       ///< true: the program chose the engine
   std::string reason;           ///< reason for the choice; "as given" unless automatic
-  double accuracy = 0.0;        ///< value of its accuracy key (engine.hpp): rtol, dt, or 0
+  double accuracy = 0.0;        ///< value of the engine's accuracy key (engine.hpp): rtol, dt, or 0
   int max_order = 5;
   std::string max_order_reason;
   std::string flow = {}, flow_reason = {};  ///< exact: "modal" or "taylor", and the reason
 
-  /// "as given" or "auto: ..."
+  /// Reason for the engine: "as given" or "auto: ..."
   [[nodiscard]] std::string engine_reason() const { return (automatic ? "auto: " : "") + reason; }
 };
 
@@ -255,14 +254,14 @@ struct Violation {
   std::string law;    ///< "momentum", "restitution", ...
   double value = 0.0, limit = 0.0;
   Unit unit = {};            ///< unit of value and limit
-  bool unexplained = false;  ///< no recorded quantity and no tolerance explains it: the run ends
+  bool unexplained = false;  ///< true: no recorded quantity and no tolerance explains the violation; the run ends
 };
 
 /// Results of the law checker of a run.
 struct LawCheckSummary {
-  /// Number of checked instants and of checked motions between instants; number of all violations.
+  /// checked: number of checked instants and motions between instants; violated: number of all violations.
   long checked = 0, violated = 0;
-  std::vector<Violation> violations;  ///< the first hundred
+  std::vector<Violation> violations;  ///< the first hundred violations
 };
 
 /// All results of a run except its rows.
@@ -276,15 +275,15 @@ struct Report {
   std::vector<std::vector<Landing>> landings;  ///< one list per contact; empty for sliders
   std::vector<OutputExtremes> response;        ///< one per output
   std::map<std::string, long> events_by_type;
-  long undecided = 0;  ///< decisions left open by rounding: the states with the smallest violation were taken
+  long undecided = 0;  ///< number of decisions that rounding left open; the states with the smallest violation were taken
   /// First time at which rounding left states undecided that affect the later motion; empty: never.
   std::optional<double> first_undecided;
   LawCheckSummary law_checks;
   std::vector<std::string> warnings;  ///< one sentence each
-  double wall_time = 0.0;             ///< s, integration only, without reading and assembly
+  double wall_time = 0.0;             ///< time of the integration alone, s
 };
 
-/// Keeps all rows in memory.
+/// A Recorder that keeps all rows in memory.
 class Result : public Recorder {
  public:
   struct Row {

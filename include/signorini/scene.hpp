@@ -71,7 +71,7 @@ struct HistorySpec {
   }
 };
 
-/// A direction in the space of displacements: a node and a plane vector, or degrees of freedom by name.
+/// A direction in the space of displacements: a node with a plane vector, or degrees of freedom with factors, by name.
 struct Direction {
   std::string node = {};
   std::array<double, 2> vector{0.0, 0.0};
@@ -129,7 +129,7 @@ struct RunSpec {
 /// A stage of a frictional start: the listed loads change slowly from their previous values to their values at t = 0.
 struct StageSpec {
   std::string name;
-  /// Names as in Model::loads, or "temperature", "supports" for all loads of that kind.
+  /// Names as in Model::loads; "temperature" or "supports" name all loads of that kind.
   std::vector<std::string> loads;
   int steps = 1;  ///< number of equal parts of the stage; the state is reported after each part
   SourcePlace place;
@@ -154,7 +154,7 @@ struct Prestress {
 
 /// State at the end of a run, with all data needed to continue the motion in another run.
 struct SavedState {
-  std::string run;  ///< directory
+  std::string run;  ///< directory of the saved run
   /// Displacements, velocities and other columns, each with its name (scene/saved_state.hpp).
   std::vector<std::pair<std::string, double>> motions;
   std::vector<std::pair<std::string, double>> shears;  ///< T of contacts, by name of the contact
@@ -189,7 +189,7 @@ struct InitialSpec {
   bool is_frictional = false;
   std::vector<StageSpec> stages = {};  ///< frictional; empty: all static loads at once
   std::optional<SavedState> saved = {};
-  std::vector<double> u = {}, v = {};  ///< matrices: one per degree of freedom; empty: zero
+  std::vector<double> u = {}, v = {};  ///< matrices: one entry per degree of freedom; empty: zero
   struct Component {
     std::string node, component;  ///< component: ux uy rz vx vy wz
     double value = 0.0;
@@ -273,7 +273,7 @@ struct BodySpec {
   PlaneMesh mesh = {};  ///< nodes: none, the indices refer to Scene::nodes
   std::size_t first_node = 0, node_count = 0;
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
-  bool plane_strain = false;  ///< plane strain; false: plane stress
+  bool plane_strain = false;  ///< true: plane strain; false: plane stress
   MassKind mass = MassKind::consistent;
   double thermal_expansion = 0.0;                 ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();  ///< temperature above that of the undeformed state
@@ -329,7 +329,7 @@ struct PointMass {
 struct RigidBody {
   std::string name = {};
   std::string centre = {};              ///< name of the centre, a node
-  std::vector<std::string> nodes = {};  ///< all other nodes
+  std::vector<std::string> nodes = {};  ///< all nodes except the centre
   SourcePlace place = {};
 };
 
@@ -533,7 +533,7 @@ struct OutputSpec {
   std::size_t spring = 0;         ///< index into Scene::springs
   std::vector<OutputTerm> terms;  ///< combination
   SourcePlace place;
-  Fibre fibre = Fibre::both;                   ///< fibre of stresses
+  Fibre fibre = Fibre::both;                   ///< fibre of a stress
   std::optional<double> intensification = {};  ///< factor on bending stresses; absent: the factor of the bend, or 1
 };
 
@@ -565,8 +565,8 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<Member> members;
   std::vector<BodySpec> bodies;
-  std::vector<SurfaceSpec> surfaces;       ///< only with matrices
-  std::vector<SurfaceNode> surface_nodes;  ///< nodes of all surfaces, each once
+  std::vector<SurfaceSpec> surfaces;       ///< used only with matrices
+  std::vector<SurfaceNode> surface_nodes;  ///< nodes of all surfaces, each listed once
   std::vector<SeamSpec> seams;             ///< tied seams are in `ties`
   std::vector<TieSpec> ties;
   std::vector<PointMass> masses;

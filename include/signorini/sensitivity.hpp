@@ -26,7 +26,7 @@
 
 namespace signorini {
 
-/// Reads the scene with some of its keys changed.
+/// Reads the scene after the given changes of keys.
 using SceneReader = std::function<Scene(const std::vector<Override>& changes)>;
 /// Reads the file once, at this call; later changes of the file have no effect. The overrides `always` are applied at every
 /// call, before the changes. Errors: FileError; SceneError if the file is larger than 64 MB.
@@ -116,7 +116,7 @@ struct Stretches {
 
 struct Sensitivities {
   std::vector<Parameter> parameters;
-  std::vector<std::string> contacts;  ///< names
+  std::vector<std::string> contacts;  ///< names of the contacts
   std::vector<Event> events;
   std::vector<std::vector<EventRates>> event_rates;  ///< [event][parameter]
   /// Columns of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap" of each contact. With `losses` also "energy.kinetic"
@@ -136,7 +136,7 @@ struct Sensitivities {
 /// A first-order estimate of a change in the sequence: two neighbouring events swap, or both vanish if they are on one
 /// contact.
 struct SequenceChange {
-  std::size_t parameter = 0, first = 0, second = 0;  ///< indices of events, times ascending
+  std::size_t parameter = 0, first = 0, second = 0;  ///< indices into `events`, with ascending times
   double change = 0.0;                               ///< change of the parameter at which the times of both events coincide
   bool vanish = false;                               ///< true: both events are on one contact
 };

@@ -1,4 +1,4 @@
-// simulate.hpp: from a model to its motion.
+// simulate.hpp: computes the motion of a model.
 //
 //   0 = u' - v
 //   0 = M v' + C v + K u - P(t) + sum_k ( n_k N_k + t_k T_k )
@@ -41,7 +41,7 @@ namespace signorini {
 /// Same as above, with all rows in the returned Result.
 [[nodiscard]] Result simulate(const Model& model, const RunSpec& settings);
 
-/// Simulates a scene with its own settings. Errors: also those of build_model().
+/// Simulates a scene with the scene's run settings. Errors: also those of build_model().
 Report simulate(const Scene& scene, Recorder& recorder);
 [[nodiscard]] Result simulate(const Scene& scene);
 

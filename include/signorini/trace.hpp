@@ -2,7 +2,7 @@
 //
 //   a round: a contact state is tried at an instant; it is consistent if no guard becomes negative just after
 //
-// A guard fails if its first derivative that is not zero to working precision is negative.
+// A guard fails if its first derivative that is nonzero within rounding is negative.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,7 @@ struct NamedGuard {
   double excess = 1.0;  ///< ratio of that derivative to the size below which it counts as zero
 };
 
-/// One contact state tried at one instant.
+/// One contact state (of all contacts) that is tried at one instant.
 struct DecisionRound {
   double t = 0.0;
   int number = 0;                     ///< 0: contact states just before the instant, with the forcing just after
@@ -40,7 +40,7 @@ struct DecisionRound {
 
 using RoundListener = std::function<void(const DecisionRound&)>;
 
-/// simulate() of signorini/simulate.hpp with a listener that is called for every tried contact state.
+/// Same as simulate() of signorini/simulate.hpp, with a listener that is called for every tried contact state.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               const RoundListener& listener);
 
@@ -57,7 +57,7 @@ struct Refusal {
     standstill  ///< events repeat without progress in time, although each instant has consistent states
   } kind = Kind::none;
   std::string reason;                 ///< one sentence
-  std::vector<std::size_t> contacts;  ///< contacts concerned
+  std::vector<std::size_t> contacts;  ///< contacts to which the refusal applies
   /// Condition number of the Delassus matrix W (decide/delassus.hpp), scaled to a unit diagonal. NaN: unknown.
   double condition = std::numeric_limits<double>::quiet_NaN();
   /// Violation of the guards by the best combination of states, in units of its rounding error. NaN: unknown.

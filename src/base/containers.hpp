@@ -31,7 +31,7 @@ class LruCache {
   LruCache(const LruCache&) = delete;
   LruCache& operator=(const LruCache&) = delete;
 
-  /// Value of the key, which becomes the most recently used one; nullptr if the key is absent.
+  /// Value of the key, which becomes the most recently used key; nullptr if the key is absent.
   [[nodiscard]] Value* find(const Key& key) {
     const auto known = index_.find(key);
     if (known == index_.end()) return nullptr;
@@ -66,7 +66,7 @@ class LruCache {
   static constexpr std::size_t entry_overhead =
       sizeof(Entry) + sizeof(typename Index::value_type) + 8 * sizeof(void*);
   CacheLimits most_;
-  Entries entries_;  // most recently used first
+  Entries entries_;  // entries, most recently used first
   Index index_;
   std::size_t bytes_ = 0;
 };
@@ -83,7 +83,7 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  /// The smallest member of i's set.
+  /// The smallest member of the set that contains i.
   [[nodiscard]] std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

@@ -35,12 +35,12 @@ struct PolynomialInterpolation {
   static constexpr double lebesgue = 2.0;
   using Values = std::array<double, max_points>;
 
-  /// Position of the i-th of n points.
+  /// Position in [0, 1] of the i-th of n points.
   [[nodiscard]] static double point(std::size_t n, std::size_t i);
-  /// p(x), from the values f at n points.
+  /// Value p(x), from the values f at n points.
   [[nodiscard]] static double interpolate(const Values& f, std::size_t n, double x);
 
-  /// Extreme values of p and their positions; the first position if several values are equal up to rounding.
+  /// Extreme values of p and their positions; if several values are equal up to rounding, the first position.
   struct Extremes {
     double least = 0.0, greatest = 0.0, at_least = 0.0, at_greatest = 0.0;
   };

@@ -58,7 +58,7 @@ ManifestEntry entry_of(const fs::path& directory, std::string_view file) {
       checksum.add({part.data(), static_cast<std::size_t>(n)});
       entry.size += static_cast<std::uintmax_t>(n);
     }
-  } catch (const std::ios_base::failure& error) {  // error of the disk
+  } catch (const std::ios_base::failure& error) {  // read error of the disk
     throw FileError((directory / file).string(), std::string("cannot be read: ") + error.what());
   }
   entry.checksum = checksum.text();

@@ -39,7 +39,7 @@ struct ManifestEntry {
 };
 
 struct Manifest {
-  std::string program, outcome;  ///< the version of Signorini; done, stopped, interrupted
+  std::string program, outcome;  ///< program: version of Signorini; outcome: done, stopped or interrupted
   std::vector<ManifestEntry> files;
 
   /// Entry of a file; nullptr: the file is not listed.
@@ -47,7 +47,7 @@ struct Manifest {
   void remove(std::string_view file);
   /// Records the present size and checksum of the file; removes its entry if the file does not exist. Errors: FileError.
   void add(const std::filesystem::path& directory, std::string_view file);
-  /// Content of manifest.json.
+  /// Text of manifest.json.
   [[nodiscard]] std::string text() const;
 };
 

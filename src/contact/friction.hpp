@@ -49,7 +49,7 @@ class LimitSeries {
  public:
   LimitSeries(const Friction& friction, double x0);
 
-  /// Slope F'(x_0).
+  /// Slope F'(x_0) of the limit.
   [[nodiscard]] double slope() const { return slope_; }
   /// Part F_k - F'(x_0) x_k of the next coefficient k; it can be computed before x_k is known.
   [[nodiscard]] double known() const;
@@ -61,7 +61,7 @@ class LimitSeries {
 
   double range_, force_;  // fl - fh; Nc
   double slope_;
-  std::vector<double> x_, e_;  // coefficients x_k, and those of exp(-x / Nc)
+  std::vector<double> x_, e_;  // coefficients x_k, and coefficients of exp(-x / Nc)
 };
 
 /// static_friction: greatest ratio |T| / |N| in stick, over all N. kinetic_friction: least ratio |T| / |N| in slip, over all

@@ -186,9 +186,9 @@ namespace signorini {
 //   (6)  g >= 0, N <= 0, g N = 0          with a normal spring: g minus its deformation (N - cn g')/kn
 //   (7)  |T| <= T_U, T p' >= 0            T_U: static limit in stick, friction at the slip rate in slip
 
-/// Each value is positive if its condition is violated.
+/// Amounts of violation; a value is positive if its condition is violated.
 struct Violations {
-  double tension = 0.0;      ///< N; force
+  double tension = 0.0;      ///< N; positive in tension; force
   double gap = 0.0;          ///< -(g - deformation of the spring); length; only contacts with a spring
   double penetration = 0.0;  ///< |g| if closed, -g if open; length; only constraints
   double product = 0.0;      ///< |g N|, with g as in `gap` or `penetration`; energy

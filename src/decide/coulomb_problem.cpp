@@ -370,7 +370,7 @@ namespace {
 using Kind = CoulombItem::Kind;
 
 constexpr double noise_of_solution =
-    2.0;  // relative to the noise of the right-hand side: the solution adds as much again
+    2.0;  // relative to the noise of the right-hand side, because the solution adds the same amount of noise
 
 /// Forces that act with zero response, and the responses to a unit of each. The tangential force k of a slipping contact is
 /// proportional to its l and is included in the column of l.

@@ -15,7 +15,7 @@
 
 namespace signorini::decide {
 
-/// Effect of forces at the listed contacts on all degrees of freedom, and on the listed contacts.
+/// Effect of forces at the listed contacts: on all degrees of freedom, and on the listed contacts.
 struct Delassus {
   Eigen::MatrixXd
       effect;  ///< n x places of the list: accelerations for unit forces (l along n, k along t); 0 at massless degrees

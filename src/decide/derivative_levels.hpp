@@ -58,7 +58,7 @@ class DerivativeLevels {
     std::size_t order = 0, block = 0;
     std::vector<std::size_t> entries, contacts;  // indices of undecided entries, and their contacts
     CoulombProblem problem;
-    Eigen::VectorXd noise;  // of problem.b
+    Eigen::VectorXd noise;  // noise of problem.b
     motion::StateSystemPtr system;
   };
   [[nodiscard]] CoulombItem item_of(const Entry& entry, const motion::Forcing& forcing, double t) const;

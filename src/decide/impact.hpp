@@ -41,7 +41,7 @@ struct SingleImpact {
 };
 
 struct Impact {
-  Refusal refusal;                ///< reason if there is no solution
+  Refusal refusal;                ///< reason why there is no solution
   Vector v;                       ///< velocities after the impact
   std::vector<Impulse> impulses;  ///< one entry per contact of the model
   double loss = 0.0;              ///< dissipated energy

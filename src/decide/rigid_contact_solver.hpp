@@ -69,7 +69,7 @@ class RigidContactSolver {
   /// Rigid contacts of a block that touch (g = 0).
   struct TouchingContacts {
     Block contacts;
-    std::vector<Approach> approaches;  // one per contact
+    std::vector<Approach> approaches;  // one entry per contact
     bool hit = false, apart = false;   // hit: a contact closes; apart: some gap is not exactly 0
     bool unresolved = false;           // a flight is lower than the rounding of its data
   };

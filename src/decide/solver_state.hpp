@@ -15,7 +15,7 @@ namespace signorini::decide {
 /// Factor on noise and on the resolution of time, applied if states repeat or if a guard located by an engine does not fail.
 inline constexpr double retry_noise_factor = 16.0;
 
-/// A decision in progress.
+/// All data of a decision in progress.
 struct SolverState {
   Instant instant;
   const motion::Forcing& after;

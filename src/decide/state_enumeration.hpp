@@ -23,7 +23,7 @@ class StateEnumeration {
   /// Largest number of contacts for which all combinations are tried; the cost is up to 4^5 jets.
   static constexpr std::size_t max_contacts = 5;
 
-  /// A contact and the states that it may take.
+  /// A contact with the states that it may take.
   struct Choice {
     std::size_t contact = 0;
     std::vector<ContactState> states;

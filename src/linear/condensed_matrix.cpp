@@ -150,7 +150,7 @@ void CondensedRows::set_rows(std::size_t c, const Rows& rows) {
   unknown_ -= coefficients_[c].known ? 0 : 1;
   coefficients_[c] = held_by(rows);
   unknown_ += coefficients_[c].known ? 0 : 1;
-  if (changed_.size() == most_remembered) {  // discards the earlier half
+  if (changed_.size() == most_remembered) {  // discards the earlier half of the record
     constexpr std::size_t half = most_remembered / 2;
     changed_.erase(changed_.begin(), changed_.begin() + half);
     dropped_changes_ += half;

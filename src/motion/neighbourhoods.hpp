@@ -28,7 +28,7 @@ struct Neighbourhood {
         dofs(std::move(dofs_)),
         contacts(std::move(contacts_)),
         loads(std::move(loads_)) {}
-  Neighbourhood(const Neighbourhood&) = delete;  // its parts refer to each other by address
+  Neighbourhood(const Neighbourhood&) = delete;  // members refer to each other by address
   Neighbourhood& operator=(const Neighbourhood&) = delete;
 
   /// Limits of the cache of contact states. They are low because all states share one factorisation of M_WW, and because

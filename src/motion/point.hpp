@@ -28,10 +28,10 @@ struct StructureEnergy {
   double kinetic = 0.0, elastic = 0.0;
 };
 
-/// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
+/// Displacements, velocities (length n) and forces (signorini/force_layout.hpp) at one time.
 struct Point {
   Vector u, v, forces;
-  Vector a = {};  ///< empty if not needed
+  Vector a = {};  ///< accelerations; empty if not needed
   /// Energy of u and v, if the engine knows it more accurately than v^T M v and u^T K u, which on a fine mesh are sums of
   /// terms far larger than the result.
   std::optional<StructureEnergy> energy = {};

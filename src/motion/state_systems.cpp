@@ -47,7 +47,7 @@ bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared,
     for (std::size_t i = 0; i < shared.rows.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       if (layout.is_normal(shared.rows[i]) || !linear::has_share(shared.null, at))
-        continue;  // a normal row, or no participation
+        continue;  // only tangential rows that participate
       const std::size_t c = layout.contact_of(shared.rows[i]);
       const double zi = z[at], rate = forcing.surface(c, t, order);
       sum += zi * rate;

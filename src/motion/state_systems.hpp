@@ -143,7 +143,7 @@ class StateSystems {
   const linear::SystemMatrices& structure_;
   const std::vector<linear::DofKind> own_kinds_;  // kinds from the structure alone
   const bool massless_;
-  linear::SystemMatrix matrix_;  // matrix in which systems are assembled
+  linear::SystemMatrix matrix_;  // the matrix in which systems are assembled
   std::vector<linear::Weights> weights_;
   std::shared_ptr<const linear::TriangularFactors> mass_;  // nullptr: not used for this model
   base::LruCache<std::vector<State>, std::shared_ptr<const FactorisedStates>> cache_;

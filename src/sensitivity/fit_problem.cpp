@@ -52,7 +52,7 @@ void FitProblem::start(std::vector<double>& keys) {
   if (!run(keys)) return;
   size_.resize(keys.size());
   for (std::size_t p = 0; p < keys.size(); ++p) {
-    constexpr double steps_of_size = 512.0;  // Parameter::step is the key's size divided by this
+    constexpr double steps_of_size = 512.0;  // key's size / Parameter::step
     size_[p] = keys[p] != 0.0 ? std::abs(keys[p]) : steps_of_size * std::abs(last_.parameters[p].step);
   }
   std::size_t row = 0;

@@ -33,7 +33,7 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
   void finish();
 
  private:
-  /// Peak of one quantity of a contact.
+  /// Peak of one quantity of a contact, with its derivatives.
   struct Peak {
     double size = 0.0, value = 0.0, t = 0.0;
     bool turn = false;  // true: an extreme between instants
@@ -60,7 +60,7 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
   const std::vector<TangentState>* states_ = nullptr;                             // states after the last instant
   double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;  // time and resolution of the last instant
   std::vector<std::array<Peak, 4>> peaks_;
-  std::optional<LandingRecord> landings_;  // only with losses
+  std::optional<LandingRecord> landings_;  // used only with losses
 };
 
 }  // namespace signorini::sensitivity

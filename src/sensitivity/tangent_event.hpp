@@ -102,7 +102,7 @@ class TangentEvents {
   const Model& model_;
   motion::StateSystems& systems_;
   const ModelDerivative& derivative_;
-  double size_;   // size of the parameter
+  double size_;   // size of the parameter, to which tests for zero are relative
   double least_;  // rates of times below this limit are treated as zero
   bool crosses_grazes_ = false;
 };

@@ -82,9 +82,9 @@ struct EventColumn {
 };
 
 inline constexpr std::array event_columns = {
-    EventColumn{"t", "time", &Event::t, "the instant", false},
-    EventColumn{"contact", "", &Event::contact, "the name of the contact"},
-    EventColumn{"event", "", &Event::type, "what happens: see the types below", false},
+    EventColumn{"t", "time", &Event::t, "time of the event", false},
+    EventColumn{"contact", "", &Event::contact, "name of the contact"},
+    EventColumn{"event", "", &Event::type, "type of the event, see below", false},
     EventColumn{"from", "", &Event::from, "the state before all changes at that instant"},
     EventColumn{"to", "", &Event::to, "the state after all changes at that instant"},
     EventColumn{"gap", "length", &Event::gap, "the gap; empty for sliders, which have none"},
@@ -92,21 +92,21 @@ inline constexpr std::array event_columns = {
     EventColumn{"T", "force", &Event::T, "the friction force just before"},
     EventColumn{"N_after", "force", &Event::N_after, "the normal force just after"},
     EventColumn{"T_after", "force", &Event::T_after, "the friction force just after"},
-    EventColumn{"vn", "length/time", &Event::vn, "the rate of the gap just before"},
-    EventColumn{"vn_after", "length/time", &Event::vn_after, "the rate of the gap just after"},
-    EventColumn{"vt", "length/time", &Event::vt, "the rate of the tangential motion just before"},
-    EventColumn{"vt_after", "length/time", &Event::vt_after, "the rate of the tangential motion just after"},
+    EventColumn{"vn", "length/time", &Event::vn, "rate of the gap just before"},
+    EventColumn{"vn_after", "length/time", &Event::vn_after, "rate of the gap just after"},
+    EventColumn{"vt", "length/time", &Event::vt, "rate of the tangential motion just before"},
+    EventColumn{"vt_after", "length/time", &Event::vt_after, "rate of the tangential motion just after"},
     EventColumn{"impulse_n", "force time", &Event::impulse_n,
-                ">= 0, pushes the body along the normal; at hits of rigid contacts only"},
+                "impulse along the normal, >= 0: pushes the body away; at hits of rigid contacts only"},
     EventColumn{"impulse_t", "force time", &Event::impulse_t, "impulse along the tangent; at hits of rigid contacts only"},
     EventColumn{
         "guard_rate", "of the guard / time", &Event::guard_rate,
         "dg/dt of the condition that failed (g, -N, fs abs(N) - s T, or the slip rate), just before; empty "
-        "where a load's jump changed the state"},
+        "if a jump of a load changed the state"},
     EventColumn{
         "t_uncertainty", "time", &Event::t_uncertainty,
-        "how far `t` may be off because of it: the error of the condition divided by its rate, or what its "
-        "higher derivatives give where it grazes; empty where `guard_rate` is"},
+        "error bound of `t` at this event alone: error of the condition divided by its rate, or a bound from its "
+        "higher derivatives where it grazes zero; empty where `guard_rate` is empty"},
 };
 
 /// Name of the column of events.csv that shows a member: event_column(&Event::t_uncertainty) is "t_uncertainty".

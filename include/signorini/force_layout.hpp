@@ -62,11 +62,13 @@ class ForceLayout {
   /// Number of places of all contacts together.
   [[nodiscard]] std::size_t size() const { return contacts_ == 0 ? 0 : starts_[contacts_].place; }
   [[nodiscard]] std::size_t tangents(std::size_t contact) const { return starts_[contact].tangents; }
-  /// Place of the normal force N of a contact, and below the place of its i-th tangential force.
+  /// Place of the normal force N of a contact.
   [[nodiscard]] std::size_t normal(std::size_t contact) const { return starts_[contact].place; }
+  /// Place of the i-th tangential force of a contact.
   [[nodiscard]] std::size_t tangent(std::size_t contact, std::size_t i = 0) const {
     return starts_[contact].place + 1 + i;
   }
+  /// Contact to which a place belongs.
   [[nodiscard]] std::size_t contact_of(std::size_t place) const { return table_->contact_of_place[place]; }
   [[nodiscard]] bool is_normal(std::size_t place) const { return place == normal(contact_of(place)); }
   /// False for an unused place after the tangents of a contact.

@@ -101,14 +101,16 @@ class LimitSeries {
   return contact.friction.is_load_dependent() ? "friction that depends on the normal force"
                                               : "friction that depends on the slip rate";
 }
+/// True if the contact slips in this state and its friction coefficient varies.
 [[nodiscard]] inline bool slips_nonlinearly(const Contact& contact, State state) {
   return friction_varies(contact) && slip_sign(state) != 0;
 }
 
 /// Linear row of a contact that slips in direction s with the coefficient f: T + s f N.
 [[nodiscard]] Form sliding_row(int s, double f);
-/// Residual of the nonlinear slip row at a motion, and below its linearisation at that motion.
+/// Residual of the nonlinear slip row at a motion m, for a contact that slips in direction s. Unit: force.
 [[nodiscard]] double sliding_row_value(const Contact& contact, int s, const ContactMotion& m);
+/// Linearisation of the nonlinear slip row at a motion m.
 [[nodiscard]] Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m);
 
 /// Taylor coefficients of the coefficient of friction along a motion, computed one after the other.

@@ -31,8 +31,7 @@ struct Scaled {
   VectorXd unit;  // response / unit, force * unit
   MatrixXd W;
   VectorXd b;
-  std::vector<double> ratio;  // unit of the normal / unit of the tangent: the limit force f l along t is f * ratio * l in
-                              // scaled units
+  std::vector<double> ratio;  // unit of the normal / unit of the tangent, a factor of the limit force f l
 };
 
 Scaled scaled(const CoulombProblem& p) {

@@ -111,11 +111,14 @@ class CoulombSignificance {
   [[nodiscard]] Eigen::Index tangent(std::size_t i) const { return problem_.tangent(i); }
   [[nodiscard]] double force(Eigen::Index row) const { return solution_.force[row]; }
   [[nodiscard]] double response(Eigen::Index row) const { return solution_.response[row]; }
-  /// Compression l of item i. The next function gives its coefficient of friction in the solution.
+  /// Compression l of item i in the solution.
   [[nodiscard]] double applied_normal_force(std::size_t i) const;
+  /// Coefficient of friction of item i in the solution, static or kinetic.
   [[nodiscard]] double friction(std::size_t i) const;
 
+  /// Size up to which the force at this place is treated as zero.
   [[nodiscard]] double force_tolerance(Eigen::Index row) const;
+  /// True if the response at this place is zero within its noise.
   [[nodiscard]] bool is_zero_response(Eigen::Index row) const;
   /// True if the force lies inside its friction cone by more than its noise; the contact is then at rest, and a nonzero
   /// response is rounding.

@@ -77,8 +77,9 @@ class CondensedRows {
   [[nodiscard]] std::size_t contacts() const { return coefficients_.size(); }
   [[nodiscard]] const ForceLayout& layout() const { return layout_; }
 
-  /// Sets the rows of one contact; the next function sets the rows of all contacts.
+  /// Sets the rows of one contact.
   void set_rows(std::size_t contact, const Rows& rows);
+  /// Sets the rows of all contacts.
   void set_rows(const std::vector<Rows>& rows);
   /// True if the rows of every contact determine its forces and contain no acceleration.
   [[nodiscard]] bool is_determined() const { return unknown_ == 0; }
@@ -88,8 +89,9 @@ class CondensedRows {
   /// that version.
   [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
 
-  /// Degree of freedom at a place in the band. The next function gives the entries of its row.
+  /// Degree of freedom at a place in the band.
   [[nodiscard]] std::size_t dof_at(std::size_t place) const { return dof_at_[place]; }
+  /// Entries of M, C and K in the row at a place in the band.
   [[nodiscard]] std::span<const Entry> entries(std::size_t place) const {
     return {entries_.data() + entries_end_[place], entries_.data() + entries_end_[place + 1]};
   }

@@ -59,8 +59,9 @@ class Forcing {
   [[nodiscard]] bool varies() const { return varies_; }
   /// True if the compression of contact k or the position of its surface varies with time.
   [[nodiscard]] bool is_driven(std::size_t k) const { return driven_[k]; }
-  /// Largest circular frequency in the forcing; the next function: in the motions of surfaces alone. Unit: rad per time.
+  /// Largest circular frequency in the forcing. Unit: rad per time.
   [[nodiscard]] double max_omega() const;
+  /// Largest circular frequency in the motions of surfaces. Unit: rad per time.
   [[nodiscard]] double surface_omega() const;
   /// Largest degree of a polynomial in the forcing.
   [[nodiscard]] std::size_t max_degree() const;

@@ -122,8 +122,9 @@ class StateSystems {
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const linear::SystemMatrices& structure() const { return structure_; }
-  /// Number of systems in the cache; the next function: their memory in bytes.
+  /// Number of systems in the cache.
   [[nodiscard]] std::size_t cached_count() const { return cache_.size(); }
+  /// Memory of the cache in bytes.
   [[nodiscard]] std::size_t bytes() const { return cache_.bytes(); }
   /// Number of systems made so far.
   [[nodiscard]] long created_count() const { return made_; }

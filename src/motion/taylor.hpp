@@ -34,11 +34,12 @@ struct Series {
   ForcingSeries forcing;   ///< levels + 3 coefficients
 };
 
-/// Coefficient k of g = g0 + n . u; the next function: coefficient k of ut = t . u - s of contact number `index`.
+/// Taylor coefficient k of the gap g = g0 + n . u.
 [[nodiscard]] inline double gap_coefficient(const Contact& contact, const Series& series, std::size_t k) {
   const double* u = series.u.data() + k * static_cast<std::size_t>(series.u.rows());
   return k == 0 ? contact.gap_at(u) : contact.normal.dot(u);
 }
+/// Taylor coefficient k of ut = t . u - s for contact number `index`.
 [[nodiscard]] inline double ut_coefficient(const Contact& contact, std::size_t index, const Series& series,
                                            std::size_t k) {
   const double* u = series.u.data() + k * static_cast<std::size_t>(series.u.rows());

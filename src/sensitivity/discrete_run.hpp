@@ -35,11 +35,12 @@ class DiscreteRun final : public run::RunListener {
   [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
 
  private:
-  /// A node of the time grid; the next struct contains the derivatives of a node with respect to one parameter.
+  /// A node of the time grid.
   struct Node {
     double t = 0.0;
     motion::Point point;
   };
+  /// Derivatives of a node, including its time, with respect to one parameter.
   struct NodeDerivative {
     double t = 0.0;
     Vector u, v, a, forces;

@@ -70,8 +70,9 @@ class WorkTangent {
   WorkRates now_;
 };
 
-/// kn_p (the next function: cn_p), from the derivatives of the rows of a closed contact.
+/// Derivative kn_p of the normal stiffness, from the derivatives of the rows of a closed contact.
 [[nodiscard]] double stiffness_rate(const ContactRates& rates);
+/// Derivative cn_p of the normal dashpot constant, from the derivatives of the rows of a closed contact.
 [[nodiscard]] double damping_rate(const ContactRates& rates);
 /// Derivative of the slip position ut - T/kt.
 [[nodiscard]] double slip_derivative(const Contact& contact, const ContactRates& rates,

@@ -35,7 +35,7 @@ namespace signorini::history {
 //
 // Pieces shorter than the time resolution are dropped, because each engine would treat their steps differently.
 
-/// End of a group of starts that are one instant: the group has the indices from `from` up to, but without, the result.
+/// Index after the last start of the group that begins at index `from` and is treated as one instant.
 [[nodiscard]] std::size_t end_of_instant(const History& f, std::size_t from, double t_end);
 /// Copy of the history with merged starts.
 [[nodiscard]] History resolved(const History& f, double t_end);

@@ -127,7 +127,7 @@ std::string holds_no_mass(const Model& model, const Contact& contact) {
   };
   if (std::any_of(contact.tangent.terms.begin(), contact.tangent.terms.end(), moves_mass)) return {};
   return "contact '" + contact.name +
-         "' sticks rigidly to a point without mass; give it a tangential_stiffness, or the point a mass";
+         "' sticks rigidly to a massless point; give the contact a tangential_stiffness, or the point a mass";
 }
 
 CoulombItem DerivativeLevels::item_of(const Entry& entry, const motion::Forcing& forcing, double t) const {
@@ -167,15 +167,15 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
     const CoulombItem& item = problem.items[i];
     const Eigen::Index n = problem.normal(i), t = problem.tangent(i);
     result.reason +=
-        fmt::format("; '{}': without contact forces g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
+        fmt::format("; '{}': without contact forces g'' = {:.6g}, ut'' = {:.6g}; one unit of -N adds {:.6g} to g''",
                     model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
                     problem.b[t] * acceleration, problem.W(n, n) * per_force);
     const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);
     if (item.kind == Kind::sliding)
-      result.reason += fmt::format(", with friction {:.6g} while it slips ({})", sliding * per_force,
+      result.reason += fmt::format(", and {:.6g} together with friction in {}", sliding * per_force,
                                    to_string(contact::slip_state(item.sign)));
     else if (item.kind == Kind::frictional)
-      result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}",
+      result.reason += fmt::format(", one unit of -T adds {:.6g}, the coefficient of friction is {:.6g}",
                                    problem.W(n, t) * per_force, item.static_friction);
   }
   return result;

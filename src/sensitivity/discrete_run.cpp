@@ -14,7 +14,7 @@ constexpr std::size_t few_terms = 3;  // number of coefficients of the forcing's
 std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.refine != Refine::root) return "events are interpolated instead of located at roots of their guards";
   if (run.step == StepControl::doubling) return "the step lengths depend on error estimates";
-  if (linear::has_massless(model)) return "parts without mass have no discrete derivative";
+  if (linear::has_massless(model)) return "discrete derivatives are not available for massless parts";
   for (const Contact& c : model.contacts)
     if (contact::friction_varies(c)) return std::string("there is ") + contact::friction_description(c);
   return {};

@@ -234,7 +234,7 @@ class Differences {
           "a support moves a rigid body: derivatives of the motions of its nodes are not available");
     if (SparseMatrix(model.ties->rows - model_.ties->rows).norm() != 0.0)
       throw SceneError({}, path_,
-                       "moves nodes of a rigid body relative to its centre: derivatives of their motions are "
+                       "the key moves nodes of a rigid body relative to its centre: derivatives of their motions are "
                        "not available");
   }
 

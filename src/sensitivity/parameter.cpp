@@ -40,7 +40,7 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       return;
     }
     const auto number = node.value<double>();
-    if (!number || node.is_boolean()) fail_at(path, "expected the key of a number");
+    if (!number || node.is_boolean()) fail_at(path, "expected a key whose value is a number");
     found.insert(*number);
     return;
   }

@@ -285,7 +285,7 @@ void TangentEvents::check_resting_guards(PassState& course) const {
                       scales.velocity);
     if (!held)
       return course.stop(
-          fmt::format("contact '{}' stays in its state here for this value of the key only: derivatives from "
+          fmt::format("contact '{}' keeps its state only for this value of the key: derivatives from "
                       "both sides differ",
                       contact.name));
   }
@@ -325,7 +325,7 @@ void TangentEvents::check_kinks(PassState& course) const {
         (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))
       continue;
     return course.stop(
-        fmt::format("the {} of contact '{}' is zero here for this value of the key only: derivatives from "
+        fmt::format("the {} of contact '{}' is zero only for this value of the key: derivatives from "
                     "both sides differ",
                     contact::to_string(guard.kind), contact.name));
   }

@@ -36,7 +36,7 @@ const DataLaw& yielding_law() {
         if (std::isnormal(deflection)) return std::nullopt;
         return std::pair{
             std::string_view("yield_force"),
-            fmt::format("found {}, with normal_stiffness a deflection of {} at yield, expected a "
+            fmt::format("found {}, which gives a deflection of {} at yield with normal_stiffness, expected a "
                         "number > 0",
                         base::format_number(constants[0]), base::format_number(deflection))};
       }};

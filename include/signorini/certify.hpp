@@ -59,8 +59,8 @@ struct Certificate {
   std::optional<std::size_t> first_uncertain;
   /// Error bounds of the times of events, one per row of events.csv; NaN: the event is not certain.
   std::vector<double> t_errors;
-  std::size_t unordered = 0;  ///< number of pairs of neighbouring events, on different contacts, that lie closer than their
-                              ///< errors
+  /// Number of pairs of neighbouring events, on different contacts, that lie closer than their errors.
+  std::size_t unordered = 0;
   HistoryErrors history;
   /// Error bounds of Report::peaks, one per contact; empty unless `complete`.
   std::vector<std::optional<Peak>> peaks;

@@ -90,8 +90,8 @@ struct Contact {
   History normal_force;    ///< slider: the given compression, >= 0
   History surface_motion;  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
-  int initial_slip = 0;               ///< sign of the slip at t = 0; needed because T below the static limit does not
-                                      ///< determine the sign
+  /// Sign of the slip at t = 0; needed because T below the static limit does not determine the sign.
+  int initial_slip = 0;
   std::size_t initial_law_state = 0;  ///< user law: initial state
   double initial_memory = 0.0;        ///< user law: initial memory p
   std::uint32_t unused_forces = 0, unused_guards = 0;  ///< see ForceLayout::Counts

@@ -98,15 +98,16 @@ inline constexpr std::array event_columns = {
     EventColumn{"vt_after", "length/time", &Event::vt_after, "rate of the tangential motion just after"},
     EventColumn{"impulse_n", "force time", &Event::impulse_n,
                 "impulse along the normal, >= 0: pushes the body away; at hits of rigid contacts only"},
-    EventColumn{"impulse_t", "force time", &Event::impulse_t, "impulse along the tangent; at hits of rigid contacts only"},
+    EventColumn{"impulse_t", "force time", &Event::impulse_t,
+                "impulse along the tangent; at hits of rigid contacts only"},
     EventColumn{
         "guard_rate", "of the guard / time", &Event::guard_rate,
         "dg/dt of the condition that failed (g, -N, fs abs(N) - s T, or the slip rate), just before; empty "
         "if a jump of a load changed the state"},
     EventColumn{
         "t_uncertainty", "time", &Event::t_uncertainty,
-        "error bound of `t` at this event alone: error of the condition divided by its rate, or a bound from its "
-        "higher derivatives where it grazes zero; empty where `guard_rate` is empty"},
+        "error bound of `t` at this event alone: error of the condition divided by its rate, or a bound from "
+        "its higher derivatives where it grazes zero; empty where `guard_rate` is empty"},
 };
 
 /// Name of the column of events.csv that shows a member: event_column(&Event::t_uncertainty) is "t_uncertainty".

@@ -47,7 +47,7 @@ struct FittedKey {
 struct Fit {
   std::vector<FittedKey> keys;
   std::vector<std::vector<double>> covariance;  ///< NaN for keys that the measurements do not determine
-  std::vector<double> residuals;                ///< x_i - m_i at the result; NaN: the run has no such event or column value
+  std::vector<double> residuals;  ///< x_i - m_i at the result; NaN: the run has no such event or column value
   double chi_squared = 0.0;
   long freedom = 0;  ///< degrees of freedom: number of measurements minus number of determined keys
   /// Probability of a chi^2 at least this large by chance. NaN: no sigma was given, or no degree of freedom is left.

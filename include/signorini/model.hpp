@@ -94,7 +94,8 @@ struct StageEnd {
 /// Result of the static start (initial = "static" or "frictional").
 struct StaticStart {
   std::vector<double> reactions;          ///< -N of each contact, >= 0
-  std::vector<std::string> free_motions;  ///< motions without stiffness: "horizontal motion held at contact 'first'"
+  /// Motions without stiffness: "horizontal motion held at contact 'first'".
+  std::vector<std::string> free_motions;
   bool frictional = false;
   std::vector<StageEvent> events;  ///< only frictional
   std::vector<StageEnd> stages;    ///< only frictional
@@ -159,8 +160,8 @@ struct Reduction {
   int free_modes = 0;                           ///< kept modes without stiffness
   int truncated_modes = 0;                      ///< modes above the cutoff
   int massless_shapes = 0, massive_shapes = 0;  ///< shapes for the static compliance of the left-out modes
-  double highest_kept = 0.0;                    ///< highest frequency of the kept modes, rad per time; 0: rigid-body motions
-                                                ///< only
+  /// Highest frequency of the kept modes, rad per time; 0: rigid-body motions only.
+  double highest_kept = 0.0;
   double first_truncated = 0.0;                 ///< lowest frequency above the cutoff, rad per time; 0: none
   double highest_massive = 0.0;         ///< highest frequency of the massive shapes, rad per time; 0: none
   std::vector<ComplianceShare> shares;  ///< shares of contacts, then of loads

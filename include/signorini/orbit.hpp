@@ -49,8 +49,8 @@ struct OrbitStep {
 
 struct Orbit {
   bool found = false;
-  std::string reason;       ///< reason why no orbit was found, or a property of the orbit that could not be determined; one
-                            ///< sentence
+  /// Reason why no orbit was found, or a property of the orbit that could not be determined; one sentence.
+  std::string reason;
   double period = 0.0;      ///< time after which the motion repeats, in the scene's unit of time
   bool autonomous = false;  ///< true: the motion determines the period; false: the loads do
   /// Scene time (of loads, compressions and surface motions) at the orbit's time 0.
@@ -105,7 +105,8 @@ struct BranchCheckpoint {
 /// Settings for a branch of orbits over a key of the scene.
 struct BranchOptions {
   OrbitOptions orbit = {};
-  std::string path;  ///< path of the scene key; "energy": the energy of conservative motions (OrbitOptions::energy)
+  /// Path of the scene key; "energy": the energy of conservative motions (OrbitOptions::energy).
+  std::string path;
   double from = 0.0, to = 0.0;  ///< first and last value of the parameter
   /// Largest step, a norm of two parts: change of the parameter relative to its range, and change of the state relative to
   /// the amplitude.
@@ -114,7 +115,8 @@ struct BranchOptions {
   /// Number of successive switches to side branches: at a flip to the branch of twice the period, and at branch points. 0:
   /// only the first branch is computed.
   int switches = 0;
-  std::optional<BranchCheckpoint> resume_from = {};  ///< resumes at this checkpoint, whose point is not repeated
+  /// Resumes at this checkpoint, whose point is not repeated.
+  std::optional<BranchCheckpoint> resume_from = {};
   /// Called after each point of the first branch. The argument is a function that makes the checkpoint of the point, at the
   /// cost of a run of one period; an interrupted branch can be resumed from the checkpoint.
   std::function<void(const std::function<BranchCheckpoint()>&)> on_checkpoint = {};

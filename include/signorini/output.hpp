@@ -56,7 +56,8 @@ struct Output {
     Fibre fibre = Fibre::both;      ///< fibre of a stress
   };
   std::vector<Segment> segments = {};      ///< if not empty, all other terms are ignored
-  std::vector<std::string> contains = {};  ///< contributions to a spring's force: "preload", "stiffness", "damper"
+  /// Contributions to a spring's force: "preload", "stiffness", "damper".
+  std::vector<std::string> contains = {};
 };
 
 /// Calls `use` with each linear output of this output, in order: with the output itself if it has no segments.

@@ -184,7 +184,8 @@ struct Audit {
 struct Counters {
   long steps = 0, residuals = 0, jacobians = 0, factorisations = 0, refactorisations = 0, solves = 0;
   long error_test_failures = 0, convergence_failures = 0, guard_evaluations = 0, restarts = 0;
-  long rolled_back = 0;  ///< number of events inside a step that only the check of the step's polynomial found
+  /// Number of events inside a step that only the check of the step's polynomial found.
+  long rolled_back = 0;
   long time_events = 0;
   // Counters of `exact` in modes. contact_states: contact states whose modes were computed. proof_steps: intervals in which
   // the modes gave the first event or proved that there is none. fallbacks: segments computed with Taylor series instead.
@@ -228,7 +229,7 @@ struct OutputPlace {
 /// extremes have signs and cover all places, while rows contain magnitudes.
 struct OutputExtremes {
   double maximum = 0.0, minimum = 0.0, last = 0.0;  ///< in the unit of the output
-  double t_maximum = 0.0, t_minimum = 0.0;          ///< if several extremes are equal up to rounding: the first time
+  double t_maximum = 0.0, t_minimum = 0.0;  ///< if several extremes are equal up to rounding: the first time
   OutputPlace at_maximum = {}, at_minimum = {};
 };
 
@@ -254,7 +255,8 @@ struct Violation {
   std::string law;    ///< "momentum", "restitution", ...
   double value = 0.0, limit = 0.0;
   Unit unit = {};            ///< unit of value and limit
-  bool unexplained = false;  ///< true: no recorded quantity and no tolerance explains the violation; the run ends
+  /// True: no recorded quantity and no tolerance explains the violation; the run ends.
+  bool unexplained = false;
 };
 
 /// Results of the law checker of a run.
@@ -275,7 +277,8 @@ struct Report {
   std::vector<std::vector<Landing>> landings;  ///< one list per contact; empty for sliders
   std::vector<OutputExtremes> response;        ///< one per output
   std::map<std::string, long> events_by_type;
-  long undecided = 0;  ///< number of decisions that rounding left open; the states with the smallest violation were taken
+  /// Number of decisions that rounding left open; the states with the smallest violation were taken.
+  long undecided = 0;
   /// First time at which rounding left states undecided that affect the later motion; empty: never.
   std::optional<double> first_undecided;
   LawCheckSummary law_checks;

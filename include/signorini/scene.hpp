@@ -106,7 +106,7 @@ struct RunSpec {
   std::optional<std::vector<double>> output_times = {};
   std::vector<double> frames = {};    ///< times of deformed shapes, strictly ascending, in [0, t_end]
   std::optional<int> max_order = {};  ///< ida: 1 to 5; absent: the program chooses ("auto")
-  int max_events_at_once = 100;       ///< limit for rounds of state changes at one instant; beyond it the run stops
+  int max_events_at_once = 100;       ///< limit for rounds of state changes at one instant
   /// newmark, friction-iteration: the time step; with doubling: the largest time step
   std::optional<double> dt = {};
   Refine refine = Refine::root;
@@ -117,8 +117,8 @@ struct RunSpec {
   /// ida, no key: height of low flights, in multiples of the tolerance. A finer companion run keeps the absolute height.
   double flight_tolerances = 1.0;
   double relaxation = 1.0;   ///< friction-iteration: relaxation factor of a bound, in (0, 1]
-  int max_iterations = 100;  ///< friction-iteration: limit for iterations in each step; beyond it the run stops
-  bool geometric = false;    ///< true: the model includes the geometric stiffness of static forces (Prestress)
+  int max_iterations = 100;  ///< friction-iteration: limit for iterations in each step
+  bool geometric = false;    ///< true: static forces have a geometric stiffness (Prestress)
   SourcePlace place = {};
   SourcePlace geometric_place = {};
 
@@ -158,7 +158,7 @@ struct SavedState {
   /// Displacements, velocities and other columns, each with its name (scene/saved_state.hpp).
   std::vector<std::pair<std::string, double>> motions;
   std::vector<std::pair<std::string, double>> shears;  ///< T of contacts, by name of the contact
-  std::vector<std::pair<std::string, int>> slips;      ///< slip direction -1, 0 or 1 of contacts, by name of the contact
+  std::vector<std::pair<std::string, int>> slips;      ///< slip direction -1, 0 or 1, by name of the contact
   struct UserLawMemory {
     std::string contact;
     std::size_t state = 0;  ///< state of the user law
@@ -231,7 +231,7 @@ struct ReductionSpec {
 struct Section {
   std::string name;
   double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI = 0: the section is for bars only
-  double area = 0.0, modulus = 0.0;                  ///< section modulus; stresses are N / area and M / modulus; 0: unknown
+  double area = 0.0, modulus = 0.0;                  ///< stresses: N / area, M / modulus; 0: unknown
   double pipe_radius = 0.0, pipe_wall = 0.0;         ///< mean radius and wall of a pipe; 0: not a pipe
 };
 
@@ -260,7 +260,7 @@ struct Member {
   MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
   SourcePlace place = {};
-  std::vector<std::string> release = {};             ///< end nodes of the member that have a hinge: first, last or both
+  std::vector<std::string> release = {};             ///< end nodes with a hinge: first, last or both
   double thermal_expansion = 0.0;                    ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();     ///< temperature above that of the undeformed state
   HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: elongation
@@ -340,8 +340,8 @@ struct Spring {
   double stiffness = 0.0, damping = 0.0;
   SourcePlace place = {};
   double rotation_stiffness = 0.0, rotation_damping = 0.0;  ///< moment per rad, and per rad per time
-  double preload = 0.0;                                     ///< force of the spring in the undeformed structure
-  std::optional<double> hot_load = {};                      ///< hot load for which a spring hanger is designed
+  double preload = 0.0;                                     ///< force in the undeformed structure
+  std::optional<double> hot_load = {};                      ///< designed hot load of a spring hanger
 };
 
 struct Support {
@@ -351,7 +351,7 @@ struct Support {
   /// Prescribed motion of the only fixed degree of freedom; absent: the support does not move.
   std::optional<HistorySpec> motion = {};
   bool motion_is_acceleration = false;  ///< true: `motion` is the acceleration; motion starts from rest
-  std::string key = "supports";         ///< scene key for messages, "supports.3"; one table may list many nodes
+  std::string key = "supports";         ///< scene key for messages, "supports.3"
 };
 
 /// Coefficients of friction of a contact, or the default of a scene.
@@ -401,7 +401,7 @@ struct CurvedSurface {
 struct ContactSpec {
   std::string name = {};
   Law law = Law::compliant;
-  std::optional<Direction> normal = {};   ///< direction of N (compliant, rigid); scenes with nodes: unit vector
+  std::optional<Direction> normal = {};   ///< direction of N; scenes with nodes: unit vector
   std::optional<Direction> tangent = {};  ///< absent in scenes with nodes and a normal: (ny, -nx)
   double gap = 0.0;
   double normal_stiffness = 0.0;
@@ -418,7 +418,7 @@ struct ContactSpec {
   SourcePlace place = {};
   /// Surface of a friction pendulum. Its stiffness nominal_force / radius is an entry of Scene::springs.
   std::optional<CurvedSurface> pendulum_surface = {};
-  std::string table = {};  ///< scene table of the contact: "contacts.first", "stops.guide"; empty: contacts.NAME
+  std::string table = {};  ///< scene table, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// User law that replaces the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
   std::shared_ptr<const UserContactLaw> user_law = {};
@@ -459,7 +459,7 @@ struct LoadSpec {
   std::string name = {};  ///< name in results and stages; empty: "load" and the number of the load, "load 1"
   LoadType type = LoadType::force;
   std::vector<std::string> pieces = {};  ///< distributed: each two consecutive nodes bound a piece
-  bool member_axes = false;  ///< distributed: true: `direction` has the axes of the piece (along, to the left)
+  bool member_axes = false;  ///< distributed: direction in the axes of the piece (along, to the left)
   std::string group = {};    ///< traction: "BODY.GROUP"
   bool pressure = false;     ///< traction: true: acts against the outward normal instead of along `direction`
 };
@@ -525,8 +525,9 @@ struct OutputTerm {
 struct OutputSpec {
   std::string name;
   OutputKind kind = OutputKind::displacement;
-  std::vector<std::string> at;  ///< nodes, or a contact; envelope: each two consecutive nodes are the ends of a piece
-  Direction direction;    ///< unit vector, or degrees of freedom with factors; stress of a body: direction of the axis x
+  /// Nodes, or a contact; envelope: each two consecutive nodes are the ends of a piece.
+  std::vector<std::string> at;
+  Direction direction;    ///< unit vector, or dofs with factors; stress of a body: the axis x
   bool rotation = false;  ///< true: the output is a rotation, and `direction` is not used
   OutputQuantity quantity = OutputQuantity::none;
   double station = 0.0;           ///< member_force, stress: position on the piece, 0 at at[0], 1 at at[1]
@@ -534,7 +535,7 @@ struct OutputSpec {
   std::vector<OutputTerm> terms;  ///< combination
   SourcePlace place;
   Fibre fibre = Fibre::both;                   ///< fibre of a stress
-  std::optional<double> intensification = {};  ///< factor on bending stresses; absent: the factor of the bend, or 1
+  std::optional<double> intensification = {};  ///< factor on bending stresses; absent: that of the bend, or 1
 };
 
 /// Triplets (row, column, value); of symmetric matrices both triangles are stored.

@@ -137,7 +137,7 @@ struct Sensitivities {
 /// contact.
 struct SequenceChange {
   std::size_t parameter = 0, first = 0, second = 0;  ///< indices into `events`, with ascending times
-  double change = 0.0;                               ///< change of the parameter at which the times of both events coincide
+  double change = 0.0;  ///< change of the parameter at which the times of both events coincide
   bool vanish = false;                               ///< true: both events are on one contact
 };
 

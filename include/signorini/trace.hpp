@@ -30,7 +30,7 @@ struct NamedGuard {
 /// One contact state (of all contacts) that is tried at one instant.
 struct DecisionRound {
   double t = 0.0;
-  int number = 0;                     ///< 0: contact states just before the instant, with the forcing just after
+  int number = 0;  ///< 0: contact states just before the instant, with the forcing just after
   std::vector<NamedGuard> triggered;  ///< guards that the engine found at zero
   std::vector<std::size_t> touching;  ///< rigid contacts with g = 0 that were decided together
   bool impact = false;                ///< velocities jumped before the contact state was tried

@@ -40,8 +40,9 @@ struct UserLawForm {
 struct UserLawGuard {
   UserLawForm positive;                    ///< positive while the state is valid
   std::size_t next = 0;                    ///< state after the guard has reached zero
-  std::optional<Form> memory = {};         ///< new value of p at the zero of the guard; absent: p is unchanged
-  std::vector<FormProduct> products = {};  ///< terms added to `positive`, for example F^2 - T^2 = (F - T)(F + T)
+  std::optional<Form> memory = {};  ///< new value of p at the zero of the guard; absent: p is unchanged
+  /// Terms added to `positive`, for example F^2 - T^2 = (F - T)(F + T).
+  std::vector<FormProduct> products = {};
 };
 
 struct UserLawState {
@@ -52,7 +53,8 @@ struct UserLawState {
 };
 
 struct UserContactLaw {
-  std::string name = {};             ///< name in the output of `check`, in messages and in summary.json; empty: "compliant"
+  /// Name in the output of `check`, in messages and in summary.json; empty: "compliant".
+  std::string name = {};
   std::vector<UserLawState> states;  ///< at most max_user_law_states; a run begins in the first one
 };
 

@@ -79,7 +79,8 @@ namespace signorini {
 struct GuardForm {
   Guard kind = Guard::none;
   Form form;
-  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;  ///< empty products: nullptr, the guard is linear
+  /// Empty products: nullptr, the guard is linear.
+  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;
 
   [[nodiscard]] bool is_linear() const { return products == nullptr; }
   [[nodiscard]] double value(const ContactMotion& m) const {

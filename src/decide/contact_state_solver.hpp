@@ -76,7 +76,7 @@ class ContactStateSolver {
   const Model& model_;
   motion::StateSystems& systems_;
   motion::JetMaker jets_;
-  std::optional<motion::LocalDerivatives> local_derivatives_;  // nullopt: the derivatives of the whole structure are computed
+  std::optional<motion::LocalDerivatives> local_derivatives_;  // nullopt: the whole structure is used
   const std::vector<std::size_t> all_contacts_;                // all contacts
   int max_rounds_;
   RigidContactSolver rigid_solver_;

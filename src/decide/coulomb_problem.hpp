@@ -44,7 +44,8 @@ struct CoulombItem {
     sliding,     ///< already slides along sign: k = -sign f l
     frictional,  ///< may stick, or start to slip in either direction
     pressed,     ///< l is given: only k is unknown
-    limit,       ///< at its friction limit: W contains the effect of slip along sign; in stick k changes by sign d, d >= 0
+    /// at its friction limit: W contains the effect of slip along sign; in stick k changes by sign d, d >= 0.
+    limit,
   } kind = Kind::normal;
   double static_friction = 0.0, kinetic_friction = 0.0;
   double applied_normal_force = 0.0;  ///< pressed: the given l; force
@@ -67,7 +68,8 @@ struct CoulombProblem {
 
 struct CoulombSolution {
   Eigen::VectorXd force, response;  ///< one entry per place
-  std::vector<bool> kinetic;        ///< true for items that have started to slip: their f is the kinetic coefficient
+  /// True for items that have started to slip: their f is the kinetic coefficient.
+  std::vector<bool> kinetic;
 };
 
 /// Solution by Lemke's method. If that method fails, all combinations of states of up to `max_enumerated` items are tried.

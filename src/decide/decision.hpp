@@ -19,8 +19,8 @@ struct GuardStart {
   Guard kind = Guard::none;
   bool at_zero = false;   ///< the guard is zero at the start and then positive
   int leading_order = 0;  ///< order of the first nonzero derivative; -1: no derivative is known to be nonzero
-  double noise = 0.0;     ///< rounding error of the guard's value at the start; at least a value that the decision treated as
-                          ///< zero
+  /// Rounding error of the guard's value at the start; at least a value that the decision treated as zero.
+  double noise = 0.0;
   /// If leading_order < 0: rounding errors of the second and third derivatives.
   std::array<double, 2> derivative_noise{};
 
@@ -35,7 +35,8 @@ struct GuardStart {
 /// A guard whose failure changed the state of a contact.
 struct Crossing {
   GuardForm form;
-  std::array<double, MotionJet::orders - 1> derivatives{};  ///< g', g'', ... just before the instant, in the old states
+  /// g', g'', ... just before the instant, in the old states.
+  std::array<double, MotionJet::orders - 1> derivatives{};
   double noise = 0.0;                                       ///< rounding error of the guard's value
 };
 
@@ -57,16 +58,17 @@ struct Decision {
   std::vector<motion::BodySlide> slides_before, slides_after;
   ForceLayout layout;                         ///< layout of forces and guards
   std::vector<GuardStart> guards;             ///< one entry for each slot of `layout`
-  GuardForms forms;                           ///< guards in the new states, one entry per contact; unused entries have the
-                                              ///< kind Guard::none
+  /// Guards in the new states, one entry per contact; unused entries have the kind Guard::none.
+  GuardForms forms;
   std::map<std::size_t, Crossing> crossings;  ///< crossings of visited contacts, by contact
-  std::vector<bool> visited;  ///< true for contacts that changed state during the decision, one entry per contact
+  /// True for contacts that changed state during the decision, one entry per contact.
+  std::vector<bool> visited;
   std::vector<bool> jumped;   ///< true for contacts whose N or T jumps, one entry per contact
   std::vector<std::size_t>
-      released;                   ///< contacts from which massless parts separated instantaneously (massless_jump.hpp)
+      released;  ///< contacts from which massless parts separated instantaneously (massless_jump.hpp)
   std::vector<Impulse> impulses;  ///< one entry per contact if rigid contacts were hit; otherwise empty
-  std::vector<SingleImpact> single_impacts;  ///< the single impulses of which `impulses` are the sums, in the order of the
-                                             ///< impacts
+  /// The single impulses of which `impulses` are the sums, in the order of the impacts.
+  std::vector<SingleImpact> single_impacts;
   std::vector<double> departures;            ///< see ImpactResult::departures
   double impact_loss = 0.0;                  ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;          ///< work of moving surfaces in the impacts
@@ -79,7 +81,8 @@ struct Decision {
   /// True if a flight faster than capture_velocity was replaced: by rest because the resolution of time is too coarse, or by
   /// a landing because the flight is lower than the rounding error of its data.
   bool unresolved = false;
-  double tolerated_violation = 0.0;  ///< largest violation of guards by accepted states, in multiples of the rounding error
+  /// Largest violation of guards by accepted states, in multiples of the rounding error.
+  double tolerated_violation = 0.0;
   int rounds = 0;
   /// Impulses along n and t, in the order of forces, in addition to those of impacts. They stop contacts that stay closed,
   /// and remove velocities that are rounding or errors within tolerances. Empty: none.

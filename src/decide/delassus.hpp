@@ -18,8 +18,8 @@ namespace signorini::decide {
 /// Effect of forces at the listed contacts: on all degrees of freedom, and on the listed contacts.
 struct Delassus {
   Eigen::MatrixXd
-      effect;  ///< n x places of the list: accelerations for unit forces (l along n, k along t); 0 at massless degrees
-               ///< of freedom
+      /// n x places of the list: accelerations for unit forces (l along n, k along t); 0 at massless degrees of freedom.
+      effect;
   Eigen::MatrixXd W;   ///< W between the places of the listed contacts; unused places: zero
   ForceLayout layout;  ///< layout of the listed contacts
 };

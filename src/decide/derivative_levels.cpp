@@ -167,7 +167,8 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
     const CoulombItem& item = problem.items[i];
     const Eigen::Index n = problem.normal(i), t = problem.tangent(i);
     result.reason +=
-        fmt::format("; '{}': without contact forces g'' = {:.6g}, ut'' = {:.6g}; one unit of -N adds {:.6g} to g''",
+        fmt::format("; '{}': without contact forces g'' = {:.6g}, ut'' = {:.6g}; one unit of -N adds "
+                    "{:.6g} to g''",
                     model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
                     problem.b[t] * acceleration, problem.W(n, n) * per_force);
     const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);

@@ -176,7 +176,9 @@ Impact ImpactSolver::solve(const motion::Forcing& forcing, double t, const conta
   ImpactProblem hit = set_up(forcing, t, *system, touching, v);
   if (!rebound(touching, hit)) {
     impact.refusal = {Refusal::Kind::impact,
-                      "the impact has no solution: Lemke's method for its complementarity problem ends in a ray", touching,
+                      "the impact has no solution: Lemke's method for its complementarity problem ends "
+                      "in a ray",
+                      touching,
                       condition_number(hit.problem)};
     const double shown = model::in_scene_units(model_, 1.0, unit::velocity);
     for (std::size_t i = 0; i < touching.size(); ++i) {
@@ -220,7 +222,7 @@ std::vector<std::size_t> next_impact(std::vector<Approach>& all) {
   for (Approach& a : all) {
     const bool rests = a.gap == 0.0 && a.rate <= a.rest;
     const double gap = rests ? 0.0 : a.gap + a.rate * soonest;
-    a.gap = gap > rounding::few_operations * a.gap ? gap : 0.0;  // 0: only the rounding of a product and a difference
+    a.gap = gap > rounding::few_operations * a.gap ? gap : 0.0;  // 0 within the rounding error
     if (a.gap == 0.0 && (a.is_closing() || a.rate <= a.rest)) struck.push_back(a.contact);
   }
   return struck;

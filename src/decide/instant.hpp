@@ -16,7 +16,8 @@ namespace signorini::decide {
 struct TriggeredGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
-  bool never_positive = false;  ///< the guard is zero at the segment's beginning and never exceeded its rounding error
+  /// The guard is zero at the segment's beginning and never exceeded its rounding error.
+  bool never_positive = false;
 };
 
 /// The motion just before an event, just before a jump of the forcing, or at the start.
@@ -36,7 +37,8 @@ struct Instant {
   bool start = false;  ///< start of the run: touching rigid contacts are decided although no guard fails
   /// Value of Stepper::resolves_low_flights of the engine.
   bool resolves_low_flights = false;
-  double rest_speed = 0.0;  ///< slip rates up to this value are treated as rest, in addition to their rounding error
+  /// Slip rates up to this value are treated as rest, in addition to their rounding error.
+  double rest_speed = 0.0;
   /// True: flights are computed although their height or speed is so small that they are otherwise treated as rest.
   bool keep_low_flights = false;
 

@@ -548,7 +548,8 @@ Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forc
   for (std::size_t b = 0; b < all.size(); ++b) {
     add_staying(instant, forcing, all[b], free, decision, found);
     rest_together(instant, forcing, states, found);
-    while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))  // ends: one more contact rests
+    // ends: one more contact rests.
+    while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))
       if (!slide_anew(instant, forcing, all[b], found)) break;
     add_sliders(instant, forcing, all[b], blocks[b], states, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;

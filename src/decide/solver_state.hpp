@@ -29,8 +29,8 @@ struct SolverState {
   std::vector<std::size_t> undecided;  // blocks that rounding leaves undecided: their states are kept
   bool noise_increased = false;
   Vector initial_u = {};                        // at the start: the given u, before massless parts move
-  std::vector<MotionJet> so_far = {};           // motion up to the instant; empty if Instant::resting_limits is empty
-  std::optional<PathTouch> touched = {};        // first contact that massless parts touch on their path in this round
+  std::vector<MotionJet> so_far = {};  // motion up to the instant; empty if Instant::resting_limits is empty
+  std::optional<PathTouch> touched = {};        // first contact on the path in this round
   std::vector<std::size_t> slid_contacts = {};  // contacts that have slid instantaneously and stopped
   // Contacts with a guard that is not clearly positive; nullopt: unknown, any contact may have one.
   std::optional<std::vector<std::size_t>> open = {};

@@ -35,7 +35,7 @@ class BandedForces {
 
  private:
   std::size_t size_ = 0, width_ = 0;
-  std::vector<double> values_;  // for each block of four rows, diagonal by diagonal: four values of c, four of k
+  std::vector<double> values_;  // blocks of four rows, by diagonals: four entries of c, then four of k
 };
 
 struct SystemMatrices {

@@ -207,7 +207,7 @@ void SystemMatrix::add_shared(const std::vector<Rows>& rows) {
 
 bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
                        const std::vector<UndampedMotion>& undamped) {
-  if (united_) std::fill(values_.begin(), values_.end(), 0.0);  // clears slots that only an undamped motion fills
+  if (united_) std::fill(values_.begin(), values_.end(), 0.0);  // clears entries of other states
   for (int j = 0; j < structure_.size; ++j) {
     const Weights& w = weights[static_cast<std::size_t>(j)];
     const auto begin = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(j)]);

@@ -92,8 +92,8 @@ class Forcing {
       : model_(&model), constant_(Vector::Zero(model.size())), constant_terms_(constant_) {}
 
   const Model* model_;
-  Vector constant_, constant_terms_;                           // constant loads; sums of the magnitudes of their terms
-  std::vector<std::pair<std::size_t, const Piece*>> varying_;  // index of a varying load, and its present piece
+  Vector constant_, constant_terms_;  // constant loads; sums of the magnitudes of their terms
+  std::vector<std::pair<std::size_t, const Piece*>> varying_;  // varying load and its present piece
   std::vector<const Piece*> applied_normal_force_, surface_;
   std::vector<bool> unloaded_, moves_, presses_, driven_;
   // Contacts with nonzero compression; contacts whose surface is not at zero.

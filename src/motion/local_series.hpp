@@ -54,12 +54,11 @@ class LocalSeries {
     explicit Work(Neighbourhood& near);
     Taylor taylor;
     Series series;
-    std::vector<int> ring, boundary;              // ring: dofs of the whole that are coupled to W; boundary: coupled dofs of
-                                                  // W
+    std::vector<int> ring, boundary;              // dofs next to W, in the whole; coupled dofs of W
     std::vector<Eigen::Index> place_of_coupling;  // index in `ring` of each coupling
     std::vector<std::size_t> place_of_crossing;   // index in `across` of each crossing force
     std::vector<std::size_t> across;              // forces of contacts that act inside and outside W
-    Eigen::MatrixXd outside, forces;              // coefficients by columns: outside for `ring`, forces for `across`
+    Eigen::MatrixXd outside, forces;  // coefficients by columns: outside for `ring`, forces for `across`
   };
   [[nodiscard]] bool decays(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
                             const PreviousSeries& previous) const;

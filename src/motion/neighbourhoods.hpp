@@ -86,7 +86,7 @@ class Neighbourhoods {
   const Model& model_;
   const linear::SystemMatrices& structure_;
   const int spread_;
-  std::vector<std::vector<int>> neighbours_;  // by degree of freedom: degrees of freedom coupled by M, C, K or a contact
+  std::vector<std::vector<int>> neighbours_;  // by dof: dofs that M, C, K or a contact couples
   std::vector<std::vector<std::size_t>> contacts_at_;  // by degree of freedom
   std::vector<double> root_of_mass_;                   // by degree of freedom
   std::vector<std::unique_ptr<Neighbourhood>> made_;

@@ -46,7 +46,8 @@ struct FactorisedStates {
   /// Motions without mass and damping; the column of its degree of freedom represents each motion.
   std::vector<linear::UndampedMotion> undamped;
   std::vector<linear::PrescribedDof> prescribed;
-  std::vector<linear::SharedForces> shared;  ///< forces of contacts that constrain the same motion redundantly
+  /// Forces of contacts that constrain the same motion redundantly.
+  std::vector<linear::SharedForces> shared;
   std::vector<std::size_t> rate_dependent;   ///< contacts that slip with a varying friction coefficient
   bool massless = false;                     ///< true: some degrees of freedom have no mass
   bool regular = false;                      ///< false: rows are linearly dependent, so there is no inverse

@@ -28,7 +28,8 @@ namespace signorini::motion {
 struct Series {
   double t = 0.0, scale = 1.0;
   int levels = 0;
-  Eigen::MatrixXd u;  ///< n x (levels + 3); valid to order `levels`, and two orders further for dofs with mass
+  /// n x (levels + 3); valid to order `levels`, and two orders further for dofs with mass.
+  Eigen::MatrixXd u;
   ForceLayout layout;
   Eigen::MatrixXd forces;  ///< places of all contacts x (levels + 1)
   ForcingSeries forcing;   ///< levels + 3 coefficients

@@ -9,10 +9,11 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr std::size_t few_terms = 3;  // number of coefficients of the forcing's series: value, first and second derivative
+constexpr std::size_t few_terms = 3;  // coefficients of the forcing: value, first and second derivative
 
 std::string refusal_of(const Model& model, const RunSpec& run) {
-  if (run.refine != Refine::root) return "events are interpolated instead of located at roots of their guards";
+  if (run.refine != Refine::root)
+    return "events are interpolated instead of located at roots of their guards";
   if (run.step == StepControl::doubling) return "the step lengths depend on error estimates";
   if (linear::has_massless(model)) return "discrete derivatives are not available for massless parts";
   for (const Contact& c : model.contacts)
@@ -335,8 +336,7 @@ void DiscreteRun::rows_at(const run::RunInstant& instant) {
         grid_[next_], instant.forcing_after, contact_states_, point_of(node_.point), {}, {}, {}, {}};
     for (std::size_t p = 0; p < states_.size(); ++p) {
       const NodeDerivative& m = node_derivatives_[p];
-      const bool known = states_[p].valid && m.t == 0.0;  // if the instant moves with the parameter, the row has no
-                                                          // derivative
+      const bool known = states_[p].valid && m.t == 0.0;  // a moving row has no derivative
       sample.tangents.push_back(known ? SeriesPoint{m.u, m.v, m.a, m.forces, Vector::Zero(m.forces.size())}
                                       : SeriesPoint{});
       sample.driven.emplace_back();

@@ -144,8 +144,8 @@ class Fitter {
 
  private:
   static constexpr const char* beyond =
-      "; the sum of squares decreases beyond the bound, but there the scene allows no value or the run lacks measured "
-      "events";
+      "; the sum of squares decreases beyond the bound, but there the scene allows no value or the run lacks "
+      "measured events";
   /// Linearises the residuals at these keys, or slightly beside them if two events coincide.
   bool linear_at(const std::vector<double>& keys) {
     if (!problem_.residuals(keys, *f_)) return false;
@@ -289,7 +289,8 @@ class Fitter {
 Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Measurements& measured,
         const std::function<bool()>& go_on) {
   if (measured.rows.size() < paths.size() || paths.empty())
-    throw UsageError(fmt::format("found {} measured numbers for {} keys, expected at least as many numbers as keys",
+    throw UsageError(fmt::format("found {} measured numbers for {} keys, expected at least as many "
+                                 "numbers as keys",
                                  measured.rows.size(), paths.size()));
   const GslErrorsReturned quiet;
   Fit result;
@@ -335,8 +336,8 @@ class MeasuredTable {
     for (const std::string& name : reader_.header()) names += (names.empty() ? "" : ",") + name;
     if (t_ == none)
       fail(1, fmt::format(
-                  "found the columns \"{}\", expected a column t together with event_index, or with columns of "
-                  "history.csv",
+                  "found the columns \"{}\", expected a column t together with event_index, or with columns "
+                  "of history.csv",
                   base::excerpt(names)));
     Measurements result;
     result.has_sigma = sigma_ != none;

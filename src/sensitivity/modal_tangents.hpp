@@ -27,7 +27,8 @@ inline constexpr Eigen::Index max_modal_tangent_dofs = 600;
 struct MotionAndTangents {
   SeriesPoint motion;
   Vector force_bends;                 ///< second time derivatives of the contact forces
-  std::vector<SeriesPoint> tangents;  ///< one entry per parameter; its vectors are empty if the tangent is not computed
+  /// One entry per parameter; its vectors are empty if the tangent is not computed.
+  std::vector<SeriesPoint> tangents;
 };
 
 class ModalStretch;

@@ -234,8 +234,8 @@ class Differences {
           "a support moves a rigid body: derivatives of the motions of its nodes are not available");
     if (SparseMatrix(model.ties->rows - model_.ties->rows).norm() != 0.0)
       throw SceneError({}, path_,
-                       "the key moves nodes of a rigid body relative to its centre: derivatives of their motions are "
-                       "not available");
+                       "the key moves nodes of a rigid body relative to its centre: derivatives of their "
+                       "motions are not available");
   }
 
   /// True if the unknowns of both models are the same. Amplitudes of shapes that depend on the parameter are not the same

@@ -52,8 +52,8 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       return;
     }
     if (!inner)
-      fail_at(path, fmt::format("\"{}\" is not in the scene. If it is a key without default, add it to the scene "
-                                "with the value at which to differentiate",
+      fail_at(path, fmt::format("\"{}\" is not in the scene. If it is a key without default, add it to the "
+                                "scene with the value at which to differentiate",
                                 name));
     numbers_at(*inner, rest, next + 1, path, found);
   } else if (const auto* array = node.as_array()) {

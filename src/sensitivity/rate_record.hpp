@@ -57,8 +57,9 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
   const Model& model_;
   const std::vector<ModelDerivative>& derivatives_;
   Sensitivities& result_;
-  const std::vector<TangentState>* states_ = nullptr;                             // states after the last instant
-  double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;  // time and resolution of the last instant
+  const std::vector<TangentState>* states_ = nullptr;  // states after the last instant
+  // Time and resolution of the last instant.
+  double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;
   std::vector<std::array<Peak, 4>> peaks_;
   std::optional<LandingRecord> landings_;  // used only with losses
 };

@@ -13,8 +13,7 @@ namespace signorini::sensitivity {
 namespace {
 
 constexpr std::size_t most_bytes_of_modes = std::size_t{1}
-                                            << 28;  // largest store of modes in bytes; if exceeded, all are dropped. Chosen
-                                                    // value.
+                                            << 28;  // largest store of modes in bytes; chosen value
 // Largest alpha t that one step covers, as in Oscillators::advance.
 constexpr double longest_decay_at_once = 4.0;
 

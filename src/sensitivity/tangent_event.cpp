@@ -105,7 +105,7 @@ struct TangentEvents::PassState {
   const TangentBefore& before;
   TangentSeries& series;
   TangentAfter after;
-  std::vector<std::optional<double>> own;  // dt/dp by the contact's own guard; nullopt: its guard was not triggered
+  std::vector<std::optional<double>> own;  // dt/dp by the contact's own triggered guard
   std::vector<ContactMotion> p_before;     // derivatives at fixed time, one entry per contact
 
   [[nodiscard]] double dt_of(std::size_t c) const { return own[c].value_or(after.dt); }
@@ -135,7 +135,8 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
                                  [&](const decide::TriggeredGuard& f) { return f.contact == c; });
   const double value = crossing.form.value(course.m.motion_before[c]);
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
-  if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // another contact changed it
+  // Another contact changed it.
+  if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;
   const double rate =
       fired ? crossing.derivatives[0]
             : crossing.form.parameter_derivative(course.m.motion_before[c], course.m.rate_before[c]);

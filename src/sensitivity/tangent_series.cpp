@@ -87,7 +87,8 @@ std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::Matrix
 void recentre(const motion::Series& series, const motion::Forcing& forcing, double x, double part,
               motion::Series& out) {
   // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
-  const Eigen::Index columns = series.u.cols(), known = series.levels + 1;  // later force coefficients are undefined
+  // Later force coefficients are undefined.
+  const Eigen::Index columns = series.u.cols(), known = series.levels + 1;
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(columns, columns);
   double power = 1.0;
   for (Eigen::Index j = 0; j < columns; ++j, power *= part) {

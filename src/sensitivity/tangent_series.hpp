@@ -90,7 +90,8 @@ class TangentSeries {
   const motion::Series* motion_ = nullptr;
   const Tangent* start_ = nullptr;
   ForcingRatesSeries forcing_;
-  std::vector<std::pair<std::size_t, contact::FrictionTangent>> friction_;  // one entry per contact with varying friction
+  // One entry per contact with varying friction.
+  std::vector<std::pair<std::size_t, contact::FrictionTangent>> friction_;
   Eigen::MatrixXd u_, forces_;
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
   Vector a_, v_;

@@ -19,7 +19,8 @@ struct TangentSample {
   const contact::ContactStates& contact_states;
   SeriesPoint point;
   Vector force_bends;                            ///< second time derivatives of the contact forces
-  std::vector<SeriesPoint> tangents;             ///< one entry per parameter; empty vectors: the tangent no longer exists
+  /// One entry per parameter; empty vectors: the tangent no longer exists.
+  std::vector<SeriesPoint> tangents;
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
   std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
   std::vector<WorkRates> works = {};             ///< one entry per parameter; empty: works are not computed

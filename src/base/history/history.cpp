@@ -36,7 +36,8 @@ double of_function(const Piece& p, double t, int order) {
 
 /// Antiderivative of a piece. For the sine: int a sin(w s + phi) ds = (a/w) sin(w s + phi - pi/2).
 Piece antiderivative(const Piece& p) {
-  if (p.function) throw std::invalid_argument("History: a user-defined function has no integral in closed form");
+  if (p.function)
+    throw std::invalid_argument("History: a user-defined function has no integral in closed form");
   Piece q;
   q.origin = p.origin;
   q.coefficients.assign(p.coefficients.size() + 1, 0.0);

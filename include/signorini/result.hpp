@@ -205,7 +205,7 @@ struct TimedExtreme {
 };
 
 /// Extreme forces and slip of a contact, with signs, over all steps and instants. min_N is the largest compression.
-/// slip_at_start is taken just before the run's first event, slip_at_end at the end of the run.
+/// slip_at_start is the slip after the decision at the start, slip_at_end the slip at the end of the run.
 struct SupportLoad {
   TimedExtreme min_N, max_N, min_T, max_T;
   double slip_at_start = 0.0, slip_at_end = 0.0;

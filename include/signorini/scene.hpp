@@ -210,7 +210,7 @@ struct DampingSpec {
 
 /// A trial run with one cutoff, during the search for the cutoff that meets a tolerance.
 struct CutoffTrial {
-  double cutoff_omega = 0.0;  ///< rad per time
+  double cutoff_omega = 0.0;  ///< in rad per unit of time
   int modes = 0;              ///< kept
   /// Contribution of the left-out modes to the response, relative to the response (study/reduction).
   double missed = 0.0;
@@ -532,7 +532,7 @@ struct OutputSpec {
   OutputQuantity quantity = OutputQuantity::none;
   double station = 0.0;           ///< member_force, stress: position on the piece, 0 at at[0], 1 at at[1]
   std::size_t spring = 0;         ///< index into Scene::springs
-  std::vector<OutputTerm> terms;  ///< combination
+  std::vector<OutputTerm> terms;  ///< the output is the sum of these terms
   SourcePlace place;
   Fibre fibre = Fibre::both;                   ///< fibre of a stress
   std::optional<double> intensification = {};  ///< factor on bending stresses; absent: that of the bend, or 1

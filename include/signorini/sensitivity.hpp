@@ -92,7 +92,7 @@ struct LandingRates {
 struct MovingLanding {
   int contact = -1;
   Landing value;
-  std::vector<LandingRates> rates;  ///< one per parameter
+  std::vector<LandingRates> rates;  ///< one entry per parameter
 };
 
 /// Options for further derivatives and for another method.

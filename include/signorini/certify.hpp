@@ -1,21 +1,21 @@
-// certify.hpp: error bounds of a run from a companion run; how long its sequence of events is certain.
+// certify.hpp: error bounds of a run from a companion run, and the time until which its sequence of events is certain.
 //
-// A companion run computes the same motion again: with the exact flow, or with the same engine and a finer setting. The
-// difference of the two runs bounds the error of the run, errors of all earlier events included. t' is the time of the
-// same event in the companion run; c and l are defined in src/certify/companion.hpp.
+// A companion run computes the same motion again, with the exact flow or with the same engine and a finer setting. The
+// difference of the two runs bounds the error of the run, including errors carried over from earlier events. t' is the time
+// of the same event in the companion run; the factors c and l are defined in src/certify/companion.hpp.
 //
 //   D_k = greatest |t - t'| over the events k-4 to k
 //   t_error_k = c D_k + l t_uncertainty_k + 2 eps t_k
 //
-// The events of each contact are paired in their order. The sequence is certain until
+// Events are paired contact by contact, in their order. The sequence is certain until
 //
 //   an event has no partner, or its partner differs in contact, from or to
 //   c |change of t - t'|, from one event of a contact to the next, exceeds half the time between them
 //     (an error that both events share does not change their order)
-//   the companion has stopped
+// the companion run has stopped
 //
-// Events of different contacts that lie closer than their errors are counted; their uncertain order does not end the
-// certificate. The test suite validation/certified measures how often the bounds hold.
+// If two events of different contacts lie closer than their errors, their order is uncertain. Such pairs are counted
+// (Certificate::unordered) but do not end the certificate. validation/certified measures how often the bounds are correct.
 //
 //   CertifiedReport run = simulate_certified(model, scene.run, recorder);
 //   if (run.certificate) use(run.certificate->until);
@@ -32,42 +32,42 @@
 
 namespace signorini {
 
-/// Bounds of the errors of history.csv; empty if no rows were recorded.
+/// Error bounds of the values in history.csv; empty if the run recorded no rows.
 struct HistoryErrors {
-  std::vector<double> t;  ///< times of the rows that both runs have
-  /// Number of columns: those of the model, and with CertifyOptions::forces then N and T of each contact,
-  /// then outputs.
+  std::vector<double> t;  ///< times of the rows that run and companion have in common
+  /// Number of columns: those of the model; with CertifyOptions::forces also N and T of each contact, then the outputs.
   std::size_t width = 0;
   /// bounds[row, column], row by row; infinite from `Certificate::until` on. Units: those of the columns.
   std::vector<double> bounds;
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return bounds[row * width + column]; }
 };
 
-/// Largest possible effect, at the contacts, of the modes that a reduction leaves out
+/// Largest possible displacement and force, at the contacts, of the modes that a reduction leaves out
 /// (src/certify/error_bounds.hpp).
 struct Truncation {
   double displacement = 0.0, force = 0.0;
 };
 
 struct Certificate {
-  std::string companion;  ///< "exact", "ida, rtol 1e-10", ...
-  std::string choice;     ///< reason for this companion: "as given" or "auto: ..."
-  double factor = 1.0;    ///< c
-  double until = 0.0;     ///< every event before it is certain
-  bool complete = false;  ///< true: all events to the end of the run are certain
+  std::string companion;  ///< name of the companion run, for example "exact" or "ida, rtol 1e-10"
+  std::string choice;     ///< reason for the choice of this companion: "as given" or "auto: ..."
+  double factor = 1.0;    ///< factor c of the bound t_error_k above
+  double until = 0.0;     ///< time; every earlier event is certain
+  bool complete = false;  ///< true: all events up to the end of the run are certain
   std::string reason;     ///< reason why the certificate ends early, one sentence; empty if complete
   /// First row of events.csv that is not certain.
   std::optional<std::size_t> first_uncertain;
-  /// One entry per row of events; NaN: not certain.
+  /// Error bounds of the times of events, one per row of events.csv; NaN: the event is not certain.
   std::vector<double> t_errors;
-  std::size_t unordered = 0;  ///< neighbouring events of different contacts that lie closer than their errors
+  /// Number of pairs of neighbouring events, on different contacts, that lie closer than their errors.
+  std::size_t unordered = 0;
   HistoryErrors history;
   /// Error bounds of Report::peaks, one per contact; empty unless `complete`.
   std::vector<std::optional<Peak>> peaks;
   std::vector<std::vector<std::optional<Landing>>> landings;  ///< error bounds of Report::landings
-  std::optional<Truncation> reduction;                        ///< only for a reduced model
-  double wall_time = 0.0;                                     ///< s, all companion runs together
-  double wait = 0.0;  ///< s, from the end of the run to the end of its companions
+  std::optional<Truncation> reduction;                        ///< present only for a reduced model
+  double wall_time = 0.0;                                     ///< wall time of all companion runs together, s
+  double wait = 0.0;  ///< time from the end of the run to the end of its companion runs, s
 
   [[nodiscard]] bool certain(std::size_t row) const { return t_errors[row] == t_errors[row]; }
   /// Number of certain rows of events.csv.
@@ -81,14 +81,14 @@ struct CertifiedReport {
 };
 
 struct CertifyOptions {
-  RoundListener listener = {};  ///< receives the decision rounds of the run, not of its companions
-  /// Polled on the calling thread while it waits for companions; false stops them.
+  RoundListener listener = {};  ///< receives the decision rounds of the run, but not those of companion runs
+  /// Called on the calling thread while it waits for companion runs; false stops them.
   std::function<bool()> go_on = [] { return true; };
-  bool forces = false;  ///< also compute bounds of N, T and outputs at the output times
+  bool forces = false;  ///< true: also computes bounds of N, T and outputs at the output times
 };
 
-/// simulate() with a companion run beside it, if settings.certify asks for one; the run itself is bitwise the same.
-/// Errors: SceneError if the engine refuses the scene, or if the requested companion does.
+/// simulate() together with a companion run if settings.certify asks for one; the companion changes no bit of the run.
+/// Errors: SceneError if the engine of the run or of the requested companion refuses the scene.
 [[nodiscard]] CertifiedReport simulate_certified(const Model& model, const RunSpec& settings,
                                                  Recorder& recorder, const CertifyOptions& options = {});
 

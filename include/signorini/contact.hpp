@@ -1,4 +1,4 @@
-// contact.hpp: constants and state of a contact, and the constraint rows and guards of each state.
+// contact.hpp: constants and state of a contact, its constraint rows and its guards.
 //
 //   g >= 0,  N <= 0,  g N = 0                                paper (6)
 //   |T| <= T_U,  T p' >= 0,  (|T| - T_U) p' = 0,  T_U = -f N  paper (7)
@@ -10,14 +10,14 @@
 //   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
 //
-// A rigid contact has the row g'' = 0 in place of N = kn g, and the row ut'' = 0 in stick, ut being relative
-// to the surface. If it closes with g' < 0, an impact is computed (decide/impact.hpp). With Stribeck friction
-// fk depends on the slip rate (contact/friction.hpp).
+// A rigid contact has the row g'' = 0 in place of N = kn g, and in stick the row ut'' = 0, where ut is relative to the
+// surface. If a rigid contact closes with g' < 0, an impact is computed (decide/impact.hpp). With Stribeck friction fk
+// depends on the slip rate (contact/friction.hpp).
 //
 // With a shear element (kt and ct side by side) p is an unknown:
 //   ct (ut' - p') + kt (ut - p) = T,   and p' = 0 in stick
 // A slider has no gap and the normal row N = -normal_force(t); without kt its row in stick is ut'' = 0.
-// A user law may replace all this: user_contact_law.hpp. The interface of all laws: contact_law.hpp.
+// A user law may replace all rows and guards: user_contact_law.hpp. The interface of all laws: contact_law.hpp.
 // Forces on the body: -N along n, -T along t.
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
 #pragma once
@@ -47,7 +47,7 @@ struct Combination {
     for (const auto& [index, factor] : terms) sum += factor * u[index];
     return sum;
   }
-  /// Sum of the magnitudes of the terms of dot(): rounding errors of dot() are relative to it.
+  /// Sum of the magnitudes of the terms of dot(), to which the rounding error of dot() is relative.
   template <class V>
   [[nodiscard]] double magnitude(const V& u) const {
     double sum = 0.0;
@@ -65,48 +65,49 @@ struct Combination {
 ///
 ///   T = stiffness (ut - p) + damping (ut' - p')
 ///
-/// The sliding point then is a massless degree of freedom of its own, and Contact::tangent refers to it.
+/// The sliding point is then a separate massless degree of freedom, and Contact::tangent refers to that point.
 struct ShearElement {
   Combination body;  ///< tangential displacement of the body
   double stiffness = 0.0, damping = 0.0;
 };
 
-/// The constants of one contact.
+/// All constants of one contact.
 struct Contact {
   std::string name;
   ContactLawPtr law;
   Combination normal;   ///< g = gap + normal . u; empty for sliders
-  Combination tangent;  ///< ut = tangent . u - surface_motion
+  Combination tangent;  ///< along the surface: ut = tangent . u - surface_motion
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
-  std::optional<ShearElement> shear;              ///< tangential_stiffness is empty then
-  std::optional<CurvedSurface> pendulum_surface;  ///< not for rigid contacts
-  double normal_damping = 0.0;                    ///< dashpot beside the normal spring
+  std::optional<ShearElement> shear;              ///< if set, tangential_stiffness is empty
+  std::optional<CurvedSurface> pendulum_surface;  ///< surface of a friction pendulum; not for rigid contacts
+  double normal_damping = 0.0;                    ///< dashpot parallel to the normal spring
   Friction friction;
   double restitution = 0.0;  ///< rigid: Newton's coefficient
-  /// rigid: slower rebounds come to rest; absent: the engine's default
+  /// rigid: a rebound with a departure speed below this velocity comes to rest; absent: the engine's default
   std::optional<double> capture_velocity;
-  History normal_force;    ///< slider: compression >= 0
+  History normal_force;    ///< slider: the given compression, >= 0
   History surface_motion;  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
-  int initial_slip = 0;               ///< sign of the slip at t = 0, undetermined by T below the static limit
+  /// Sign of the slip at t = 0; needed because T below the static limit does not determine the sign.
+  int initial_slip = 0;
   std::size_t initial_law_state = 0;  ///< user law: initial state
   double initial_memory = 0.0;        ///< user law: initial memory p
-  std::uint32_t unused_forces = 0, unused_guards = 0;  ///< ForceLayout::Counts
+  std::uint32_t unused_forces = 0, unused_guards = 0;  ///< see ForceLayout::Counts
 
   [[nodiscard]] bool has_friction() const { return friction.any(); }
 
-  // The rest of the program queries these properties of a contact, never its law.
+  // Properties of a contact that follow from its law. Other code queries these functions and does not compare laws.
 
-  /// True if N = -normal_force(t) is given and the contact has no gap. Otherwise N is an unknown, g >= 0 and N <= 0.
+  /// True if N = -normal_force(t) is given and the contact has no gap. False: N is an unknown, with g >= 0 and N <= 0.
   [[nodiscard]] bool normal_force_given() const { return law->capabilities.normal_force_given; }
-  /// Stiffness of the spring that determines N while the contact is closed, for statics, modes, scales and bounds of
-  /// rounding; nullopt: N is given, or the force of a constraint.
+  /// Stiffness of the spring that determines N while the contact is closed, for statics, modes, scales and rounding bounds.
+  /// nullopt: N is given, or N is the force of a constraint.
   [[nodiscard]] std::optional<double> normal_spring() const {
     return law->capabilities.normal_spring ? std::optional(normal_stiffness) : std::nullopt;
   }
-  /// N of the normal spring if the contact rests at displacements u, <= 0; nullopt: u does not determine N.
+  /// N <= 0 of the normal spring if the contact rests at displacements u; nullopt: u does not determine N.
   template <class U>
   [[nodiscard]] std::optional<double> resting_force(const U& u) const {
     return law->capabilities.normal_spring ? std::optional(normal_stiffness * std::min(0.0, gap_at(u)))
@@ -114,73 +115,72 @@ struct Contact {
   }
   /// True if velocities jump when the contact closes with g' < 0.
   [[nodiscard]] bool takes_impulses() const { return law->capabilities.takes_impulses; }
-  /// The argument g if the contact has a gap; nullopt if N is given.
+  /// g itself if the contact has a gap; nullopt if N is given.
   [[nodiscard]] std::optional<double> optional_gap(double g) const {
     return normal_force_given() ? std::nullopt : std::optional(g);
   }
 
-  /// True if (6) and (7) are the conditions of the contact: they are audited, the law checker checks them,
-  /// and the states of the contact are the built-in ones.
+  /// True if conditions (6) and (7) apply to the contact. The audit and the law checker then check these conditions, and the
+  /// contact has only built-in states.
   [[nodiscard]] bool obeys_coulomb() const { return law->capabilities.signorini_coulomb; }
   /// True if N = kn g + cn g' while closed.
   [[nodiscard]] bool is_elastic_along_normal() const {
     return law->capabilities.normal_spring && law->capabilities.signorini_coulomb;
   }
-  /// kt of T = kt (ut - p), p the memory; nullopt: p is ut itself.
+  /// kt of T = kt (ut - p), where p is the memory of the contact; nullopt: there is no such spring, and p is equal to ut.
   [[nodiscard]] std::optional<double> anchor_spring() const {
     return obeys_coulomb() ? tangential_stiffness : std::nullopt;
   }
-  /// Shear element whose sliding point is a separate massless degree of freedom: p is an unknown. nullptr: none.
+  /// Shear element whose sliding point is a separate massless degree of freedom, so that p is an unknown; nullptr: none.
   [[nodiscard]] const ShearElement* sliding_point() const { return shear ? &*shear : nullptr; }
-  /// Stiffness between the body and the sliding point, along body_tangent(); nullopt: there is no spring along the
-  /// tangent.
+  /// Stiffness between the body and the sliding point, along body_tangent(); nullopt: no spring along the tangent.
   [[nodiscard]] std::optional<double> tangent_spring() const {
     return shear ? std::optional(shear->stiffness) : tangential_stiffness;
   }
-  /// Curved surface: in addition to T a force acts along body_tangent() that is a product of N and ut
-  /// (contact/curved_surface.hpp). nullptr: the surface is plane.
+  /// Curved surface: in addition to T a force proportional to N ut acts along body_tangent() (contact/curved_surface.hpp).
+  /// nullptr: the surface is plane.
   [[nodiscard]] const CurvedSurface* curved_surface() const {
     return pendulum_surface ? &*pendulum_surface : nullptr;
   }
-  /// True if forces are linear in the motion in each state, with constant coefficients.
+  /// True if, in each state, the contact forces are linear in the motion with constant coefficients.
   [[nodiscard]] bool is_linear() const {
     return !friction.is_rate_dependent() && !friction.is_load_dependent() && !pendulum_surface;
   }
-  /// True for springs of constant stiffness and Coulomb friction without any other force: statics and closed-form flows
-  /// support it.
+  /// True for springs of constant stiffness with Coulomb friction and no other force. Only such contacts are supported by
+  /// statics and by flows in closed form.
   [[nodiscard]] bool has_constant_stiffness() const { return obeys_coulomb() && !pendulum_surface; }
-  /// True if N, T and p' are functions of the contact's motion at the same instant: no equation of the law has a rate
-  /// as unknown.
+  /// True if N, T and p' are functions of the contact's motion at the same instant, so that no equation of the law has a rate
+  /// as an unknown.
   [[nodiscard]] bool forces_follow_motion() const {
     return obeys_coulomb() && !shear && !friction.is_rate_dependent();
   }
-  /// True if the contact's springs are compliance of the structure: results contain the motion of the
-  /// touching surfaces.
+  /// True if the contact's springs represent local compliance of the structure; results then contain the motion of the
+  /// touching surfaces, without the deformation of the springs.
   [[nodiscard]] bool compliance_split() const { return law->capabilities.compliance_split; }
 
-  /// True without a spring along the tangent: T may jump, and stick is a row on accelerations.
+  /// True if there is no spring along the tangent: T may then jump, and stick is a constraint on accelerations.
   [[nodiscard]] bool sticks_rigidly() const {
     return has_friction() && !law->capabilities.normal_spring && !tangential_stiffness && !shear;
   }
-  /// True if T is the force of a constraint while N is given: the contact constrains its tangent alone.
+  /// True if T is the force of a constraint while N is given: the contact constrains the tangent alone.
   [[nodiscard]] bool holds_tangent_only() const { return normal_force_given() && sticks_rigidly(); }
   /// True if T is the force of a constraint in this state.
   [[nodiscard]] bool holds_tangent(State state) const {
     return kind_of(state) == State::stick && !tangential_stiffness && !shear;
   }
-  /// g at displacements u.
+  /// Gap g at displacements u.
   template <class U>
   [[nodiscard]] double gap_at(const U& u) const {
     return gap + normal.dot(u);
   }
-  /// Tangential displacement of the touching body; equals `tangent` unless there is a shear element.
+  /// Tangential displacement of the touching body as a form; equal to `tangent` unless there is a shear element.
   [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
 };
 
-/// State and memory of one contact; only events change them.
+/// State and memory of one contact. They change only at events.
 struct ContactState {
   State state = State::open;
-  /// p; meaningful in stick with tangential stiffness. With a user law: its memory.
+  /// Memory p; meaningful in stick with tangential stiffness. With a user law: the memory of that law.
   double anchor = 0.0;
 
   [[nodiscard]] bool is_open() const { return signorini::is_open(state); }

@@ -4,9 +4,9 @@
 //   valid while     guards > 0                             at most three
 //   at their zero   i <- next,  p <- memory                p: memory of the contact, such as an anchor or a dent
 //
-// A law is constant and shared. The numbers of one contact (stiffnesses, friction, gap) are in Contact, from which the
-// built-in laws make their rows; a user law (user_contact_law.hpp) contains its own numbers. Engines, decisions, law
-// checker and statics query the capabilities, never the name of a law.
+// A law is constant and shared by contacts. Stiffnesses, friction and gap of one contact are in Contact; the built-in laws
+// build their rows from these numbers. A user law (user_contact_law.hpp) contains its own numbers. Engines, decisions, the
+// law checker and statics query the capabilities of a law, never its name.
 #pragma once
 
 #include <array>
@@ -34,27 +34,27 @@ struct Unit;
 struct Violations;
 enum class Guard : unsigned char;
 
-/// The laws that a scene can name; user laws are further ones (user_contact_law.hpp).
+/// The laws that a scene can name; user laws are defined by data instead (user_contact_law.hpp).
 enum class Law { compliant, rigid, slider };
 
-/// How a law determines forces, and the equations that check it.
+/// How a law determines the forces, and which conditions check them.
 struct LawCapabilities {
-  /// N = -normal_force(t), independent of the motion: N is given, and there is no gap. Otherwise g >= 0, N <= 0, and N
-  /// is an unknown.
+  /// True: N = -normal_force(t) is given, independent of the motion, and there is no gap. False: N is an unknown, with g >= 0
+  /// and N <= 0.
   bool normal_force_given = false;
   /// A spring determines N while the contact is closed. Its stiffness, used by statics, modes and scales, is
   /// Contact::normal_stiffness. Forces and velocities are continuous.
   bool normal_spring = false;
-  /// g = 0 is a constraint while the contact is closed: velocities jump when it closes with g' < 0.
+  /// g = 0 is a constraint while the contact is closed: velocities jump when the contact closes with g' < 0.
   bool takes_impulses = false;
-  /// The law obeys Signorini's conditions (6) and Coulomb's (7): they are audited, and the law checker checks
-  /// them. Springs are N = kn g + cn g' and T = kt (ut - p). Each state is a built-in one.
+  /// The law obeys Signorini's conditions (6) and Coulomb's (7), which the audit and the law checker then check. Springs are
+  /// N = kn g + cn g' and T = kt (ut - p). All states are built-in states.
   bool signorini_coulomb = true;
-  /// Guards are linear forms; otherwise they may contain products of forms.
+  /// True: guards are linear forms. False: guards may contain products of forms.
   bool linear_guards = true;
-  /// The law's springs are compliance of the structure: results contain the motion of the touching surfaces.
+  /// The springs of the law represent local compliance of the structure: results contain the motion of the touching surfaces.
   bool compliance_split = false;
-  /// Numbers of its forces along the surface and of its guards, for ForceLayout.
+  /// Number of forces along the surface and number of guards, for ForceLayout.
   std::uint32_t tangents = 1, guards = 3;
 };
 
@@ -86,24 +86,24 @@ class ContactLaw {
 
   /// Name in check, messages and summary.json.
   [[nodiscard]] virtual std::string name() const = 0;
-  /// True if scenes can name the law. A law made in code need not have a name.
+  /// True if scenes can name the law. A law made in code may have no name.
   [[nodiscard]] virtual bool is_named() const { return true; }
 
-  // Interface for advancing and deciding. Functions of the same names in src/contact call these.
+  // Interface for engines and decisions. src/contact has functions with the same names that call these.
   /// The two residual rows in this state.
   [[nodiscard]] virtual Rows rows(const Contact& contact, const ContactState& state) const = 0;
   /// Guards of this state; unused entries have the kind Guard::none.
   [[nodiscard]] virtual Guards guards(const Contact& contact, const ContactState& state) const = 0;
-  /// p' as a form, in a state that slips in direction s.
+  /// Slip rate p' as a form, in a state that slips in direction s.
   [[nodiscard]] virtual Form slip_rate(const Contact& contact, int s) const = 0;
-  /// State after a guard of `now` has reached zero; the motion is the one in state `now`.
+  /// State after the guard `failed` of state `now` has reached zero; jet: the motion in state `now`.
   [[nodiscard]] virtual ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                                 const MotionJet& jet) const = 0;
-  /// All states that may follow if guards do not decide; `before` is the motion just before the instant.
+  /// States that may follow `now` if the guards do not decide; `before`: the motion just before the instant.
   [[nodiscard]] virtual std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
                                                              const ContactMotion& before) const = 0;
 
-  // Interface for energy and conditions. Units and signs: src/contact/work.hpp and law.hpp.
+  // Interface for energies and for the conditions of the law. Units and signs: src/contact/work.hpp and law.hpp.
   /// Slip rate by which T is multiplied in the power of ContactWork::friction.
   [[nodiscard]] virtual double working_slip_rate(const Contact& contact, State state,
                                                  const ContactMotion& m) const = 0;
@@ -114,24 +114,24 @@ class ContactLaw {
   [[nodiscard]] virtual Violations violations(const Contact& contact, State state,
                                               const ContactMotion& m) const = 0;
 
-  // States and numbers of the law itself, in addition to those of Contact.
-  /// States of a user law in their order, which gives them their numbers in files; a run begins with one of
-  /// them. Empty: the law has the built-in states.
+  // States and constants of the law itself, in addition to those of Contact.
+  /// States of a user law, in the order that numbers them in files; a run starts in one of them. Empty: the law has the
+  /// built-in states.
   [[nodiscard]] virtual std::vector<State> user_law_states() const { return {}; }
-  /// True if events set p by a rule of the law.
+  /// True if the law has a rule that sets p at events.
   [[nodiscard]] virtual bool has_memory() const { return false; }
-  /// Copy of the law after `visit` was called for each of its constants; nullptr: the law has no constants.
+  /// Copy of the law after `visit` was called for each constant; nullptr: the law has no constants.
   [[nodiscard]] virtual std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const;
   [[nodiscard]] virtual bool equals(const ContactLaw& other) const { return this == &other; }
 };
 
-/// A law of a contact, never null.
+/// Shared pointer to the law of a contact; never null.
 class ContactLawPtr {
  public:
   ContactLawPtr(Law law = Law::compliant);  // NOLINT(google-explicit-constructor): by name
   ContactLawPtr(std::shared_ptr<const ContactLaw> law)
       : law_(std::move(law)) {}  // NOLINT(google-explicit-constructor)
-  /// A user law.
+  /// Makes a user law.
   ContactLawPtr(std::shared_ptr<const UserContactLaw> law);  // NOLINT(google-explicit-constructor)
 
   const ContactLaw* operator->() const { return law_.get(); }
@@ -142,7 +142,7 @@ class ContactLawPtr {
   std::shared_ptr<const ContactLaw> law_;
 };
 
-/// Law of a rigid contact on massless parts: a compliant law whose springs are compliance of the structure
+/// Law of a rigid contact on massless parts: a compliant law whose springs belong to the structure as its local compliance
 /// (model/compliance_split.hpp).
 [[nodiscard]] ContactLawPtr compliance_split_law();
 

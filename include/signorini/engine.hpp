@@ -1,9 +1,9 @@
-// engine.hpp: names of the engines, and the key that controls the accuracy of each.
+// engine.hpp: names of the engines, and the scene key that controls the accuracy of each engine.
 //
-//   for (const EngineInfo& e : all_engines) use(e.name);      run.engine is one of them, or "auto"
+//   for (const EngineInfo& e : all_engines) use(e.name);      run.engine is one of these names, or "auto"
 //
-// A row here and one in run/engines.cpp (its restrictions, its factory, its cost) add an engine everywhere: to scene
-// files, to `check`, `compare` and `study`, and to the documentation.
+// To add an engine, add a row here and a row in run/engines.cpp (restrictions, factory, cost). Scene files, the commands
+// `check`, `compare` and `study`, and the documentation then know the engine.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@
 
 namespace signorini {
 
-/// automatic: exact or ida, whichever is cheaper for the scene (run/choose_engine.hpp).
+/// automatic: the program chooses exact or ida, whichever is cheaper for the scene (run/choose_engine.hpp).
 enum class Engine { automatic, exact, ida, newmark, friction_iteration };
 
-/// Limit of an engine's accuracy: rounding, a tolerance (run.rtol), or the length of its steps (run.dt).
+/// Quantity that limits the accuracy of an engine: rounding, a tolerance (run.rtol), or the time step (run.dt).
 enum class Accuracy { rounding, tolerance, step };
 
 struct EngineInfo {
   Engine engine = Engine::automatic;
-  std::string_view name;   ///< as in scene files
+  std::string_view name;   ///< name in scene files
   std::string_view title;  ///< name of the method in full
   Accuracy accuracy = Accuracy::rounding;
   std::string_view specific_keys;  ///< keys of [run], separated by blanks, that only this engine uses
 };
 
-/// The order is that of lists and reports.
+/// Lists and reports use this order.
 inline constexpr std::array all_engines = {
     EngineInfo{Engine::exact, "exact", "Taylor series", Accuracy::rounding, ""},
     EngineInfo{Engine::ida, "ida", "BDF of SUNDIALS IDA", Accuracy::tolerance, "max_order"},
@@ -35,15 +35,15 @@ inline constexpr std::array all_engines = {
                "relaxation max_iterations"},
 };
 
-/// "auto" for automatic.
+/// Name of the engine; "auto" for Engine::automatic.
 [[nodiscard]] std::string_view to_string(Engine engine);
-/// Row of an engine; it must not be automatic.
+/// Row of an engine in all_engines; `engine` must not be automatic.
 [[nodiscard]] const EngineInfo& engine_info(Engine engine);
-/// Engine with this name; nullopt for "auto" and for names of no engine.
+/// Engine with this name; nullopt for "auto" and for unknown names.
 [[nodiscard]] std::optional<Engine> find_engine(std::string_view name);
-/// True if the key of [run] is used by this engine only.
+/// True if only this engine uses the key of [run].
 [[nodiscard]] bool has_key(const EngineInfo& engine, std::string_view key);
-/// "run.rtol", "run.dt", or "" if the engine has no accuracy setting.
+/// Name of the scene key that sets the accuracy: "run.rtol", "run.dt", or "" for Accuracy::rounding.
 [[nodiscard]] std::string_view accuracy_key(Accuracy accuracy);
 
 }  // namespace signorini

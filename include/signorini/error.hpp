@@ -1,8 +1,8 @@
-// error.hpp: errors of input and files: message, place, and exit code of the program.
+// error.hpp: errors of input and of files, with message, place and exit code of the program.
 //
 //   pipeline.toml:34:20: contacts.first.friction: found -0.3, expected a number >= 0
 //
-// Exceptions are for wrong input and for files; a run that stops early is a value (Outcome).
+// Exceptions report wrong input and file errors; a run that stops early returns an Outcome instead.
 #pragma once
 
 #include <stdexcept>
@@ -22,10 +22,9 @@ enum class ExitCode : int {
   interrupted = 130
 };
 
-/// A place in a text file; line and column count from 1, 0 means unknown.
+/// A place in a text file; line and column count from 1; 0 means unknown.
 struct SourcePlace {
-  /// Value of `line` for a place on the command line; `file` is then the text that the user typed
-  /// (Override::shown_as).
+  /// Value of `line` for a place on the command line; `file` is then the text typed by the user (Override::shown_as).
   static constexpr int command_line = -1;
 
   std::string file;
@@ -43,13 +42,13 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// An invalid scene: "FILE:LINE:COLUMN: KEY: MESSAGE"; unknown parts are left out.
+/// An invalid scene: "FILE:LINE:COLUMN: KEY: MESSAGE"; the message omits parts that are unknown.
 class SceneError : public Error {
  public:
   SceneError(const SourcePlace& place, const std::string& key, const std::string& message);
 };
 
-/// An invalid command line or --set.
+/// An invalid command line, including an invalid --set.
 class UsageError : public Error {
  public:
   explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}

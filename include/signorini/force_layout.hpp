@@ -1,11 +1,11 @@
-// force_layout.hpp: places of a contact's forces among those of all contacts, and of its guards among theirs.
+// force_layout.hpp: index of a contact's forces in the vector of all forces, and of its guards in that of all guards.
 //
-//   forces   N_1, T_1,  N_2, T_2, ...      a normal force for each contact, then a force for each of its tangents
+// forces N_1, T_1, N_2, T_2, ... the normal force of each contact, then its tangential forces
 //   guards   G_11, G_12, ...,  G_21, ...   the guards of each contact in turn, in the order of its law
 //
-// Residual rows of contacts have the same order as the forces. The law of a contact gives its numbers of
-// tangents and guards (LawCapabilities); only ForceLayout computes places from them. part() makes the layout
-// of some contacts of a model, such as those of a part or of a decision.
+// Residual rows of contacts have the order of the forces. The law of a contact defines its number of tangents and of guards
+// (LawCapabilities); only ForceLayout computes indices from these numbers. A `place` is the index of a force, a `slot` the
+// index of a guard. part() makes the layout of a subset of the contacts.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ namespace signorini {
 
 class ForceLayout {
  public:
-  /// Numbers of tangents and guards of one contact.
+  /// Number of tangential forces and of guards of one contact, and number of unused entries.
   struct Counts {
     std::uint32_t tangents = 1, guards = 3;
-    std::uint32_t unused_forces = 0;  ///< places after the tangents; their force is zero
-    std::uint32_t unused_guards = 0;  ///< slots after the guards, without a guard
+    std::uint32_t unused_forces = 0;  ///< number of places after the tangents, whose force is zero
+    std::uint32_t unused_guards = 0;  ///< number of slots after the guards, which have no guard
   };
 
   /// Layout without contacts.
@@ -45,10 +45,10 @@ class ForceLayout {
     contacts_ = contacts.size();
     table_ = std::move(table);
   }
-  /// Layout of contacts with the default Counts.
+  /// Layout of this number of contacts, each with the default Counts.
   explicit ForceLayout(std::size_t contacts) : ForceLayout(std::vector<Counts>(contacts)) {}
 
-  /// Layout of the listed contacts alone, in this order.
+  /// Layout of the listed contacts alone, in the order of the list.
   [[nodiscard]] ForceLayout part(const std::vector<std::size_t>& contacts) const {
     std::vector<Counts> counts;
     counts.reserve(contacts.size());
@@ -59,35 +59,37 @@ class ForceLayout {
   [[nodiscard]] std::size_t contacts() const { return contacts_; }
   [[nodiscard]] const Counts& counts(std::size_t contact) const { return table_->counts[contact]; }
 
-  /// Number of all places.
+  /// Number of places of all contacts together.
   [[nodiscard]] std::size_t size() const { return contacts_ == 0 ? 0 : starts_[contacts_].place; }
   [[nodiscard]] std::size_t tangents(std::size_t contact) const { return starts_[contact].tangents; }
-  /// Place of N of a contact, and of its i-th tangential force.
+  /// Place of the normal force N of a contact.
   [[nodiscard]] std::size_t normal(std::size_t contact) const { return starts_[contact].place; }
+  /// Place of the i-th tangential force of a contact.
   [[nodiscard]] std::size_t tangent(std::size_t contact, std::size_t i = 0) const {
     return starts_[contact].place + 1 + i;
   }
+  /// Contact to which a place belongs.
   [[nodiscard]] std::size_t contact_of(std::size_t place) const { return table_->contact_of_place[place]; }
   [[nodiscard]] bool is_normal(std::size_t place) const { return place == normal(contact_of(place)); }
-  /// False for a place after the tangents of its contact.
+  /// False for an unused place after the tangents of a contact.
   [[nodiscard]] bool is_used(std::size_t place) const {
     const Start& start = starts_[contact_of(place)];
     return place <= start.place + start.tangents;
   }
 
-  /// Number of all slots.
+  /// Number of slots of all contacts together.
   [[nodiscard]] std::size_t guard_count() const { return contacts_ == 0 ? 0 : starts_[contacts_].slot; }
   [[nodiscard]] std::size_t guards(std::size_t contact) const { return starts_[contact].guards; }
-  /// Slot of a contact's guard.
+  /// Slot of the i-th guard of a contact.
   [[nodiscard]] std::size_t guard(std::size_t contact, std::size_t i = 0) const {
     return starts_[contact].slot + i;
   }
-  /// Slot after the last one of a contact.
+  /// Slot after the last guard of a contact, unused slots included.
   [[nodiscard]] std::size_t guard_end(std::size_t contact) const { return starts_[contact + 1].slot; }
   [[nodiscard]] std::size_t contact_of_guard(std::size_t slot) const {
     return table_->contact_of_guard[slot];
   }
-  /// Number of a guard among those of its contact, from its slot.
+  /// Index of a guard among the guards of its contact, from its slot.
   [[nodiscard]] std::size_t guard_within(std::size_t slot) const {
     return slot - starts_[contact_of_guard(slot)].slot;
   }
@@ -97,7 +99,7 @@ class ForceLayout {
     std::uint32_t place = 0, tangents = 0, slot = 0, guards = 0;
   };
   struct Table {
-    std::vector<Start> starts;  // one more than contacts: the ends
+    std::vector<Start> starts;  // one entry more than contacts: the last one is the end
     std::vector<std::uint32_t> contact_of_place, contact_of_guard;
     std::vector<Counts> counts;
   };

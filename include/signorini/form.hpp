@@ -3,10 +3,10 @@
 //   value = c + a_N N + a_T T + a_g g + a_ut ut + a_vn g' + a_vt ut' + a_an g'' + a_at ut''
 //             + a_q q + a_q' q' + a_F F + a_F' F'        q = normal_force(t), F = f(|N|) |N|
 //
-// Residual rows (value = 0) and guards (value > 0) are such forms. So a contact law is pure data for an
-// engine, and the time derivatives of rows and guards follow from those of the motion. F is the limit of the
-// friction force where the coefficient depends on N. It is the only term that is not linear in the motion;
-// the code that evaluates the motion of such a contact computes F (contact/friction.hpp).
+// Residual rows (value = 0) and guards (value > 0) are such forms. So an engine reads a contact law as data, and the time
+// derivatives of rows and guards follow from those of the motion. F is the limit of the friction force if the coefficient
+// depends on N. F is the only term that is not linear in the motion; it is computed with the motion of the contact
+// (contact/friction.hpp).
 #pragma once
 
 #include <cmath>
@@ -14,9 +14,9 @@
 
 namespace signorini {
 
-/// inside: open with g < 0, where a dashpot has released before the gap opened. static_limit_plus, static_limit_minus:
-/// friction is at its static limit and the contact does not slip, because other sticking contacts prevent it; they
-/// count as slip_plus, slip_minus.
+/// inside: no contact force although g < 0, because a dashpot released the contact before the gap opened. static_limit_plus,
+/// static_limit_minus: friction is at its static limit, but other sticking contacts prevent slip; kind_of() treats these two
+/// states as slip_plus and slip_minus.
 enum class State : unsigned char {
   open,
   inside,
@@ -29,8 +29,8 @@ enum class State : unsigned char {
 };
 
 inline constexpr std::size_t max_user_law_states = 31;
-/// State i of a user law (user_contact_law.hpp), 0 <= i < max_user_law_states, of this kind. It equals no
-/// built-in state, and counts as its kind wherever a kind is needed.
+/// State i of a user law (user_contact_law.hpp), 0 <= i < max_user_law_states. `kind` is the built-in state that replaces it
+/// where only built-in states are known, for example in files. The result differs from every built-in state.
 [[nodiscard]] constexpr State user_law_state(std::size_t i, State kind) {
   return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));
 }
@@ -39,8 +39,8 @@ inline constexpr std::size_t max_user_law_states = 31;
 [[nodiscard]] constexpr std::size_t user_law_state_number(State own) {
   return static_cast<unsigned>(own) / 8U - 1U;
 }
-/// Kind of any state. The law gives the kind of a user-law state; a static limit counts as slip in its
-/// direction; any other state is its own kind.
+/// Kind of any state: for a state of a user law the kind given by the law, for a static limit the slip in its direction, for
+/// any other state the state itself.
 [[nodiscard]] constexpr State kind_of(State state) {
   const unsigned kind = static_cast<unsigned>(state) % 8U;
   return static_cast<State>(kind < 6U ? kind : kind - 2U);
@@ -50,7 +50,7 @@ inline constexpr std::size_t max_user_law_states = 31;
   return state == State::static_limit_plus || state == State::static_limit_minus;
 }
 
-/// "open" (inside too), "closed", "stick", "slip+", "slip-"; for a user-law state its kind.
+/// Name of the kind: "open" (also for inside), "closed", "stick", "slip+", "slip-".
 [[nodiscard]] const char* to_string(State state);
 /// True if the state transmits no force.
 [[nodiscard]] constexpr bool is_open(State state) {
@@ -59,7 +59,7 @@ inline constexpr std::size_t max_user_law_states = 31;
 /// Direction of slip: +1, -1; 0 if the contact does not slip.
 [[nodiscard]] int slip_sign(State state);
 
-/// One contact at one instant (or a time derivative of it).
+/// Forces and motion of one contact at one instant, or a time derivative of them.
 struct ContactMotion {
   double N = 0.0, T = 0.0;     ///< force
   double gap = 0.0, ut = 0.0;  ///< length; ut relative to the surface
@@ -67,7 +67,7 @@ struct ContactMotion {
   double an = 0.0, at = 0.0;   ///< g'', ut''
   double applied_normal_force = 0.0,
          applied_normal_force_rate = 0.0;  ///< normal_force(t) and its rate; sliders
-  double limit = 0.0, limit_rate = 0.0;    ///< F and its rate; only for friction that depends on N
+  double limit = 0.0, limit_rate = 0.0;    ///< F and its rate; nonzero only for friction that depends on N
 };
 
 struct Form {
@@ -76,7 +76,7 @@ struct Form {
   double limit = 0.0, limit_rate = 0.0;
   double constant = 0.0;
 
-  /// Value of the form without its constant, to be applied to a time derivative of the motion.
+  /// Value of the form without its constant, for use with a time derivative of the motion.
   [[nodiscard]] double rate(const ContactMotion& m) const {
     return N * m.N + T * m.T + gap * m.gap + ut * m.ut + vn * m.vn + vt * m.vt + an * m.an + at * m.at +
            applied_normal_force * m.applied_normal_force +
@@ -84,7 +84,7 @@ struct Form {
            limit_rate * m.limit_rate;
   }
   [[nodiscard]] double value(const ContactMotion& m) const { return constant + rate(m); }
-  /// Sum of the magnitudes of the terms; m holds magnitudes.
+  /// Sum of the magnitudes of the terms; m contains magnitudes.
   [[nodiscard]] double magnitude(const ContactMotion& m) const {
     return std::abs(N * m.N) + std::abs(T * m.T) + std::abs(gap * m.gap) + std::abs(ut * m.ut) +
            std::abs(vn * m.vn) + std::abs(vt * m.vt) + std::abs(an * m.an) + std::abs(at * m.at) +
@@ -110,7 +110,7 @@ struct Form {
   }
 };
 
-/// The product of two forms, each with its constant.
+/// The product of two forms; each form includes its constant.
 struct FormProduct {
   Form a, b;
   [[nodiscard]] bool operator==(const FormProduct&) const = default;

@@ -1,12 +1,12 @@
-// model.hpp: a scene as system matrices.
+// model.hpp: a scene as system matrices, loads and contacts.
 //
 //   M u'' + C u' + K u = P(t) - sum_k ( n_k N_k + t_k T_k ),   P(t) = sum_i d_i f_i(t)
 //
-// K contains no contact springs. Only degrees of freedom that exist and are not fixed are numbered; those with a zero
-// row of M are massless. All vectors have length n, the number of degrees of freedom. In a reduced model (`reduction`
-// is set) the degrees of freedom are amplitudes of modes and of static shapes; contacts and loads are forms on these,
-// while columns and drawing refer to the physical degrees of freedom. Only the centre of a rigid body is numbered;
-// nodes tied to it follow (`ties`).
+// K contains no contact springs. Only degrees of freedom that exist and are not fixed are numbered; those with a zero row of
+// M are massless. All vectors have length n, the number of degrees of freedom. In a reduced model (`reduction` is set) the
+// degrees of freedom are amplitudes of modes and of static shapes; contacts and loads are forms on these amplitudes, while
+// columns and drawing refer to the physical degrees of freedom. For a rigid body only its centre is numbered; the nodes tied
+// to the centre follow (`ties`).
 #pragma once
 
 #include <Eigen/Core>
@@ -35,17 +35,17 @@ struct Dof {
 /// A column of history.csv.
 struct Column {
   std::string name;
-  int dof = 0;  ///< index of the physical degree of freedom
+  int dof = 0;  ///< index of the physical degree of freedom; negative: absent
   bool velocity = false;
 
-  /// Value of the column for physical u and v; 0 if they lack this degree of freedom.
+  /// Value of the column for physical u and v; 0 if the column has no degree of freedom.
   [[nodiscard]] double value(const Vector& u, const Vector& v) const {
     return dof < 0 ? 0.0 : (velocity ? v : u)[dof];
   }
 };
 
-/// Source of a load. temperature, initial_strain: a member; preload: a spring; support: the displacement of a moving
-/// support; support_rate: its velocity and acceleration, through dampers and mass.
+/// Source of a load. temperature, initial_strain: of a member; preload: of a spring; support: displacement of a moving
+/// support; support_rate: velocity and acceleration of a moving support, which act through dampers and mass.
 enum class LoadKind : unsigned char {
   force,
   moment,
@@ -66,11 +66,11 @@ struct Load {
   /// True: acts in the static start (initial = "static"): gravity, constants that have always acted, supports at t = 0.
   bool is_static = false;
   LoadKind kind = LoadKind::force;
-  /// direction . u is a length times `direction_unit`, the history has `history_unit`; their product is a force.
+  /// direction . u is a length times `direction_unit`; the history has the unit `history_unit`; their product is a force.
   Unit direction_unit{}, history_unit{1, 0, 0};
 };
 
-/// Typical magnitudes; absolute tolerances are relative to them. Units in the names.
+/// Typical magnitudes, to which absolute tolerances are relative. The name of each member gives its unit.
 struct Scales {
   double displacement = 1.0, rotation = 1.0, velocity = 1.0, angular_velocity = 1.0, force = 1.0;
 };
@@ -83,7 +83,7 @@ struct StageEvent {
   State from = State::open, to = State::open;
 };
 
-/// Contact forces and states at the end of a part of a stage.
+/// Contact forces and states at the end of one step of a stage.
 struct StageEnd {
   std::string stage;
   double fraction = 1.0;
@@ -94,22 +94,23 @@ struct StageEnd {
 /// Result of the static start (initial = "static" or "frictional").
 struct StaticStart {
   std::vector<double> reactions;          ///< -N of each contact, >= 0
-  std::vector<std::string> free_motions;  ///< "horizontal motion held at contact 'first'"
+  /// Motions without stiffness: "horizontal motion held at contact 'first'".
+  std::vector<std::string> free_motions;
   bool frictional = false;
-  std::vector<StageEvent> events;  ///< frictional
-  std::vector<StageEnd> stages;    ///< frictional
-  /// frictional: quantities that the data do not determine, one sentence each
+  std::vector<StageEvent> events;  ///< only frictional
+  std::vector<StageEnd> stages;    ///< only frictional
+  /// Quantities of a frictional start that the data do not determine, one sentence each.
   std::vector<std::string> undetermined;
 };
 
-/// Force of a spring with a preload: cold (undeformed structure) and at t = 0.
+/// Force of a preloaded spring: cold (in the undeformed structure) and at t = 0.
 struct HangerLoad {
   std::size_t spring = 0;  ///< number of the spring in the file, from 1
   double cold = 0.0, at_start = 0.0;
-  std::optional<double> hot = {};  ///< designed hot load of a hanger
+  std::optional<double> hot = {};  ///< hot load for which a hanger is designed
 };
 
-// Data for drawings of deformed shapes; empty in matrix scenes. dofs (ux, uy, rz): -1 where fixed or absent.
+// Data for drawings of deformed shapes; empty in matrix scenes. dofs: indices of ux, uy, rz; -1 if fixed or absent.
 
 /// A node of the mesh, including inner nodes of beams.
 struct DrawnNode {
@@ -120,8 +121,8 @@ struct DrawnNode {
   bool held = false;  ///< true: fixed by a support
 };
 
-/// A beam, a bar, a spring between two nodes, a line of a rigid body's outline, or an edge of a mesh; with dofs of both
-/// ends.
+/// A beam, a bar, a spring between two nodes, a line of a rigid body's outline, or an edge of a mesh, with the degrees of
+/// freedom of both ends.
 struct DrawnElement {
   enum class Kind : unsigned char { beam, bar, spring, rigid, mesh };
   double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
@@ -130,15 +131,15 @@ struct DrawnElement {
   Kind kind = Kind::beam;
 };
 
-/// Position of a contact and the unit vectors along which it acts.
+/// Position of a contact, its unit normal (nx, ny) and its unit tangent (tx, ty).
 struct DrawnContact {
   int node = -1;
   double x = 0.0, y = 0.0;
   double nx = 0.0, ny = 0.0, tx = 0.0, ty = 0.0;
 };
 
-/// Share of the left-out modes in a form's static compliance, the displacement along the form under a unit force along
-/// it (rigid-body motions excluded). The reduced model keeps this share, without inertia.
+/// Share of the left-out modes in the static compliance of a form. This compliance is the displacement along the form under a
+/// unit force along the form, without rigid-body motions. The reduced model keeps the share without its inertia.
 struct ComplianceShare {
   std::string label;        ///< "normal of contact 'first'", "load 1"
   int contact = -1;         ///< index into Model::contacts; -1: a load
@@ -147,36 +148,37 @@ struct ComplianceShare {
   double residual = 0.0;    ///< compliance of the modes that are left out
 };
 
-/// Basis of a reduced model: physical displacements = shapes * u.
+/// Basis of a reduced model: physical displacements = shapes * u, where u is the vector of reduced coordinates.
 struct Reduction {
   std::vector<Dof> dofs;   ///< physical degrees of freedom, to which columns and drawing refer
   Eigen::MatrixXd shapes;  ///< physical x reduced; slip points of shear elements have no column
-  /// |x_i|^T |K| |x_j| for each pair of shapes, force/length: error of x_i^T K x_j per unit relative error of K's
-  /// entries.
+  /// |x_i|^T |K| |x_j| for each pair of shapes x_i, x_j; force/length. It bounds the error of x_i^T K x_j per unit relative
+  /// error of the entries of K.
   Eigen::MatrixXd stiffness_terms;
   double cutoff = 0.0;                          ///< rad per time
   int modes = 0;                                ///< kept modes, rigid-body motions included
   int free_modes = 0;                           ///< kept modes without stiffness
   int truncated_modes = 0;                      ///< modes above the cutoff
   int massless_shapes = 0, massive_shapes = 0;  ///< shapes for the static compliance of the left-out modes
-  double highest_kept = 0.0;                    ///< rad per time; 0: rigid-body motions only
-  double first_truncated = 0.0;                 ///< rad per time; 0: none
-  double highest_massive = 0.0;         ///< rad per time, highest frequency of the massive shapes; 0: none
-  std::vector<ComplianceShare> shares;  ///< contacts, then loads
-  /// Amplitude at named nodes of the left-out modes after jumps of the loads; length.
+  /// Highest frequency of the kept modes, rad per time; 0: rigid-body motions only.
+  double highest_kept = 0.0;
+  double first_truncated = 0.0;                 ///< lowest frequency above the cutoff, rad per time; 0: none
+  double highest_massive = 0.0;         ///< highest frequency of the massive shapes, rad per time; 0: none
+  std::vector<ComplianceShare> shares;  ///< shares of contacts, then of loads
+  /// Largest amplitude, at named nodes, of the left-out modes after jumps of the loads; length.
   double ringing = 0.0;
-  /// Largest part of the initial displacement (velocity) that the reduced model cannot represent; the scales
-  /// convert rotations to lengths. Units: length, length/time.
+  /// Largest part of the initial displacement (velocity) that the reduced model cannot represent. Rotations are converted to
+  /// lengths by the ratio of the scales. Units: length, length/time.
   double initial_displacement_lost = 0.0, initial_velocity_lost = 0.0;
-  std::optional<double> tolerance;  ///< tolerance for which the cutoff was found
+  std::optional<double> tolerance;  ///< tolerance from which the cutoff was determined
   std::vector<CutoffTrial> trials;
 
   [[nodiscard]] Vector physical(const Vector& u) const { return shapes * u.head(shapes.cols()); }
 };
 
-/// Motions of nodes tied to a rigid body's centre: x_tied = rows x + given terms; x: motion of the structure.
+/// Motions of nodes tied to a rigid body's centre: x_tied = rows x + given terms, where x is the motion of the structure.
 struct Ties {
-  std::vector<Dof> dofs;  ///< physical: of the structure, of tied nodes, of sliding points
+  std::vector<Dof> dofs;  ///< physical degrees of freedom: of the structure, of tied nodes, of sliding points
   SparseMatrix rows;      ///< tied x structure
   /// Contribution of a moving support to one tied degree of freedom.
   struct Given {
@@ -185,7 +187,7 @@ struct Ties {
   };
   std::vector<Given> given;
 
-  /// Motion of all degrees of freedom from x alone, without given terms.
+  /// Motion of all degrees of freedom for the structure's motion x, without given terms.
   [[nodiscard]] Vector with_tied(const Vector& x) const {
     Vector result(x.size() + rows.rows());
     result << x.head(rows.cols()), rows * x.head(rows.cols()), x.tail(x.size() - rows.cols());
@@ -193,27 +195,27 @@ struct Ties {
   }
 };
 
-/// Correction of displacements and energy for a load on parts with rigid contacts but without mass
+/// Correction of displacements and energy for a load that acts on massless parts with rigid contacts
 /// (model/compliance_split.hpp).
 struct LoadCorrection {
   std::size_t load = 0;  ///< index into Model::loads
   Vector displacements;  ///< displacements of the structure, for a history of 1
-  Vector energies;       ///< one for each of these loads, for histories of 1
+  Vector energies;       ///< one per entry of Model::load_corrections, for histories of 1
 };
 
-/// Result of run.geometric: Model::stiffness includes the geometric stiffness of these forces.
+/// Result of run.geometric: Model::stiffness includes the geometric stiffness of the forces listed here.
 struct Geometric {
   Prestress forces;
-  /// Load factors of buckling: the lowest multiples (> 0, ascending) of these forces at which some motion has no
-  /// stiffness, with the contacts of the start. A factor up to 1 means that the structure is unstable. Empty: none
-  /// exists, or none was requested.
+  /// Buckling load factors: the lowest multiples (> 0, ascending) of these forces at which the structure, with the contacts
+  /// of the start, loses its stiffness against some motion. A factor <= 1: the structure is unstable. Empty: none exists, or
+  /// none was requested.
   std::vector<double> load_factors;
 };
 
 struct Model {
   std::string title;
   Units units;
-  /// One unit of force, length and time of the numbers here, in the scene's units: 1 except inside a run.
+  /// Size of the model's units of force, length and time in units of the scene: 1 except inside a run.
   Factors unit;
   /// Units of a run's computation: powers of two, chosen by build_model (model/internal_units.hpp).
   Factors internal_units;
@@ -238,17 +240,17 @@ struct Model {
   /// no run of the same structure, or that run recorded no contacts.
   std::vector<SavedState::FinalContact> saved_contacts;
   Scales scales;
-  double alpha = 0.0, beta = 0.0;  ///< Rayleigh factors in use
+  double alpha = 0.0, beta = 0.0;  ///< factors of Rayleigh damping that are used
   double omega1 = 0.0;     ///< lowest circular frequency with initially closed contacts closed; 0: none
   double omega_max = 0.0;  ///< highest circular frequency with all contact springs acting
   std::optional<Reduction> reduction;
   /// Valid but suspicious input, one sentence each; the first warnings of every run.
   std::vector<std::string> warnings;
-  /// Set where massless motions needed a degree of freedom of their own (model/massless.hpp): displacements of the
-  /// first degrees of freedom = basis * u.
+  /// Set if massless motions needed separate degrees of freedom (model/massless.hpp): displacements of the first degrees of
+  /// freedom = basis * u.
   std::optional<SparseMatrix> basis;
   std::vector<LoadCorrection> load_corrections;
-  std::optional<Ties> ties;  ///< rigid bodies
+  std::optional<Ties> ties;  ///< rigid bodies and their tied nodes
   std::optional<Geometric> geometric;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
@@ -284,8 +286,7 @@ struct Model {
       x[ties->rows.cols() + g.tied] += g.motion.piece(t).value(t, order);
     return x;
   }
-  /// Amount by which the structure's energy and the work of loads are lower than the computed ones
-  /// (LoadCorrection).
+  /// Energy by which the structure's energy and the work of loads are lower than the computed values (LoadCorrection).
   [[nodiscard]] double correction_energy(double t) const {
     double sum = 0.0;
     for (const LoadCorrection& a : load_corrections)
@@ -302,7 +303,7 @@ struct Model {
   [[nodiscard]] bool is_rotation(const Column& column) const {
     return column.dof >= 0 && physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
   }
-  /// "m", "rad/s"
+  /// Unit of a column as text, for example "m" or "rad/s".
   [[nodiscard]] std::string unit_of(const Column& column) const {
     const std::string of_motion = is_rotation(column) ? "rad" : units.length;
     return column.velocity ? of_motion + "/" + units.time : of_motion;

@@ -3,8 +3,8 @@
 //   t3  1, 2, 3        t6  corners, then the middles of 1-2, 2-3, 3-1
 //   q4  1, 2, 3, 4     q8  corners, then the middles of 1-2, 2-3, 3-4, 4-1
 //
-// Corners run counter-clockwise. An edge has two end nodes, then its middle node if it has one; the body is on its
-// left.
+// Corners run counter-clockwise. The nodes of an edge are its two end nodes and then its middle node, if it has one; seen
+// from the first to the second end node, the body is on the left.
 #pragma once
 
 #include <string>
@@ -31,10 +31,10 @@ struct PlaneMesh {
   struct Edge {
     std::vector<int> nodes = {};  ///< two or three indices
   };
-  /// A boundary, or a set of nodes (without edges).
+  /// A named boundary (with edges), or a named set of nodes (without edges).
   struct Group {
     std::string name = {};
-    std::vector<int> nodes = {};  ///< each once
+    std::vector<int> nodes = {};  ///< indices into PlaneMesh::nodes, each once
     std::vector<Edge> edges = {};
   };
 

@@ -1,20 +1,20 @@
-// sensitivity.hpp: derivatives of events, peaks and columns of a run by keys of its scene.
+// sensitivity.hpp: derivatives of the events, peaks and columns of a run with respect to keys of its scene.
 //
 //   M u'' + C u' + K u + sum ( n N + t T ) = P,  rows of the contact state  the motion
 //   M w'' + C w' + K w + sum ( n N_p + t T_p )
 //     = P_p - M_p u'' - C_p u' - K_p u - sum ( n_p N + t_p T )              w = du/dp, the tangent motion
 //   dt/dp = - (G_p + grad G . w) / G'                                       an event at which the guard G reaches zero
-//   w+ = w- + (u'- - u'+) dt/dp,   w'+ = w'- + (u''- - u''+) dt/dp          across it
+//   w+ = w- + (u'- - u'+) dt/dp,   w'+ = w'- + (u''- - u''+) dt/dp          jumps at the event
 //
-// _p: derivatives by p of given data, at fixed time; grad G . w includes all arguments of G. At impacts of rigid
-// contacts w' follows from the derivative of the impact's equations. The run uses the scene's engine and flow; between
-// events w is computed to rounding, in modes or along series.
+// A subscript p denotes the derivative of given data with respect to p at fixed time; grad G . w includes all arguments of G.
+// At impacts of rigid contacts w' follows from the derivative of the impact's equations. The run uses the scene's engine and
+// flow. Between events w is computed in modes or by Taylor series, with errors of rounding size.
 //
 //   Sensitivities s = sensitivities(reader_of("models/pipeline.toml"), {"contacts.*.friction"});
 //   s.event_rates[0][0].t                       dt/dp of the first event, in the scene's units
 //
-// Units: unit of the quantity over that of the key. NaN: the derivative does not exist or is unknown; Parameter::until
-// and `reason` give the time and the reason.
+// Unit of a derivative: unit of the quantity / unit of the key. NaN: the derivative does not exist or is unknown;
+// Parameter::until and Parameter::reason give the time and the reason.
 #pragma once
 
 #include <functional>
@@ -26,25 +26,25 @@
 
 namespace signorini {
 
-/// Reads the scene with some of its keys changed.
+/// Reads the scene after the given changes of keys.
 using SceneReader = std::function<Scene(const std::vector<Override>& changes)>;
-/// Reads the file once, at this call; later changes to it have no effect. The overrides `always` are applied first, at
-/// every call. Errors: FileError; SceneError if the file is larger than 64 MB.
+/// Reads the file once, at this call; later changes of the file have no effect. The overrides `always` are applied at every
+/// call, before the changes. Errors: FileError; SceneError if the file is larger than 64 MB.
 [[nodiscard]] SceneReader reader_of(std::string path, std::vector<Override> always = {});
 
-/// A key that is varied, as `--set` takes it; "contacts.*.friction" is one parameter.
+/// A key that is varied, named as in `--set`; all keys that match "contacts.*.friction" form one parameter.
 struct Parameter {
   std::string path;
   double value = 0.0;
-  double step = 0.0;  ///< step of the differences of the model's data, in the key's unit
-  /// True if the key may have this value: an inertia, for example, is never negative.
+  double step = 0.0;  ///< change of the key for differences of the model's data, in the key's unit
+  /// True if the key may have this value; an inertia, for example, must not be negative.
   std::function<bool(double)> is_valid = [](double) { return true; };
-  /// Derivatives are known before this time; `reason` says why not later. Infinity: to the end.
+  /// Time until which derivatives are known; `reason` explains the limit. Infinity: up to the end of the run.
   double until = std::numeric_limits<double>::infinity();
   std::string reason;
 };
 
-/// Derivatives of a row of events.csv by one parameter: of its time, and of its state columns at the event.
+/// Derivatives with respect to one parameter: of the time of an event, and of its columns in events.csv.
 struct EventRates {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double t = none;
@@ -55,7 +55,7 @@ struct EventRates {
 
 struct EventRateColumn {
   const char* name;
-  const char* of;  ///< the column of events.csv
+  const char* of;  ///< column of events.csv whose derivative it is
   double EventRates::*value;
 };
 inline constexpr std::array event_rate_columns = {
@@ -73,18 +73,18 @@ inline constexpr std::array event_rate_columns = {
     EventRateColumn{"dimpulse_t_dp", "impulse_t", &EventRates::impulse_t},
 };
 
-/// A scalar result of a contact: a peak with its time, or a residual value at the end. With losses also
-/// scalar results of the run.
+/// A scalar result of a contact: a peak with its time, or the value left at the end. With `losses` also a scalar result of
+/// the whole run.
 struct Response {
   /// "peak N", "peak T", "peak normal", "peak tangential", "rest tangential", "rest slip", "lost by friction"; for the
   /// run: "lost by damping", "lost by impacts", "work of loads", "work of surfaces", "lost by friction"
   std::string name;
-  int contact = -1;  ///< -1: the run
-  double value = 0.0, t = 0.0;
-  std::vector<double> rates, t_rates;  ///< one per parameter; t_rates: of a peak's time
+  int contact = -1;  ///< index of the contact; -1: the whole run
+  double value = 0.0, t = 0.0;  ///< t: time of the peak
+  std::vector<double> rates, t_rates;  ///< one entry per parameter; t_rates: derivatives of the peak's time
 };
 
-/// Derivatives of a contact phase by one parameter.
+/// Derivatives of a contact phase (Landing) with respect to one parameter.
 struct LandingRates {
   double start = 0.0, end = 0.0, impulse = 0.0, peak_force = 0.0;
 };
@@ -92,37 +92,37 @@ struct LandingRates {
 struct MovingLanding {
   int contact = -1;
   Landing value;
-  std::vector<LandingRates> rates;  ///< one per parameter
+  std::vector<LandingRates> rates;  ///< one entry per parameter
 };
 
-/// Options beyond the derivatives of the motion.
+/// Options for further derivatives and for another method.
 struct SensitivityOptions {
-  /// Also derivatives of works, losses, energies at output times and landings. The tangent motion is then
-  /// computed along series everywhere; the cost is about one run in series for each parameter.
+  /// Also computes derivatives of works, losses, energies at output times, and landings. The tangent motion is then computed
+  /// by Taylor series everywhere, at the cost of about one run by series for each parameter.
   bool losses = false;
-  /// For engine `newmark`: derivatives of the discrete solution, steps included, not of the exact motion.
-  /// They exist for events, peaks at events, and columns, not for peaks between events. Excludes `losses`.
+  /// Engine `newmark`: computes derivatives of the discrete solution, including its steps, not of the exact motion. Available
+  /// for events, peaks at events, and columns; not for peaks between events. Excludes `losses`.
   bool discrete = false;
 };
 
-/// Number of motions between two instants whose derivatives were computed in modes and along series;
-/// `followed` of them along a recomputed motion. Engines without series (`ida`, `newmark`) need it: a
-/// separate motion that takes the sequence of guards from the engine.
+/// Number of motions between two instants whose derivatives were computed in modes and by series. For `followed` of these the
+/// motion itself was recomputed, with the engine's sequence of guards, because engines without series (`ida`, `newmark`) do
+/// not provide it.
 struct Stretches {
   long modes = 0, series = 0, followed = 0;
   long taken = 0;           ///< instants at which the recomputed motion restarted from the engine's state
-  double correction = 0.0;  ///< largest difference of an event's time from the engine's
+  double correction = 0.0;  ///< largest difference between a recomputed event time and the engine's
 };
 
 struct Sensitivities {
   std::vector<Parameter> parameters;
-  std::vector<std::string> contacts;  ///< names
+  std::vector<std::string> contacts;  ///< names of the contacts
   std::vector<Event> events;
   std::vector<std::vector<EventRates>> event_rates;  ///< [event][parameter]
-  /// Columns of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap" of each contact; with losses then
-  /// "energy.kinetic" and so on, as in energy.csv.
+  /// Columns of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap" of each contact. With `losses` also "energy.kinetic"
+  /// and the other columns of energy.csv.
   std::vector<std::string> columns;
-  std::vector<double> times;                                  ///< the grid
+  std::vector<double> times;                                  ///< output times
   std::vector<std::vector<double>> values;                    ///< [time][column]
   std::vector<std::vector<std::vector<double>>> value_rates;  ///< [parameter][time][column]
   std::vector<Response> responses;
@@ -133,20 +133,21 @@ struct Sensitivities {
   Report report;
 };
 
-/// A first-order estimate of a change of the sequence: two neighbours swap or, if on one contact, both vanish.
+/// A first-order estimate of a change in the sequence: two neighbouring events swap, or both vanish if they are on one
+/// contact.
 struct SequenceChange {
-  std::size_t parameter = 0, first = 0, second = 0;  ///< indices of events, times ascending
-  double change = 0.0;                               ///< change of the parameter at which their times meet
-  bool vanish = false;                               ///< both are on one contact
+  std::size_t parameter = 0, first = 0, second = 0;  ///< indices into `events`, with ascending times
+  double change = 0.0;  ///< change of the parameter at which the times of both events coincide
+  bool vanish = false;                               ///< true: both events are on one contact
 };
 
-/// The smallest change of each parameter, upwards and downwards, at which two neighbours meet. No entry if no two meet
-/// or if the key cannot have that value.
+/// The smallest change of each parameter, upwards and downwards, at which two neighbouring events coincide. There is no entry
+/// if no events coincide, or if the key cannot have that value.
 [[nodiscard]] std::vector<SequenceChange> smallest_sequence_changes(const Sensitivities& s);
 
-/// Derivatives of a run by the keys at these paths. `recorder` receives the run's rows, and may not steer.
-/// Errors: SceneError, also for scenes that the engine refuses; UsageError for options that exclude each
-/// other, and for a key that is not a number or on which the model does not depend smoothly.
+/// Derivatives of a run with respect to the keys at these paths. `recorder` receives the run's rows, and must not steer.
+/// Errors: SceneError, also if the engine refuses the scene; UsageError if options exclude each other, if a key is not a
+/// number, or if the model does not depend smoothly on a key.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                                           Recorder* recorder = nullptr,
                                           const SensitivityOptions& options = {});

@@ -1,8 +1,8 @@
-// smooth.hpp: a user-defined function with its derivatives, from code that is generic in the number type.
+// smooth.hpp: makes a user-defined function with its derivatives from code that is generic in the number type.
 //
 //   Function f = smooth([](auto t) { return 3.0 * exp(-t) * sin(t * t); });      f(t, k) = d^k f / dt^k
 //
-// Arithmetic of Taylor series: x_k = x^(k)(t) / k!, exact but for rounding.
+// Arithmetic of truncated Taylor series: x_k = x^(k)(t) / k!, without truncation error up to the highest order.
 //   (x y)_k = sum_j x_j y_(k-j),   y = exp x: k y_k = sum_j j x_j y_(k-j),   y = log x: x y' = x'
 //   s = sin x, c = cos x: s' = c x', c' = -s x',   y = x^p: x y' = p y x'
 // Supported: + - * /, exp, log, sin, cos, sqrt, pow(x, number). Orders up to 11.
@@ -17,13 +17,13 @@
 
 namespace signorini {
 
-/// A number and its derivatives by t.
+/// A number and its derivatives with respect to t, as Taylor coefficients.
 class TaylorNumber {
  public:
   static constexpr std::size_t count = 12;
 
   TaylorNumber(double constant) { c_[0] = constant; }  // NOLINT: numbers are constants
-  /// The variable itself, at the value t.
+  /// The variable t itself, at the given value.
   [[nodiscard]] static TaylorNumber variable(double t) {
     TaylorNumber x(t);
     x.c_[1] = 1.0;
@@ -107,8 +107,8 @@ class TaylorNumber {
   std::array<double, count> c_{};
 };
 
-/// Function for History from f, which is called with a TaylorNumber. Orders from TaylorNumber::count on are
-/// 0.
+/// Makes a Function for History from f. f is called with a TaylorNumber. Derivatives of order TaylorNumber::count and above
+/// are returned as 0.
 template <class F>
 [[nodiscard]] Function smooth(F f) {
   return [f](double t, int order) -> double {

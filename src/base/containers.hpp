@@ -16,29 +16,29 @@ struct CacheLimits {
   std::size_t count = 0, bytes = 0;
 };
 
-// Least-recently-used cache with bounded count and size.
+// Cache with bounded count and size that removes the least recently used entries.
 //
 //   if (Value* known = cache.find(key)) use(*known); else use(cache.insert(key, make(key), bytes));
 //
-// Beyond either bound the least recently used entries are removed first. The last inserted entry always
-// stays, whatever its size. References are valid until the next insert.
+// If either bound is exceeded, the least recently used entries are removed first. The last inserted entry always stays,
+// whatever its size. A reference to a value is valid until the next insert.
 
 template <class Key, class Value>
 class LruCache {
  public:
   explicit LruCache(CacheLimits most) : most_(most) {}
-  // Not copied: the iterators of the index refer to this list.
+  // Copying is forbidden, because the iterators in the index refer to this list.
   LruCache(const LruCache&) = delete;
   LruCache& operator=(const LruCache&) = delete;
 
-  /// Value of the key, which becomes the most recently used one; nullptr if the key is absent.
+  /// Value of the key, which becomes the most recently used key; nullptr if the key is absent.
   [[nodiscard]] Value* find(const Key& key) {
     const auto known = index_.find(key);
     if (known == index_.end()) return nullptr;
     entries_.splice(entries_.begin(), entries_, known->second);
     return &known->second->value;
   }
-  /// key: must be absent. bytes: memory of key and value in addition to their own sizes.
+  /// The key must be absent. bytes: memory of key and value in addition to sizeof(Key) and sizeof(Value).
   Value& insert(const Key& key, Value value, std::size_t bytes) {
     entries_.push_front({std::move(value), bytes + entry_overhead, {}});
     entries_.front().place = index_.emplace(key, entries_.begin()).first;
@@ -62,28 +62,28 @@ class LruCache {
     std::size_t bytes;
     typename Index::iterator place;
   };
-  /// Size of the nodes of list and index: their contents, and about four words each of links.
+  /// Memory of one node of the list and one node of the index: contents, and about four words of links each.
   static constexpr std::size_t entry_overhead =
       sizeof(Entry) + sizeof(typename Index::value_type) + 8 * sizeof(void*);
   CacheLimits most_;
-  Entries entries_;  // most recently used first
+  Entries entries_;  // entries, most recently used first
   Index index_;
   std::size_t bytes_ = 0;
 };
 
-// Connected components of 0 .. n-1, from connected pairs (union-find).
+// Connected components of the numbers 0 .. n-1, from pairs that are connected (union-find).
 //
 //   DisjointSets sets(n);
 //   sets.join(i, j);
 //   sets.find(i) == sets.find(j)
 //
-// Nearly linear in the number of pairs (Tarjan 1975).
+// Cost: nearly linear in the number of pairs (Tarjan 1975).
 
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  /// The smallest member of i's set.
+  /// The smallest member of the set that contains i.
   [[nodiscard]] std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -94,7 +94,7 @@ class DisjointSets {
     j = find(j);
     (i < j ? parent_[j] : parent_[i]) = i < j ? i : j;
   }
-  /// The sets in the order of their smallest members, members ascending.
+  /// All sets, ordered by their smallest members; members ascending.
   [[nodiscard]] std::vector<std::vector<std::size_t>> sets() {
     std::vector<std::vector<std::size_t>> result;
     std::vector<std::size_t> number(parent_.size());
@@ -113,13 +113,13 @@ class DisjointSets {
   std::vector<std::size_t> parent_;
 };
 
-// A copy-on-write vector whose copies share unchanged pieces.
+// A vector whose copies share unchanged pieces of memory (copy on write).
 //
 //   a, b = a copy of a;  b.set(i, x)        only the piece that contains i is copied
 //
 // Pieces are never written after their creation, so copies may be read by several threads.
 
-/// piece: number of elements that are copied together with a changed one; the last piece may be smaller.
+/// piece: number of elements that are copied together when one of them changes; the last piece may be smaller.
 template <class T, std::size_t piece = 16>
 class CopyOnWriteVector {
  public:

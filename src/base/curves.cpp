@@ -9,10 +9,10 @@
 namespace signorini::base {
 namespace {
 
-// Coefficients of a_0 + a_1 y + ..., y = 2x - 1 in [-1, 1].
+// Coefficients of the polynomial a_0 + a_1 y + ..., where y = 2x - 1 is in [-1, 1].
 using Powers = std::array<double, PolynomialInterpolation::max_points>;
 
-/// Newton's divided differences, expanded to powers.
+/// Coefficients by Newton's divided differences, expanded to powers of y.
 Powers powers_of(const PolynomialInterpolation::Values& f, std::size_t n) {
   PolynomialInterpolation::Values y{}, d = f;
   for (std::size_t i = 0; i < n; ++i) y[i] = 2.0 * PolynomialInterpolation::point(n, i) - 1.0;
@@ -37,7 +37,7 @@ struct Roots {
   std::size_t count = 0;
 };
 
-/// Positions of sign changes in (-1, 1), ascending.
+/// Positions of all sign changes of the polynomial in (-1, 1), ascending.
 Roots roots_of(const Powers& a, std::size_t degree) {
   Roots roots;
   if (degree == 0) return roots;

@@ -1,4 +1,4 @@
-// curves.hpp: reduces many rows to few, with straight lines between them.
+// curves.hpp: reduces many rows to few, so that straight lines between the kept rows approximate all rows.
 //
 //   lines:   a row is dropped if the straight line between the neighbouring kept rows passes each of its quantities q
 //            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-10
@@ -7,9 +7,9 @@
 //            Markl 2014; lines between bins are those of all rows);   w = duration / 10000, doubled as often as
 //            needed up to duration / 1250
 //
-// Rows are processed once for each c, and once more at the end. So a dropped row lies at most 3 c, 0.3 % of
-// the range, off the lines, or within a bin whose extremes are drawn. 0.3 % is half a pixel of a panel of 170
-// pixels; the widest picture has a panel of 1234 pixels.
+// Rows are processed once for each c, and once more at the end. So a dropped row deviates from the lines by at most 3 c of
+// the range (0.3 %), or lies within a bin whose extremes are drawn. 0.3 % is half a pixel in a panel of 170 pixels; the
+// widest picture has a panel of 1234 pixels.
 #pragma once
 
 #include <algorithm>
@@ -22,46 +22,46 @@
 
 namespace signorini::base {
 
-// Low-degree polynomial through values at points along a line.
+// Polynomial of low degree through given values at points along a line.
 //
 //   p(x) = sum_i L_i(x) f_i,   x_i = (1 - cos(pi i/(n - 1)))/2 in [0, 1],  degree n - 1;   n = 1: a constant
 //
 //   |p - the line through both ends| <= 2 max_i |f_i - the line at x_i|       (Lebesgue's constant, n <= 6)
 //
-// Extremes: both ends, and where p' is zero; its zeros lie between those of p'', and so on.
+// Extremes of p lie at both ends, and where p' is zero; the zeros of p' lie between those of p'', and so on.
 
 struct PolynomialInterpolation {
   static constexpr std::size_t max_points = 6;  ///< limit for the number of points
   static constexpr double lebesgue = 2.0;
   using Values = std::array<double, max_points>;
 
-  /// Position of the i-th of n points.
+  /// Position in [0, 1] of the i-th of n points.
   [[nodiscard]] static double point(std::size_t n, std::size_t i);
-  /// p(x), from the values f at n points.
+  /// Value p(x), from the values f at n points.
   [[nodiscard]] static double interpolate(const Values& f, std::size_t n, double x);
 
-  /// Extreme values of p and their positions; the first position if several values are equal up to rounding.
+  /// Extreme values of p and their positions; if several values are equal up to rounding, the first position.
   struct Extremes {
     double least = 0.0, greatest = 0.0, at_least = 0.0, at_greatest = 0.0;
   };
   [[nodiscard]] static Extremes extremes(const Values& f, std::size_t n);
 };
 
-/// Rows reduced by lines and bins as above. Values{}(row) is an array of `count` quantities; bins keep the
-/// extremes of the first `drawn`. Rows have an ascending time t; it may repeat.
+/// Rows reduced by lines and bins as above. Values{}(row) returns an array of `count` quantities; bins keep the extremes of
+/// the first `drawn` quantities. Rows have a time t that never decreases.
 template <class Row, std::size_t count, class Values, std::size_t drawn = count>
 class Downsampled {
  public:
   using Quantities = std::array<double, count>;
 
   struct Options {
-    /// Target number of rows at the end; with bins it may be exceeded, as a picture of full resolution requires.
+    /// Target for the final number of rows; with bins it may be exceeded, as far as a picture of full resolution requires.
     std::size_t max_rows = 8000;
-    /// Never more than max_rows: bins become as wide as necessary.
+    /// True: there are never more than max_rows rows, because bins become as wide as necessary.
     bool crowded = false;
-    /// True: lines keep both of two rows with the same time.
+    /// True: of two rows with the same time, lines keep both.
     bool both_sides = false;
-    /// Largest time between two rows that lines keep.
+    /// Largest time between two rows that are kept on a line.
     double widest = std::numeric_limits<double>::infinity();
   };
   Downsampled(double duration, const Options& wanted)
@@ -76,7 +76,7 @@ class Downsampled {
       least_[i] = std::min(least_[i], q[i]);
       greatest_[i] = std::max(greatest_[i], q[i]);
     }
-    // Reserved at once: unused pages cost nothing, whereas growing vectors fragment memory.
+    // Memory is reserved at once: unused pages cost nothing, whereas a growing vector fragments memory.
     if (rows_.capacity() == 0)
       rows_.reserve(room(std::max(options_.max_rows, options_.crowded ? 0 : most_of_bins)) + 1);
     rows_.push_back(row);
@@ -84,9 +84,9 @@ class Downsampled {
   }
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
-  /// Moves the rows out.
+  /// Moves all rows out of the object.
   [[nodiscard]] std::vector<Row> take() { return std::move(rows_); }
-  /// Width of a bin; 0 if there are none.
+  /// Width of a bin in units of t; 0 if there are no bins.
   [[nodiscard]] double width() const { return width_; }
   /// Largest minus smallest value of the i-th quantity so far.
   [[nodiscard]] double range(std::size_t i = 0) const {
@@ -97,7 +97,7 @@ class Downsampled {
     return rows_.empty() ? 0.0 : std::max(std::abs(least_[i]), std::abs(greatest_[i]));
   }
 
-  /// Must be called after the last row. Differences up to `floors` count as zero.
+  /// Must be called after the last row. For each quantity, differences up to `floors` are treated as zero.
   void close(const Quantities& floors) {
     floors_ = floors;
     share_ = std::max(share_, finest);
@@ -112,8 +112,8 @@ class Downsampled {
   static constexpr double first_bins = 10000.0, pixels = 1250.0;
   static constexpr std::size_t most_of_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
 
-  /// Number of rows held before they are downsampled. The margin of an eighth limits the memory; each row is
-  /// then processed about nine times.
+  /// Number of rows kept before they are downsampled. A margin of one eighth limits the memory, and each row is then
+  /// processed about nine times.
   static std::size_t room(std::size_t kept) { return kept + kept / 8; }
 
   void downsample() {
@@ -132,13 +132,13 @@ class Downsampled {
     limit_ = room(std::max(enough, rows_.size()));
   }
 
-  /// Drops rows on straight lines. Lines from the last kept row that pass within d of all rows since then
-  /// have slopes between low and high.
+  /// Drops rows that lie on straight lines. low and high bound the slopes of lines that start at the last kept row and pass
+  /// all rows since then within d.
   void remove_collinear() {
     if (rows_.size() < processed_ + 3) return;
     Quantities d, low, high, from;
     for (std::size_t i = 0; i < count; ++i) d[i] = std::max(share_ * (greatest_[i] - least_[i]), floors_[i]);
-    // The last kept row gets the index `kept`; a copy of it is at `anchor`, the beginning of the line.
+    // `kept`: index of the last kept row after compaction. `anchor`: its index before compaction, where the line begins.
     std::size_t kept = processed_;
     double t = 0.0;
     const auto begin_at = [&](const Row& row) {
@@ -184,7 +184,7 @@ class Downsampled {
     processed_ = kept;
   }
 
-  /// Keeps of each bin the first and the last row, and those with the extremes of the drawn quantities.
+  /// Keeps, for each bin, the first and the last row and the rows with the extremes of the drawn quantities.
   void keep_extremes() {
     std::size_t kept = 0;
     std::array<std::size_t, 2 * drawn + 2> chosen;
@@ -221,7 +221,7 @@ class Downsampled {
   std::vector<Row> rows_;
   Quantities least_, greatest_, floors_{};
   double share_ = 0.0, width_ = 0.0;
-  std::size_t processed_ = 0;  // last row processed with the current c
+  std::size_t processed_ = 0;  // last row that was processed with the current c
 };
 
 }  // namespace signorini::base

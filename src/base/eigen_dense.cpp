@@ -30,8 +30,8 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
 
 namespace {
 
-/// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. B is scaled to a unit diagonal first, because
-/// translations and rotations differ by powers of the length.
+/// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. B is scaled to a unit diagonal because translations and
+/// rotations have different units.
 struct Reduced {
   Eigen::VectorXd s;  ///< 1 / D; empty if B is not positive definite
   Eigen::LLT<Eigen::MatrixXd> llt;
@@ -109,7 +109,7 @@ std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a, const Eig
   return lu.solve(b);
 }
 
-/// Inverse iteration, x <- A^-1 A^-T x. A may be singular: a small diagonal term keeps its factors regular.
+/// Inverse iteration, x <- A^-1 A^-T x. A may be singular; a small diagonal term keeps its factors regular.
 Eigen::MatrixXd smallest_singular_vectors(const Eigen::MatrixXd& a, Eigen::Index count) {
   constexpr int rounds = 4;
   const Eigen::Index n = a.rows();
@@ -149,7 +149,7 @@ static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double lea
 
 Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
                                   double size) {
-  // Number of columns from which divide and conquer costs less than rotations.
+  // Number of columns above which the divide-and-conquer method costs less than Jacobi rotations.
   constexpr Eigen::Index fewest_divided = 48;
   constexpr unsigned both = Eigen::ComputeThinU | Eigen::ComputeThinV;
   return a.cols() < fewest_divided ? shortest_by(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)

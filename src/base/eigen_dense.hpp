@@ -1,8 +1,8 @@
-// eigen_dense.hpp: dense matrix decompositions and complex products, compiled once.
+// eigen_dense.hpp: dense matrix decompositions and complex products, compiled in one file to save compile time.
 //
 //   A x = mu x,    A x = mu B x,    A = Q R,    A = P^T L U Q^T,    A = U S V^T
 //
-// Eigenvalues of symmetric matrices ascend.
+// Eigenvalues of symmetric matrices are in ascending order.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace signorini::base {
 
 struct EigenPairs {
   Eigen::VectorXd values;   ///< ascending
-  Eigen::MatrixXd vectors;  ///< columns, orthonormal (with respect to B if there is one)
+  Eigen::MatrixXd vectors;  ///< eigenvectors as columns, orthonormal (with respect to B if there is a B)
 };
 
 /// Eigenpairs of a symmetric matrix; the values are NaN if the decomposition did not converge.
@@ -22,55 +22,55 @@ struct EigenPairs {
 /// Eigenvalues of A x = mu B x, A and B symmetric; empty if B is not positive definite.
 [[nodiscard]] Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// Same with eigenvectors, x^T B x = 1; both empty if B is not positive definite.
+/// Same with eigenvectors, normalised to x^T B x = 1; both members are empty if B is not positive definite.
 [[nodiscard]] EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// a b; a separate function, because each file that contains the product takes seconds to compile.
+/// Product a b, compiled once because each file that contains the product takes seconds to compile.
 [[nodiscard]] Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
 /// Eigenvalues of a general square matrix, unsorted.
 [[nodiscard]] Eigen::VectorXcd general_eigenvalues(const Eigen::MatrixXd& a);
 
-/// Eigenpairs of a general square matrix, columns of length 1; nullopt if a value is complex.
+/// Eigenpairs of a general square matrix, columns of length 1; nullopt if an eigenvalue is complex.
 [[nodiscard]] std::optional<EigenPairs> real_eigen(const Eigen::MatrixXd& a);
 
-/// Orthonormal columns that span those of a (n x m, m <= n, full rank).
+/// Orthonormal columns that span the columns of a (n x m, m <= n, full rank).
 [[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a);
 
 /// Orthonormal basis (n x (n - rank)) of the vectors x with A^T x = 0; a: n x m.
 [[nodiscard]] Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a);
 
-/// Rank of a, n x m, m >= 0.
+/// Rank of a (n x m, m >= 0).
 [[nodiscard]] int rank(const Eigen::MatrixXd& a);
 
-/// A^-1 b with full pivoting; A general, square and regular.
+/// A^-1 b, with full pivoting; A: general, square and regular.
 [[nodiscard]] Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-/// Same as solve_dense(), but A may be singular: some x with A x = b if there is one.
+/// Same as solve_dense() for an A that may be singular: one solution x of A x = b, if there is any.
 [[nodiscard]] Eigen::VectorXd particular_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
-/// Same as solve_dense(); nullopt if A is singular to rounding.
+/// Same as solve_dense(); nullopt if A is singular up to rounding.
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a,
                                                            const Eigen::VectorXd& b);
 
-/// Right singular vectors of the smallest `count` singular values, n x count, orthonormal. These values must be well
-/// below the others.
+/// Right singular vectors of the `count` smallest singular values, n x count, orthonormal. These singular values must be well
+/// below all larger ones.
 [[nodiscard]] Eigen::MatrixXd smallest_singular_vectors(const Eigen::MatrixXd& a, Eigen::Index count);
 
 /// Singular values, descending; A: n x m.
 [[nodiscard]] Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 
-/// The least-norm minimiser x of |A x - b|; A: n x m of any rank.
+/// Minimiser x of |A x - b| with the least norm; A: n x m, any rank.
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 [[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// The least-norm minimiser x of |A x - b|. Singular values of A count as zero below `least` times the
-/// largest of them, and below `least` times `size`: the magnitude of the terms whose difference A is.
+/// Minimiser x of |A x - b| with the least norm. Singular values of A are treated as zero below `least` times the largest
+/// one, and below `least` times `size`. size: magnitude of the terms if A is a difference.
 [[nodiscard]] Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                                 double least, double size = 0.0);
 
-/// Some minimiser x of |A x - b|; dependent columns get the factor zero; A: n x m, m <= n.
+/// One minimiser x of |A x - b|, with the factor zero for dependent columns; A: n x m, m <= n.
 [[nodiscard]] Eigen::VectorXd combination_of_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// Pseudo-inverse, m x n, for A: n x m of any rank.
+/// Pseudo-inverse (m x n) of A (n x m, any rank).
 [[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
 }  // namespace signorini::base

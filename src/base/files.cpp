@@ -44,7 +44,7 @@ void check_output_directory(const fs::path& path, const ResultsKind& kind, bool 
                                 kind.description));
   if (!fs::exists(path / kind.marker, error))
     throw FileError(path.string(),
-                    fmt::format("is not empty and holds no {} (no {}) that --force could replace",
+                    fmt::format("is not empty and contains no {} (no {}) that --force could replace",
                                 kind.description, kind.marker));
 }
 

@@ -1,4 +1,4 @@
-// host_info.hpp: the machine on which times were measured.
+// host_info.hpp: processor and compiler of the machine on which run times are measured.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 namespace signorini::base {
 
 struct HostInfo {
-  std::string processor;  ///< as the system names it; "unknown processor" if it does not
+  std::string processor;  ///< name given by the system; "unknown processor" if the system gives none
   std::size_t cores = 1;  ///< processor_count()
-  std::string compiler;   ///< "g++ 12.2.0, optimised"
+  std::string compiler;   ///< compiler name, version and optimisation, for example "g++ 12.2.0, optimised"
 };
 
 [[nodiscard]] HostInfo host_info();

@@ -20,7 +20,7 @@ bool has_negative_zero(const Json& json) {
   return json.is_number_float() && json.get<double>() == 0.0 && std::signbit(json.get<double>());
 }
 
-/// Makes a copy only if something must be replaced.
+/// JSON text without negative zeros; the value is copied only if it contains a negative zero.
 std::string dumped(const Json& json, int indent) {
   if (has_negative_zero(json)) {
     Json mended = json;

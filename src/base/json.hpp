@@ -1,5 +1,5 @@
-// json.hpp: reads and writes JSON. Parser and writer are compiled once, in json.cpp, because each file that
-// instantiates them costs four seconds (docs/decisions/dense-algebra-in-one-file.md).
+// json.hpp: reads and writes JSON. Parser and writer are compiled only in json.cpp, because each file that instantiates them
+// takes four seconds (docs/decisions/dense-algebra-in-one-file.md).
 #pragma once
 
 #include <iosfwd>
@@ -10,11 +10,11 @@ namespace signorini::base {
 
 using Json = nlohmann::ordered_json;
 
-/// Indented text with a final line break; bytes that are not UTF-8 become replacement characters, and -0 becomes 0.
+/// Indented text with a final line break. Bytes that are not UTF-8 become replacement characters, and -0 becomes 0.
 [[nodiscard]] std::string json_text(const Json& json);
-/// Same in one line, without line break.
+/// Same text in one line, without a line break.
 [[nodiscard]] std::string json_line(const Json& json);
-/// Errors: Json::exception.
+/// Reads one JSON value. Errors: Json::exception.
 [[nodiscard]] Json parse_json(std::istream& stream);
 [[nodiscard]] Json parse_json(const std::string& text);
 

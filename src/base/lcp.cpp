@@ -11,14 +11,14 @@
 namespace signorini::base {
 namespace {
 
-/// The system w - M z - d z0 = q in the current basis. Columns: w, z, z0, right-hand side.
+/// Tableau of the system w - M z - d z0 = q in the current basis. Columns: w, z, z0, right-hand side.
 class Tableau {
  public:
   Tableau(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Eigen::VectorXd& d)
       : n_(q.size()), t_(n_, 2 * n_ + 2), basis_(static_cast<std::size_t>(n_)) {
     t_ << Eigen::MatrixXd::Identity(n_, n_), -M, -d, q;
     for (Eigen::Index i = 0; i < n_; ++i) basis_[static_cast<std::size_t>(i)] = i;
-    // rounding of a zero after elimination
+    // size below which an entry is a zero with rounding errors of the elimination
     zero_ = rounding::many_operations * std::max(1.0, M.cwiseAbs().maxCoeff());
   }
 
@@ -28,7 +28,7 @@ class Tableau {
   }
   [[nodiscard]] const std::vector<Eigen::Index>& basis() const { return basis_; }
 
-  /// Row of the most negative entry, the first pivot: it makes the start feasible.
+  /// Row of the most negative entry relative to d. It is the first pivot row, because this pivot makes the start feasible.
   [[nodiscard]] Eigen::Index first_row(const Eigen::VectorXd& d) const {
     Eigen::Index best = 0;
     for (Eigen::Index i = 1; i < n_; ++i)
@@ -36,7 +36,7 @@ class Tableau {
     return best;
   }
 
-  /// The row that limits the entering column; -1: none. z0 leaves as soon as possible.
+  /// Row whose basic variable reaches zero first as the entering variable grows; -1: none. In a tie z0 leaves the basis.
   [[nodiscard]] Eigen::Index blocking_row(Eigen::Index column) const {
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < n_; ++i) {
@@ -53,7 +53,7 @@ class Tableau {
     return best;
   }
 
-  /// Pivots; returns the variable that left the basis.
+  /// Exchanges the basic variable of `row` with the variable of `column`; returns the variable that left the basis.
   Eigen::Index pivot(Eigen::Index row, Eigen::Index column) {
     t_.row(row) /= t_(row, column);
     for (Eigen::Index i = 0; i < n_; ++i)
@@ -74,13 +74,13 @@ class Tableau {
   }
 
  private:
-  /// a - b; a difference of rounding size is set to zero, because rounding would otherwise break ties.
+  /// a - b. A difference of rounding size is set to zero, because rounding would otherwise decide ties.
   [[nodiscard]] static double difference(double a, double b) {
     const double d = a - b;
     return std::abs(d) <= rounding::many_operations * std::max(std::abs(a), std::abs(b)) ? 0.0 : d;
   }
-  /// Compares row i over its pivot with row j over its own lexicographically: right-hand side first, then the columns
-  /// of w, which contain the inverse of the basis.
+  /// Compares row i divided by pi with row j divided by pj lexicographically: first the right-hand side, then the columns of
+  /// w, which contain the inverse of the basis.
   [[nodiscard]] bool lexicographically_less(Eigen::Index i, double pi, Eigen::Index j, double pj) const {
     const Eigen::Index rhs = t_.cols() - 1;
     for (Eigen::Index k = -1; k < n_; ++k) {
@@ -97,7 +97,7 @@ class Tableau {
   double zero_ = 0.0;
 };
 
-/// Solves the same basis again, without the rounding of all pivots.
+/// Computes z of the final basis again from M and q, so that the rounding errors of all pivots are removed.
 Eigen::VectorXd refined(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Tableau& tableau,
                         const Eigen::VectorXd& z) {
   std::vector<Eigen::Index> active;
@@ -124,7 +124,7 @@ std::optional<Eigen::VectorXd> solve_lcp(const Eigen::MatrixXd& M, const Eigen::
   if (n == 0 || q.minCoeff() >= 0.0) return Eigen::VectorXd::Zero(n);
   Tableau tableau(M, q, d);
   Eigen::Index left = tableau.pivot(tableau.first_row(d), tableau.artificial());
-  // Lexicographic pivots never return to a basis, but rounding might: hence a limit.
+  // Lexicographic pivots never return to an earlier basis, but rounding errors might cause it: hence a limit.
   const Eigen::Index most = 100 + 50 * n;
   for (Eigen::Index i = 0; i < most; ++i) {
     const Eigen::Index entering = tableau.complement(left);

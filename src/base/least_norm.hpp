@@ -1,13 +1,13 @@
-// least_norm.hpp: the point of least norm of an affine space within a product of convex sets.
+// least_norm.hpp: the point of least norm in the intersection of an affine space and a product of convex sets.
 //
 //   min |x|^2 / 2   over   A x = r,   x in C = C_1 x C_2 x ...
 //
-// Its dual has no constraints and is concave with a continuous derivative (P: projection onto C):
+// The dual problem has no constraints; its function is concave with a continuous derivative (P: projection onto C):
 //
 //   max g(y),   g(y) = r . y - (A' y) . x + |x|^2 / 2,   x = P(A' y),   g'(y) = r - A x
 //
-// A damped Newton method with a generalised derivative D of P solves it: A D A' dy = r - A x. It ends after
-// finitely many steps if the sets are polyhedral (one tangent), and converges quadratically otherwise.
+// A damped Newton method solves it, with a generalised derivative D of P: A D A' dy = r - A x. The method ends after finitely
+// many steps if the sets are polyhedral (one tangent), and otherwise converges quadratically.
 //
 //   set    { (n, t) : |t| <= f n }    a second-order cone, d tangents; d = 0: the half-line n >= 0
 //          { t : |t| <= F }           a disc
@@ -21,17 +21,17 @@
 
 namespace signorini::base {
 
-/// A convex set of the components of one contact: consecutive entries of x.
+/// A convex set for the components of one contact, which are consecutive entries of x.
 struct ConvexSet {
   enum class Kind : unsigned char { cone, disc, ray } kind = Kind::cone;
-  Eigen::Index size = 1;      ///< entries: 1 + tangents of a cone (the first is n), tangents of a disc
+  Eigen::Index size = 1;  ///< number of entries; cone: 1 + tangents (the first entry is n); disc: tangents
   double friction = 0.0;      ///< cone: f >= 0
   double radius = 0.0;        ///< disc: F >= 0
   Eigen::VectorXd direction;  ///< ray: e
 };
 
-/// a: orthonormal rows, m x n with m <= n; sets: their sizes add up to n; r: m. A x = r holds within
-/// rounding::elimination |r|. nullopt: no point was found, since there is none or rounding hides it.
+/// Arguments: a: m x n with orthonormal rows, m <= n; r: length m; sets: their sizes add up to n. A x = r is satisfied within
+/// rounding::elimination |r|. nullopt: no point was found, because there is none or rounding errors hide it.
 [[nodiscard]] std::optional<Eigen::VectorXd> least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
                                                         const std::vector<ConvexSet>& sets);
 

@@ -37,7 +37,7 @@ std::ifstream opened(const fs::path& path) {
   return stream;
 }
 
-/// True if the last line has no line end, as after a kill.
+/// True if the last line has no line end, for example because the run was killed.
 bool is_cut(const fs::path& table) {
   if (!input_file_error(table).empty()) return false;
   std::ifstream stream(table, std::ios::binary | std::ios::ate);
@@ -58,7 +58,7 @@ ManifestEntry entry_of(const fs::path& directory, std::string_view file) {
       checksum.add({part.data(), static_cast<std::size_t>(n)});
       entry.size += static_cast<std::uintmax_t>(n);
     }
-  } catch (const std::ios_base::failure& error) {  // error of the disk
+  } catch (const std::ios_base::failure& error) {  // read error of the disk
     throw FileError((directory / file).string(), std::string("cannot be read: ") + error.what());
   }
   entry.checksum = checksum.text();
@@ -142,12 +142,12 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
       const std::string& file = manifest.files.back().file;
       if (file.empty() || file.find('/') != std::string::npos)
         throw FileError(path.string(),
-                        "is no manifest of a run: found the file name \"" + excerpt(file) + "\"");
+                        "is not a manifest of a run: found the file name \"" + excerpt(file) + "\"");
     }
     return manifest;
   } catch (const Json::exception& error) {
     throw FileError(path.string(),
-                    std::string("is no manifest of a run: ") + error.what() +
+                    std::string("is not a manifest of a run: ") + error.what() +
                         "; compute the run again, or delete the manifest: its files are then not checked");
   }
 }

@@ -1,13 +1,12 @@
-// run_files.hpp: the files of a run's directory, and its manifest, with which readers detect incomplete and altered
-// files.
+// run_files.hpp: the files in a run's directory, and the manifest, by which readers detect incomplete and changed files.
 //
 //   DIR/manifest.json   {"signorini": "0.9.0", "outcome": "done",
 //                        "files": [{"file": "events.csv", "size": 5120, "checksum": "9d0c5f1e2a7b4c38"}, ...]}
 //
-//   size: bytes;  checksum: of all bytes, base/text.hpp;  files: existing ones, in the order of result_files
+//   size: bytes;  checksum: of all bytes, base/text.hpp;  files: the existing files, in the order of result_files
 //
-// A run removes the manifest before it changes any other file and writes it after all others. So a killed run has none.
-// Pictures and pages are drawn from the files of the manifest, and are not listed in it.
+// A run removes the manifest before it changes any other file, and writes the manifest after all other files. So a killed run
+// has no manifest. Pictures and pages are drawn from files of the manifest and are not listed in it.
 #pragma once
 
 #include <array>
@@ -29,7 +28,7 @@ inline constexpr std::array<std::string_view, 21> result_files = {
     "loads.csv",  "frames.csv",    "frame_contacts.csv", "frame_bodies.csv", "frame_seams.csv",
     "states.csv", "geometric.csv", "instants.csv",       "orbit.json",       "summary.json",
     "run.toml"};
-/// Files from which pictures are drawn; a run may leave them out, and they may be added later.
+/// Files from which pictures are drawn. A run may omit them; they can be added later.
 inline constexpr std::array<std::string_view, 3> picture_rows = {"motion.csv", "curves.csv",
                                                                  "body_motion.csv"};
 
@@ -40,32 +39,31 @@ struct ManifestEntry {
 };
 
 struct Manifest {
-  std::string program, outcome;  ///< the version of Signorini; done, stopped, interrupted
+  std::string program, outcome;  ///< program: version of Signorini; outcome: done, stopped or interrupted
   std::vector<ManifestEntry> files;
 
-  /// nullptr: the file is not listed.
+  /// Entry of a file; nullptr: the file is not listed.
   [[nodiscard]] const ManifestEntry* find(std::string_view file) const;
   void remove(std::string_view file);
-  /// Records the current state of the file; a file that does not exist is dropped. Errors: FileError.
+  /// Records the present size and checksum of the file; removes its entry if the file does not exist. Errors: FileError.
   void add(const std::filesystem::path& directory, std::string_view file);
-  /// Content of manifest.json.
+  /// Text of manifest.json.
   [[nodiscard]] std::string text() const;
 };
 
-/// Lists all existing results. Errors: FileError.
+/// Manifest with all result files that exist. Errors: FileError.
 [[nodiscard]] Manifest manifest_of(const std::filesystem::path& directory, const std::string& outcome);
-/// Content of DIR/manifest.json; nullopt if it is missing. Errors: FileError.
+/// Reads DIR/manifest.json; nullopt if the file is missing. Errors: FileError.
 [[nodiscard]] std::optional<Manifest> read_manifest(const std::filesystem::path& directory);
-/// Must be called before a file of the directory changes. Errors: FileError.
+/// Removes the manifest; must be called before any file in the directory changes. Errors: FileError.
 void remove_manifest(const std::filesystem::path& directory);
 
-/// Refuses files that are not regular files. If there is a manifest, also refuses files that are missing or
-/// not listed, and files with another size or checksum. Without names: checks all files that a run writes.
-/// Errors: FileError, with the name of the file.
+/// Refuses files that are not regular files. If there is a manifest, also refuses files that are missing, not listed, or of
+/// another size or checksum. Without names, checks all files that a run writes. Errors: FileError with the name of the file.
 void check_run_files(const std::filesystem::path& directory);
 void check_run_files(const std::filesystem::path& directory, const std::vector<std::string_view>& names);
-/// Without a manifest: a sentence that says so, and whether the last line of states.csv is incomplete. Empty
-/// if there is a manifest.
+/// If there is no manifest: a sentence that says so, and whether the last line of states.csv is incomplete. Otherwise an
+/// empty text.
 [[nodiscard]] std::string unchecked_reason(const std::filesystem::path& directory);
 
 }  // namespace signorini::base

@@ -1,10 +1,10 @@
-// simd.hpp: compiles a function twice, for two and four doubles per instruction; selected at program start.
+// simd.hpp: compiles a function for two and for four doubles per instruction; the version is selected at program start.
 //
-//   SIGNORINI_WIDE_LANES void f(...) { loops over Four }      same bits on every machine:
-//   each lane holds a result of its own, or a sum is taken in the same four parts; no fused multiply-add
+//   SIGNORINI_WIDE_LANES void f(...) { loops over Double4 }   same bits on every machine:
+//   each lane computes a separate result, or one of four fixed parts of a sum; no fused multiply-add
 //
-// For functions outside templates; functions that they call must be inlined. If the compiler or a sanitizer does not
-// support the selection, only the narrow version exists.
+// Only for functions that are not templates; functions that they call must be inlined. If the compiler or a sanitizer does
+// not support the selection, only the version for two doubles exists.
 #pragma once
 
 namespace signorini::base {
@@ -18,8 +18,8 @@ namespace signorini::base {
 
 using Double4 = double __attribute__((vector_size(32)));
 
-/// A vector of doubles at any address. It is a class, because a template argument would lose the alignment
-/// attribute of a vector type.
+/// A vector of doubles at any address. It is a class because a vector type as a template argument would lose its alignment
+/// attribute.
 template <class T>
 struct [[gnu::packed, gnu::may_alias]] UnalignedLanes {
   T v;

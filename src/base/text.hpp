@@ -13,58 +13,58 @@
 
 namespace signorini::base {
 
-/// The shortest digits that read back exactly (std::to_chars): "1e-08", "0.3", "100", "inf", "nan".
+/// The shortest text that is read back as exactly the same number (std::to_chars): "1e-08", "0.3", "100", "inf", "nan".
 [[nodiscard]] std::string format_number(double value);
 
-/// The whole text as a number (a leading + is allowed); nullopt if any character is left over.
+/// The whole text as a number (a leading + is allowed); nullopt if the text contains anything else.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// The whole text as an integer; nullopt if any character is left over or it overflows.
+/// The whole text as an integer; nullopt if the text contains anything else or the integer overflows.
 [[nodiscard]] std::optional<long long> parse_integer(std::string_view text);
 
-/// "1 value", "3 values".
+/// Number and noun, with a plural s if needed: "1 value", "3 values".
 [[nodiscard]] std::string count_text(std::size_t number, std::string_view thing);
 
-// Lists names in a sentence.
+// Joins names for a sentence.
 //
 //   join_quoted({"A", "B", "C"}, 3)        "'A', 'B' and 'C'"
 //   join_quoted({"A", "B", "C", "D"}, 2)   "'A', 'B' and 2 more"
 
-/// The first `most` names, then the number of the others.
+/// Joins the first `most` names in quotes, followed by the number of further names.
 [[nodiscard]] std::string join_quoted(const std::vector<std::string>& names, std::size_t most = 10);
 
-/// Same for texts without additional quotes.
+/// Same as join_quoted() for texts that are not quoted.
 [[nodiscard]] std::string join_texts(const std::vector<std::string>& texts, std::size_t most = 10);
 
 // A duration as text.
 //
-//   duration_text(0.4) == "1 s", (75) == "1.3 min", (5400) == "1.5 h"
+//   duration_text(0.4) == "1 s", duration_text(75) == "1.3 min"
 
-/// seconds >= 0; two digits from a minute on, whole seconds below.
+/// Duration as text, seconds >= 0: whole seconds below a minute, two digits in min, h or days above.
 [[nodiscard]] std::string duration_text(double seconds);
 
-/// Text from a file, for a message: at most 80 characters, with "..." if it was longer; characters other than
-/// printable ASCII become '?'.
+/// Excerpt of a text from a file, for a message: at most 80 characters, ending with "..." if the text is longer. Characters
+/// other than printable ASCII become '?'.
 [[nodiscard]] std::string excerpt(std::string_view text);
 
 /// True for valid UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
 [[nodiscard]] bool is_utf8(std::string_view text);
 
-/// True for UTF-8 without control characters other than tabs and line breaks.
+/// True for UTF-8 text whose only control characters are tabs and line breaks.
 [[nodiscard]] bool is_plain_text(std::string_view text);
 
-// A short text that depends on the whole of a longer one, the same on every machine.
+// A short text computed from a whole long text, the same on every machine.
 //
 //   FNV-1a of 64 bits:   h = 14695981039346656037,  for each byte  h = (h xor byte) 1099511628211 mod 2^64
 //   sixteen hexadecimal digits of h
 //
-// A single changed byte always changes the fingerprint. Any other change keeps it with probability 2^-64.
+// A single changed byte always changes the fingerprint. Another change leaves it the same with probability 2^-64.
 
 /// Fingerprint of a text, which may be added in parts.
 class Fingerprint {
  public:
   void add(std::string_view part);
-  /// The sixteen digits for all parts so far.
+  /// The sixteen hexadecimal digits for all parts added so far.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -73,32 +73,31 @@ class Fingerprint {
 
 [[nodiscard]] std::string fingerprint_of(const std::string& text);
 
-// Suggests known names for a misspelt one.
+// Suggests known names that are similar to an unknown name.
 //
 //   suggestion("frictoin", {"friction", "gap"}) == "; did you mean \"friction\"?"
 
-/// Number of insertions, deletions, replacements and swaps of neighbours that turn a into b.
+/// Number of insertions, deletions, replacements and swaps of neighbouring characters that turn a into b.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known name nearest to the given one, if it is near enough to be a typing error; else empty.
+/// The known name most similar to the given one, if the difference may be a typing error; otherwise empty.
 [[nodiscard]] std::string nearest_name(std::string_view given, const std::vector<std::string>& known);
 
-/// "; did you mean \"friction\"?", or "".
+/// Text for the end of a message, "; did you mean \"friction\"?"; empty if no known name is similar.
 [[nodiscard]] std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
 
-/// End of a message: the nearest name, or else some of the known ones.
+/// Text for the end of a message: the most similar name, or otherwise some of the known names.
 [[nodiscard]] std::string suggestion(std::string_view given, const std::vector<std::string>& known);
 
 // Reads one row of a CSV table.
 //
-//   t,"a, quoted",1.5      cells separated by commas; quoted ones may contain commas, line breaks and "" for "
+//   t,"a, quoted",1.5      cells separated by commas; a quoted cell may contain commas, line breaks and "" for "
 //
-// A last line without its line break (of a run in progress, or killed) is not a row: its cells are returned,
-// so that the caller can report or use them.
+// A last line without line break (of a run in progress or a killed run) is not a row. Its cells are returned, so that the
+// caller can report or use them.
 
-/// Reads the next row. Returns false at the end; `cells` then has the cells of a last line without line
-/// break. Also returns false for a row of more than 100 MB, which is invalid (a million degrees of freedom
-/// need 40 MB).
+/// Reads the next row. Returns false at the end of the table; `cells` then contains the cells of a last line without line
+/// break. Also returns false for a row longer than 100 MB, which is invalid (a million degrees of freedom need 40 MB).
 [[nodiscard]] bool read_csv_row(std::istream& in, std::vector<std::string>& cells);
 
 }  // namespace signorini::base

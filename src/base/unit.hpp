@@ -1,4 +1,4 @@
-// unit.hpp: units of the quantities of mechanics.
+// unit.hpp: units of mechanical quantities, as powers of force, length and time.
 //
 //   [x] = force^a length^b time^c,      mass = force time^2 / length
 #pragma once

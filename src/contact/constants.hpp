@@ -1,6 +1,6 @@
-// constants.hpp: visits every constant and every form of a contact, for all laws.
+// constants.hpp: functions that visit every constant and every form of a contact, whatever its law.
 //
-// Code that rescales, perturbs, renumbers or reduces contacts calls these visitors and does not depend on the laws.
+// Code that rescales, perturbs, renumbers or reduces contacts uses these functions, so it need not know the laws.
 #pragma once
 
 #include "base/unit.hpp"
@@ -8,8 +8,7 @@
 
 namespace signorini::contact {
 
-/// Visits the forms on the displacements: along the normal, along the tangent, and, with a shear element, of
-/// the body along the tangent.
+/// Visits the forms on the displacements: normal, tangent and, with a shear element, the tangential form of the body.
 template <class AnyContact, class Visit>
 void visit_forms(AnyContact& contact, const Visit& visit) {
   visit(contact.normal);
@@ -28,7 +27,7 @@ void visit_stiffnesses(Contact& contact, const Visit& visit) {
   visit(contact.shear->damping, unit::damping);
 }
 
-/// Visits all constants that have a unit, including those of its law, without forms and histories: visit(double&,
+/// Visits all constants that have a unit, including those of the contact's law, but no forms and no histories: visit(double&,
 /// Unit).
 template <class Visit>
 void visit_constants(Contact& contact, const Visit& visit) {

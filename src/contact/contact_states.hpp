@@ -12,12 +12,13 @@ namespace signorini::contact {
 /// One entry per contact, in the order of Model::contacts.
 using ContactStates = std::vector<ContactState>;
 
-/// State that represents all states with the same rows: all open states of the built-in laws have the same rows.
+/// Representative of all states with the same rows: State::open for every open state of the built-in laws.
 [[nodiscard]] constexpr State representative_state(State state) {
   return is_open(state) && !is_user_law_state(state) ? State::open : state;
 }
 
-/// States without anchors. They determine the matrix of the state system; anchors are constants of rows and do not.
+/// Representative states without anchors. They determine the matrix of the state system; anchors enter only the constants of
+/// rows.
 [[nodiscard]] inline std::vector<State> states_of(const ContactStates& contact_states) {
   std::vector<State> states(contact_states.size());
   for (std::size_t k = 0; k < contact_states.size(); ++k)
@@ -25,7 +26,7 @@ using ContactStates = std::vector<ContactState>;
   return states;
 }
 
-/// Layout of the forces and guards of these contacts, from the numbers of their laws.
+/// Layout of the forces and guards of these contacts, from the numbers in the capabilities of their laws.
 [[nodiscard]] inline ForceLayout layout_of(const std::vector<Contact>& contacts) {
   std::vector<ForceLayout::Counts> counts;
   counts.reserve(contacts.size());

@@ -8,7 +8,7 @@
 namespace signorini::contact {
 namespace {
 
-/// E_k from E_0 ... E_(k-1) and g_0 ... g_k; E = exp(g) times a constant.
+/// Taylor coefficient E_k of E = exp(g) times a constant, from E_0 ... E_(k-1) and g_0 ... g_k.
 double next_of_exponential(const std::vector<double>& g, const std::vector<double>& e) {
   const std::size_t k = e.size();
   double sum = 0.0;
@@ -21,7 +21,7 @@ double next_of_exponential(const std::vector<double>& g, const std::vector<doubl
 double sliding_friction(const Contact& contact, double along) {
   const Friction& f = contact.friction;
   if (!f.is_rate_dependent()) return f.kinetic;
-  // Below zero slip rate, rising friction continues as a straight line: the exponential would grow without bound there.
+  // Below zero slip rate, rising friction continues as a straight line, because the exponential would grow without bound.
   if (f.is_rate_strengthening() && along < 0.0)
     return f.static_ + (f.kinetic - f.static_) * along / f.decay_velocity();
   return f.kinetic + (f.static_ - f.kinetic) * std::exp(-along / f.decay_velocity());
@@ -122,7 +122,7 @@ LimitSeries::LimitSeries(const Friction& friction, double x0)
       x_{x0},
       e_{std::exp(-std::max(x0, 0.0) / force_)} {}
 
-/// E_k without its term -x_k E_0 / Nc.
+/// Known part of E_k: all terms but -x_k E_0 / Nc, because x_k is not known yet.
 double LimitSeries::known_exponential() const {
   const std::size_t k = x_.size();
   double sum = 0.0;
@@ -147,7 +147,7 @@ double LimitSeries::take(double x) {
 
 namespace {
 
-// Newton steps: the first ones advance by v at least, the last ones converge quadratically.
+// Limit for Newton steps: the first steps advance x by at least v each, the last ones converge quadratically.
 constexpr int most_steps = 200;
 
 }  // namespace
@@ -166,7 +166,7 @@ std::optional<double> massless_slip_rate(const Friction& friction, double pull, 
     if (!(rest > saturation_tolerance)) return std::nullopt;
     return -v * std::log(rest);
   }
-  // The residual is increasing and concave in x: started from the left, Newton steps never pass the root.
+  // The residual decreases and is convex in x, so Newton steps that start left of the root never pass the root.
   double x = 0.0;
   for (int i = 0; i < most_steps; ++i) {
     const double fading = (fast - slow) * std::exp(-x / v) * pressed;

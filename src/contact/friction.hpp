@@ -3,18 +3,18 @@
 //   stick   |T| <= fs |N|
 //   slip s  T + s f(s p') N = 0,   f(x) = fk + (fs - fk) exp(-x / v_s)    f = fk without v_s
 //
-// fs > fk: Stribeck friction, which decreases with the slip rate. fs < fk: friction that rises from slow (fs) to fast
-// (fk).
+// fs > fk: Stribeck friction, which decreases with the slip rate. fs < fk: friction that rises with the slip rate, from fs
+// (slow) to fk (fast).
 //
-// The tangent of the slip row at a motion is dT + s f dN + f' N dvt. Along a series of the motion, with E = exp(g):
+// The linearised slip row at a motion is dT + s f dN + f' N dvt. Taylor coefficients along the motion, with E = exp(g):
 //   k E_k = sum_j j g_j E_(k-j),   f_k = (fs - fk) E_k,   T_k + s f_0 N_k = -s sum_(j = 1..k) f_j N_(k-j)
-// Hence f_0 is a matrix entry, and the right-hand side is known before N_k and T_k are solved for.
+// Hence f_0 is a matrix entry, and the right-hand side is known before the equations are solved for N_k and T_k.
 //
 // The derivatives of these equations with respect to a parameter p are
 //   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'
 //
-// A friction law consists of the functions of this file and its constants (friction_constants); all other
-// code calls them. Units: f is dimensionless.
+// A friction law consists of the functions in this file and its constants (friction_constants); all other code calls these
+// functions. Unit: f is dimensionless.
 #pragma once
 
 #include <algorithm>
@@ -32,41 +32,40 @@ namespace signorini::contact {
 //   f(x) = fh + (fl - fh) exp(-x / Nc),  x = |N|              fl, fh: for light and for heavy loads, Nc: `force`
 //   F'(x) = fh + (fl - fh) (1 - x / Nc) exp(-x / Nc)
 //
-// F is smooth, F(0) = 0 and F'(0) = fl; below zero it continues as a straight line, so that a root finder may evaluate
-// it slightly beyond a separation. Along a series of x, with E = exp(-x / Nc):
+// F is smooth, F(0) = 0 and F'(0) = fl. For x < 0 it continues as a straight line, so that a root finder may evaluate F
+// slightly beyond a separation. Taylor coefficients along a series of x, with E = exp(-x / Nc):
 //   k E_k = -(1 / Nc) sum_(j = 1..k) j x_j E_(k-j),   F_k = fh x_k + (fl - fh) sum_(j = 0..k) x_j E_(k-j)
-// F'(x_0) x_k is the part of F_k that contains x_k. Units: F, x and Nc are forces, f is dimensionless.
+// F'(x_0) x_k is the part of F_k that depends on x_k. Units: F, x and Nc are forces, f is dimensionless.
 
-/// F at the compression x = -N, and its slope, for friction that depends on N.
+/// Limit F at the compression x = -N, and slope F'(x), for friction that depends on N. Units: force; dimensionless.
 [[nodiscard]] double friction_limit(const Friction& friction, double x);
 [[nodiscard]] double friction_limit_slope(const Friction& friction, double x);
 
-/// Sets F and its rate in the motion of a closed contact, from N, g' and q'; no effect if friction does not
-/// depend on N.
+/// Sets F and its rate in the motion of a closed contact, from N, g' and q'. Does nothing if friction does not depend on N.
 void set_limit(const Contact& contact, ContactMotion& m);
 
-/// F along a series of x, one coefficient after the other.
+/// Taylor coefficients of F along a series of x, computed one after the other.
 class LimitSeries {
  public:
   LimitSeries(const Friction& friction, double x0);
 
-  /// Slope F'(x_0).
+  /// Slope F'(x_0) of the limit.
   [[nodiscard]] double slope() const { return slope_; }
-  /// F_k without F'(x_0) x_k for the next level k; it is known before x_k.
+  /// Part F_k - F'(x_0) x_k of the next coefficient k; it can be computed before x_k is known.
   [[nodiscard]] double known() const;
-  /// Takes x_k, for k = 1, 2, ...; returns F_k.
+  /// Appends x_k, for k = 1, 2, ...; returns F_k.
   double take(double x);
 
  private:
   [[nodiscard]] double known_exponential() const;
 
-  double range_, force_;  // fl - fh, Nc
+  double range_, force_;  // fl - fh; Nc
   double slope_;
-  std::vector<double> x_, e_;  // coefficients x_k, and those of exp(-x / Nc)
+  std::vector<double> x_, e_;  // coefficients x_k, and coefficients of exp(-x / Nc)
 };
 
-/// static_friction: the greatest |T| / |N| in stick over all N. kinetic_friction: the least |T| / |N| in slip
-/// over all slip rates.
+/// static_friction: greatest ratio |T| / |N| in stick, over all N. kinetic_friction: least ratio |T| / |N| in slip, over all
+/// slip rates.
 [[nodiscard]] inline double static_friction(const Contact& contact) {
   const Friction& f = contact.friction;
   return f.is_load_dependent() ? std::max(f.static_, f.kinetic) : f.static_;
@@ -74,13 +73,13 @@ class LimitSeries {
 [[nodiscard]] inline double kinetic_friction(const Contact& contact) {
   return contact.friction.is_rate_strengthening() ? contact.friction.static_ : contact.friction.kinetic;
 }
-/// Ratio |T| / |N| of a slipping state, for friction that varies with the slip rate its least value. At the
-/// static limit: the static coefficient.
+/// Ratio |T| / |N| in a slipping state; if it varies with the slip rate, its least value. At the static limit: the static
+/// coefficient.
 [[nodiscard]] inline double slipping_friction(const Contact& contact, State state) {
   return is_at_static_limit(state) ? static_friction(contact) : kinetic_friction(contact);
 }
-/// For a normal force N <= 0: the greatest |T| in stick (sticking_limit), and |T| at the beginning of slip
-/// (sliding_limit).
+/// For a normal force N <= 0: sticking_limit is the greatest |T| in stick, sliding_limit is |T| when slip begins. Unit:
+/// force.
 [[nodiscard]] inline double sticking_limit(const Contact& contact, double N) {
   const Friction& f = contact.friction;
   return f.is_load_dependent() ? friction_limit(f, -N) : f.static_ * (0.0 - N);
@@ -89,45 +88,46 @@ class LimitSeries {
   return contact.friction.is_load_dependent() ? friction_limit(contact.friction, -N)
                                               : kinetic_friction(contact) * (0.0 - N);
 }
-/// Coefficient of friction at the slip rate along = s p', smooth past zero, and its derivative with respect
-/// to that rate.
+/// Coefficient of friction at the slip rate along = s p' (smooth through zero), and its derivative with respect to along.
 [[nodiscard]] double sliding_friction(const Contact& contact, double along);
 [[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 
-/// True if the coefficient depends on the slip rate or on N: the row of a slipping contact is then not linear.
+/// True if the coefficient depends on the slip rate or on N, so that the row of a slipping contact is nonlinear.
 [[nodiscard]] inline bool friction_varies(const Contact& contact) {
   return contact.friction.is_rate_dependent() || contact.friction.is_load_dependent();
 }
-/// Name of varying friction in messages; only if friction_varies().
+/// Name of varying friction in messages; only valid if friction_varies().
 [[nodiscard]] inline const char* friction_description(const Contact& contact) {
   return contact.friction.is_load_dependent() ? "friction that depends on the normal force"
                                               : "friction that depends on the slip rate";
 }
+/// True if the contact slips in this state and its friction coefficient varies.
 [[nodiscard]] inline bool slips_nonlinearly(const Contact& contact, State state) {
   return friction_varies(contact) && slip_sign(state) != 0;
 }
 
 /// Linear row of a contact that slips in direction s with the coefficient f: T + s f N.
 [[nodiscard]] Form sliding_row(int s, double f);
-/// Nonlinear row for a varying coefficient: its value at a motion, and its tangent there.
+/// Residual of the nonlinear slip row at a motion m, for a contact that slips in direction s. Unit: force.
 [[nodiscard]] double sliding_row_value(const Contact& contact, int s, const ContactMotion& m);
+/// Linearisation of the nonlinear slip row at a motion m.
 [[nodiscard]] Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m);
 
-/// Taylor series of the coefficient of friction along a motion, term by term.
+/// Taylor coefficients of the coefficient of friction along a motion, computed one after the other.
 class FrictionRecursion {
  public:
-  /// Starts the series; rate: coefficient 0 of ut'.
+  /// Starts the series; rate: coefficient 0 of the Taylor series of ut'.
   void begin(const Contact& contact, int s, double rate);
-  /// Coefficient of friction f_0 at the beginning, of the row s f_0 N.
+  /// Initial coefficient of friction f_0, the factor in the row entry s f_0 N.
   [[nodiscard]] double first() const { return first_; }
-  /// Takes coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). applied(i): N_i.
+  /// Appends coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). applied(i) returns N_i.
   template <class Pressing>
   [[nodiscard]] double next(double rate, const Pressing& applied) {
     extend(rate);
     return known(applied);
   }
-  /// The same sum without the contribution of coefficient k of ut', if that is an unknown of level k.
-  /// take_rate() must then be called with it.
+  /// Same sum without the part that depends on coefficient k of ut', for use if that coefficient is an unknown of level k.
+  /// Call take_rate() with the coefficient once it is known.
   template <class Pressing>
   [[nodiscard]] double without_rate(const Pressing& applied) {
     extend(0.0);
@@ -151,15 +151,15 @@ class FrictionRecursion {
   std::vector<double> exponent_, varying_;  // g_k, (fs - fk) E_k
 };
 
-/// Derivative of the friction series with respect to a parameter, computed along with the motion's coefficients. At
-/// level k all products of series except f_0 N_p,k are known, since x_k and x_p,k have level k - 1.
+/// Derivative of the friction series with respect to a parameter, computed together with the coefficients of the motion. At
+/// level k every product of series except f_0 N_p,k is known, because x_k and x_p,k belong to level k - 1.
 class FrictionTangent {
  public:
-  /// For a contact that slips in direction s; by: derivatives of its constants with respect to the parameter.
+  /// For a contact that slips in direction s. by: derivatives of the friction constants with respect to the parameter.
   FrictionTangent(const Friction& friction, const Friction& by, int s);
 
-  /// Takes coefficient k of ut' and of its derivative with respect to p, for k = 0, 1, ...; returns s sum_(j = 1..k)
-  /// f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j). applied(i): N_i; moved(i): N_p,i.
+  /// Appends coefficient k of ut' and of its derivative with respect to p, for k = 0, 1, ... applied(i) returns N_i, moved(i)
+  /// returns N_p,i. Returns s sum_(j = 1..k) f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j).
   template <class Pressing, class Moved>
   [[nodiscard]] double next(double rate, double moved_rate, const Pressing& applied, const Moved& moved) {
     extend(rate, moved_rate);
@@ -179,25 +179,24 @@ class FrictionTangent {
   std::vector<double> exponent_, e_, y_, by_p_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
 };
 
-// Slip rate of a massless sliding point if friction rises with the rate.
+// Slip rate of a massless sliding point whose friction rises with the rate.
 //
 //   pull - c x = f(x) |N|,   f(x) = fast - (fast - slow) exp(-x / v)      x = s p', c: dashpot beside kt
 //   c = 0:  x = -v ln m,   m = (fast |N| - pull) / ((fast - slow) |N|)
 //
-// The spring force T acts on the point, so that friction determines its rate: the left side decreases with x and the
-// right side increases, hence x is unique. Without a dashpot there is no solution if the pull reaches the limit of
-// friction at infinite rate; the point then follows instantaneously. x < 0: the pull is below slow |N|, the point
-// sticks. Units: x, v length/time.
+// The spring force T acts on the point, so friction determines the slip rate. The left side decreases with x and the right
+// side increases, hence x is unique. If pull < slow |N|, x is negative and the point sticks. If c = 0 and pull >= fast |N|,
+// there is no solution, and the point follows instantaneously. Units: x, v length/time.
 
-/// The coefficient counts as `fast` if it differs from `fast` by less than this fraction of fast - slow: the
-/// pull then no longer determines the rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
+/// Fraction of fast - slow within which the coefficient is treated as equal to `fast`; the pull then no longer determines the
+/// rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
 inline constexpr double saturation_tolerance = 1e-8;
 
-/// Rate beyond which the coefficient counts as `fast`: -v ln(saturation_tolerance).
+/// Slip rate beyond which the coefficient is treated as `fast`: -v ln(saturation_tolerance). Unit: length/time.
 [[nodiscard]] double saturation_rate(const Friction& friction);
 
-/// Slip rate x. pull: along the slip, at x = 0; pressed: |N| > 0; damping >= 0. nullopt: friction is at its greatest
-/// value.
+/// Slip rate x. pull: force along the slip at x = 0; pressed: |N| > 0; damping >= 0. nullopt: friction has reached its
+/// greatest value, so the pull does not determine x.
 [[nodiscard]] std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
                                                        double pressed);
 

@@ -98,7 +98,7 @@ namespace signorini {
 
 namespace {
 
-/// Binomial coefficients C(k, j) for j = 0, 1, ... in turn.
+/// Binomial coefficients C(k, j), returned one by one for j = 0, 1, ...
 class Binomials {
  public:
   explicit Binomials(std::size_t k) : k_(static_cast<double>(k)) {}

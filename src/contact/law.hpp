@@ -3,12 +3,12 @@
 //   law        open            closed, stick, slip: normal   stick                        slip s
 //   compliant  N = 0, T = 0    N - kn g = 0                  T - kt (ut - p) = 0          T + s fk N = 0
 //   rigid      N = 0, T = 0    g'' = 0                       ut'' = 0                     T + s fk N = 0
-//   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
+//   slider     N + q = 0       N + q = 0                     as compliant, or ut'' = 0    T + s fk N = 0
 //   with a shear element, whose sliding point is massless:   p' = 0                       T + s fk N = 0
-//   static limit s, without slip because other contacts prevent it:                  T + s fs N = 0
+//   static limit s, without slip, which other contacts prevent:                       T + s fs N = 0
 //   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction.hpp.
-//   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
-//   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").
+// A dashpot adds cn g' to kn g. The contact opens at N = 0, because it must not pull, although g is still negative. It stays
+// open (state "inside") until kn g + cn g' < 0 again or until the gap has opened.
 //
 //   guards     open    g                        (sliders: none; q = 0 there)
 //              inside  g + (cn/kn) g', -g
@@ -22,11 +22,10 @@
 //              p' = ut' - s F'/kt               friction that depends on N
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
-// These are the built-in laws: contact/law/coulomb_law.hpp and the laws along the normal in the same folder.
-// The data of a user-defined law give its rows and guards (signorini/user_contact_law.hpp,
-// contact/law/user_law.hpp). All laws share the interface signorini/contact_law.hpp. A guard is positive
-// while its state is valid; the event is the first zero of a guard. Guards are smooth past their zero, so
-// that a root finder may evaluate them slightly beyond the event.
+// These are the built-in laws: contact/law/coulomb_law.hpp and the normal laws in the same folder. A user-defined law gets
+// its rows and guards from data (signorini/user_contact_law.hpp, contact/law/user_law.hpp). All laws implement the interface
+// signorini/contact_law.hpp. A guard is positive while its state is valid; the event is the first zero of a guard. Guards
+// continue smoothly beyond their zero, so a root finder may evaluate them slightly after the event.
 // Source: Lukashevich et al. 2021, (6), (7) and (11), generalised to slip in both directions.
 #pragma once
 
@@ -40,9 +39,9 @@
 
 namespace signorini {
 
-/// Name of a guard: the change of state at its zero. closing: g of an open contact; opening: -g in state
-/// inside; separation: -N; slip_plus, slip_minus: the friction limit on either side; sliding: the slip rate;
-/// user_1 to user_3: the guards of a user law; none: an unused entry.
+/// Guards, named after the change of state at their zero. closing: g of an open contact; opening: -g in state inside;
+/// separation: -N; slip_plus, slip_minus: distance of T from the friction limit in the direction + or -; sliding: the slip
+/// rate; user_1 to user_3: the guards of a user law; none: an unused entry.
 enum class Guard : unsigned char {
   none,
   closing,
@@ -68,20 +67,20 @@ namespace signorini::contact {
 /// Name of a law as in a scene file: "compliant", "slider".
 [[nodiscard]] const char* to_string(Law law);
 
-/// Unit of a form's value, from the terms that it has.
+/// Unit of a form's value, from its nonzero coefficients.
 [[nodiscard]] Unit unit_of(const Form& form);
 
 }  // namespace signorini::contact
 
 namespace signorini {
 
-/// A guard, G = form + sum a b over its products; engines and decisions evaluate guards only through these
-/// functions. motion[k] is the k-th time derivative of the motion, noise[k] the magnitude below which its
-/// entries count as zero.
+/// A guard G = form + sum of products a b. Engines and decisions evaluate guards only with these functions. motion[k] is the
+/// k-th time derivative of the motion; noise[k] contains the magnitudes below which entries of motion[k] are treated as zero.
 struct GuardForm {
   Guard kind = Guard::none;
   Form form;
-  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;  ///< nullptr for a linear guard
+  /// Empty products: nullptr, the guard is linear.
+  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;
 
   [[nodiscard]] bool is_linear() const { return products == nullptr; }
   [[nodiscard]] double value(const ContactMotion& m) const {
@@ -92,13 +91,13 @@ struct GuardForm {
     const double d = k == 0 ? form.value(motion[0]) : form.rate(motion[k]);
     return is_linear() ? d : d + derivative_of_products(motion, k);
   }
-  /// Rounding error of G^(k).
+  /// Bound of the rounding error of G^(k).
   [[nodiscard]] double rounding(const ContactMotion* motion, const ContactMotion* noise,
                                 std::size_t k) const {
     const double r = form.magnitude(noise[k]);
     return is_linear() ? r : r + rounding_of_products(motion, noise, k);
   }
-  /// Derivative of G with respect to a parameter, from the derivative of the motion.
+  /// Derivative of G with respect to a parameter, from the motion m and its derivative `by` with respect to the parameter.
   [[nodiscard]] double parameter_derivative(const ContactMotion& m, const ContactMotion& by) const;
 
   [[nodiscard]] bool operator==(const GuardForm& other) const;
@@ -120,7 +119,7 @@ namespace signorini::contact {
 
 namespace signorini {
 
-/// The two rows (residuals) of a contact.
+/// The two constraint rows of a contact, each zero on the motion.
 struct Rows {
   Form normal, tangent;
 };
@@ -129,12 +128,12 @@ struct Rows {
 
 namespace signorini::contact {
 
-/// Rows of a contact in this state, by its law.
+/// Rows of a contact in this state, from its law.
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
-/// Guards of a contact in this state, by its law. The law has at most ForceLayout::guards() of them; unused
-/// entries have the kind Guard::none.
+/// Guards of a contact in this state, from its law. A law has at most ForceLayout::guards() guards; unused entries have the
+/// kind Guard::none.
 [[nodiscard]] ContactLaw::Guards guards(const Contact& contact, const ContactState& state);
-/// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
+/// Slip rate p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
 
 }  // namespace signorini::contact
@@ -151,15 +150,16 @@ namespace signorini {
 //   friction limit  stick    slip s,  p := ut - s fk |N| / kt
 //   slip rate       slip s   stick,   p := ut - T / kt
 //
-// Forces and velocities of contacts with springs are continuous, so each such contact is decided separately
-// from its own one-sided derivatives. Contacts without tangential stiffness are tried in the same way, and
-// the caller repeats until every guard of the new states holds (decide/contact_state_solver.hpp).
-// Source: Lukashevich et al. 2021, section on contact states; the closing rule is the apex of the cone.
+// Forces and velocities of contacts with springs are continuous, so such a contact is decided alone, from its one-sided
+// derivatives. Contacts without tangential stiffness are first decided in the same way; the caller repeats the decision until
+// every guard of the new states is positive (decide/contact_state_solver.hpp).
+// Source: Lukashevich et al. 2021, section on contact states. The rule for closing compares directions at the apex of the
+// friction cone.
 
-/// Motion of one contact just after an instant: element k is the k-th time derivative. `noise` has the same shape: the
-/// error of each entry caused by one rounding of the data.
+/// Motion of one contact just after an instant: motion[k] is the k-th time derivative. noise[k]: the error of each entry of
+/// motion[k] that one rounding of the data causes.
 struct MotionJet {
-  static constexpr std::size_t orders = 5;  ///< the motion and four derivatives, enough to decide states
+  static constexpr std::size_t orders = 5;  ///< the motion and its first four derivatives
   std::array<ContactMotion, orders> motion, noise;
 };
 
@@ -167,15 +167,14 @@ struct MotionJet {
 
 namespace signorini::contact {
 
-/// State that slips in the direction of this sign.
+/// Slipping state with this sign of the slip rate.
 [[nodiscard]] State slip_state(double direction);
-/// State of a contact that bears a load and does not slip: stick with friction, else closed.
+/// State of a loaded contact that does not slip: stick if it has friction, otherwise closed.
 [[nodiscard]] State state_at_rest(const Contact& contact);
-/// State of a contact without force: open, or inside while the gap is still negative, which a dashpot makes
-/// possible.
+/// State of a contact without force: inside if it has a dashpot and g < 0, otherwise open.
 [[nodiscard]] State separated_state(const Contact& contact, double gap);
 
-/// The next state of one contact; `failed` is a guard of `now`, `jet` is the motion in state `now`.
+/// State after guard `failed` of state `now` has failed; jet: the motion in state `now`.
 [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                       const MotionJet& jet);
 
@@ -183,19 +182,19 @@ namespace signorini::contact {
 
 namespace signorini {
 
-// The amount by which a contact violates its own conditions.
+// Amounts by which a contact violates its conditions (6) and (7).
 //
-//   (6)  g >= 0, N <= 0, g N = 0          with a normal spring g is reduced by its deformation (N - cn g')/kn
+//   (6)  g >= 0, N <= 0, g N = 0          with a normal spring: g minus its deformation (N - cn g')/kn
 //   (7)  |T| <= T_U, T p' >= 0            T_U: static limit in stick, friction at the slip rate in slip
 
-/// Each value is positive if its condition is violated.
+/// Amounts of violation; a value is positive if its condition is violated.
 struct Violations {
-  double tension = 0.0;      ///< N; force
-  double gap = 0.0;          ///< -(g - deformation); length, contacts with a spring
-  double penetration = 0.0;  ///< |g| closed, -g open; length, constraints
-  double product = 0.0;      ///< |g N|, g as in `gap` or `penetration`; energy
-  double friction = 0.0;     ///< |T| - T_U, closed contacts; force
-  double direction = 0.0;    ///< -T p', in slip; power
+  double tension = 0.0;      ///< N; positive in tension; force
+  double gap = 0.0;          ///< -(g - deformation of the spring); length; only contacts with a spring
+  double penetration = 0.0;  ///< |g| if closed, -g if open; length; only constraints
+  double product = 0.0;      ///< |g N|, with g as in `gap` or `penetration`; energy
+  double friction = 0.0;     ///< |T| - T_U of a closed contact; force
+  double direction = 0.0;    ///< -T p' of a slipping contact; power
 };
 
 }  // namespace signorini

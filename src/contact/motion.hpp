@@ -1,9 +1,9 @@
-// motion.hpp: motion of a contact from the motion of the structure.
+// motion.hpp: motion of a contact, computed from the motion of the structure.
 //
 //   g = g0 + n . u,   ut = t . u - s,   g' = n . v,   ut' = t . v - s',   g'' = n . a,   ut'' = t . a - s''
-//   p = ut - T / kt                     slip; equal to ut without tangential stiffness
+//   p = ut - T / kt                     slip; p = ut without tangential stiffness
 //
-// s: motion of the surface. u, v, a: any type with operator[] by degree of freedom.
+// s: motion of the surface. u, v, a: vectors of any type with operator[] for a degree of freedom.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@
 
 namespace signorini::contact {
 
-/// ut for a displacement u; ut' for a velocity.
+/// ut if u is a displacement, ut' if u is a velocity; surface: motion or velocity of the surface.
 template <class U>
 [[nodiscard]] double along_surface(const Contact& contact, const U& u, double surface) {
   return contact.tangent.dot(u) - surface;
@@ -42,8 +42,8 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   m.at = contact.tangent.dot(a) - surface_acceleration;
 }
 
-/// Slip p, which is the anchor of a contact that sticks from now on. Increments of ut and T give the
-/// increment of p.
+/// Slip p; a contact that begins to stick keeps this p as its anchor. The function is linear, so increments of ut and T give
+/// the increment of p.
 [[nodiscard]] inline double slip_of(const Contact& contact, double ut, double T) {
   const std::optional<double> kt = contact.anchor_spring();
   return kt ? ut - T / *kt : ut;
@@ -52,8 +52,8 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   return slip_of(contact, m.ut, m.T);
 }
 
-/// Contact with compliance split: removes the deformation of the springs from m, so that m is the motion of
-/// the touching surfaces.
+/// For a contact with compliance split: subtracts the deformation of its springs from m, so that m is the motion of the
+/// touching surfaces.
 inline void remove_split_compliance(const Contact& contact, State state, ContactMotion& m) {
   if (!contact.compliance_split() || is_open(state)) return;
   if (contact.tangential_stiffness) {
@@ -65,11 +65,11 @@ inline void remove_split_compliance(const Contact& contact, State state, Contact
   m.gap = m.vn = 0.0;
 }
 
-// Linear forms as columns of a matrix, restricted to the degrees of freedom that they depend on.
+// Matrix with one column per linear form, restricted to the degrees of freedom on which the forms depend.
 //
 //   H_ij = weight_d factor_d of form j,   d: i-th degree of freedom of the forms, in the order of first occurrence
 
-/// Matrix H, degrees of freedom x forms. weight: of a degree of freedom; 1 if absent.
+/// Matrix H, degrees of freedom x forms. weight: factor for each degree of freedom; if absent, all factors are 1.
 [[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<const Combination*>& forms,
                                            const std::function<double(int)>& weight = {});
 

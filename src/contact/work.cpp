@@ -17,7 +17,7 @@ double inside_loss(const Contact& contact, State state, double gap_from, double 
 
 bool slides_instantaneously(const Contact& contact) {
   if (!contact.shear) return false;
-  // The form has more terms if the body beside the point is massless (model/rigid_contacts.cpp).
+  // The form has several terms if the body at the sliding point is massless (model/rigid_contacts.cpp).
   return contact.shear->damping == 0.0 || contact.tangent.terms.size() > 1;
 }
 

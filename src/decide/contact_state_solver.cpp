@@ -17,7 +17,7 @@
 namespace signorini::decide {
 namespace {
 
-/// Derivatives of a guard at its zero, from the motion in the states that end there.
+/// A guard and its time derivatives at its zero, from the motion in the states that end there.
 Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   Crossing result{guard, {}, guard.rounding(jet.motion.data(), jet.noise.data(), 0)};
   for (std::size_t k = 1; k < jet.motion.size(); ++k)
@@ -25,8 +25,8 @@ Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   return result;
 }
 
-/// True if the guard did not reach zero continuously: it was above its rounding just before, and another contact's new
-/// state made it jump below zero.
+/// True if the guard did not reach zero continuously: its value was clearly positive just before, and the new state of
+/// another contact made the value jump below zero.
 bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion& before,
                const ContactMotion& noise) {
   return f.sign.order == 0 && !instant.has_triggered(f.contact, f.guard) &&
@@ -39,8 +39,8 @@ std::vector<std::size_t> every_contact(const Model& model) {
   return all;
 }
 
-/// Refusal for contact states without a system: the rows of rigid contacts are dependent, or the structure is
-/// singular.
+/// Refusal for contact states whose equations cannot be solved: constraint rows of rigid contacts are linearly dependent, or
+/// the structure is singular.
 Refusal no_system(const Model& model, const contact::ContactStates& states) {
   std::vector<std::size_t> held;
   for (std::size_t c = 0; c < states.size(); ++c)
@@ -61,8 +61,8 @@ Refusal no_system(const Model& model, const contact::ContactStates& states) {
           {}};
 }
 
-/// Keys of stiffnesses that make the forces unique, for messages. Only sliders may have a
-/// tangential_stiffness without a normal one.
+/// Changes of the scene that make the contact forces unique, for messages. Only sliders may have a tangential_stiffness
+/// without a normal one.
 std::string springs_for_uniqueness(const Model& model, const std::vector<std::size_t>& contacts) {
   const bool sliders = std::any_of(contacts.begin(), contacts.end(),
                                    [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
@@ -93,7 +93,7 @@ ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_ro
   if (!local_derivatives_->possible()) local_derivatives_.reset();
 }
 
-/// Computes the motion in given contact states. False: their rows are dependent.
+/// Computes the motion in the given contact states. False: their constraint rows are linearly dependent.
 bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::ContactStates& states,
                                   SolverState& solver_state) {
   systems_.mark_static_limits(states, forcing, solver_state.instant.t);
@@ -147,7 +147,8 @@ std::vector<motion::BodySlide> ContactStateSolver::slides(const motion::Forcing&
   return result;
 }
 
-/// Computes the motion just before, in the old states under the old forcing, and the states that follow from it.
+/// Computes the motion just before the instant, in the old states under the old forcing, and the states that follow from a
+/// jump of the forcing.
 Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& solver_state) {
   Instant& instant = solver_state.instant;
   Decision& d = solver_state.decision;
@@ -160,8 +161,8 @@ Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& so
   }
   if (!instant.resting_limits.empty()) solver_state.so_far = solver_state.jets;
   d.slides_before = slides(before, d);
-  // A rigidly sticking contact moves with its surface, and a rigid contact that touches has no gap: integration drift
-  // must not influence the decision.
+  // u and v without integration drift, which must not influence the decision: a rigidly sticking contact moves with its
+  // surface, and a touching rigid contact has no gap.
   if (instant.start) solver_state.initial_u = instant.u;
   instant.u = d.u;
   instant.v = d.v;
@@ -169,7 +170,7 @@ Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& so
   solver_state.states = instant.states;
   if (!instant.jump) return {};
   apply_forcing_jump(model_, instant, before, solver_state.after, d.before, solver_state.states);
-  do {  // ends: each round one more contact sticks
+  do {  // ends, because each round makes one more contact stick
     if (!evaluate(solver_state.after, solver_state.states, solver_state))
       return no_system(model_, solver_state.states);
   } while (resolve_slip_reversal(model_, d.before, solver_state.jets, solver_state.states));
@@ -181,8 +182,8 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
          systems_.held_by_others(c, solver_state.states, solver_state.after, solver_state.instant.t);
 }
 
-/// Finds the guards that fail in the evaluated states, and notifies the listener. before: these are the
-/// states of the motion up to the instant.
+/// Finds the guards that fail in the evaluated states, and calls the listener. before: true if these are the states of the
+/// motion up to the instant.
 void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   solver_state.failed =
       find_failed_guards(model_, solver_state.jets, solver_state.states, solver_state.instant, before,
@@ -205,8 +206,8 @@ void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   listener_(round);
 }
 
-/// Starts the path of massless parts anew where contact f stops on it, so that the contact stays there. This
-/// is done once per contact, because the path is a different one afterwards.
+/// If contact f stops while massless parts move instantaneously along their path, restarts the path at the stop, so that the
+/// contact stays there. Done only once per contact, because the path changes afterwards.
 void ContactStateSolver::stop_there(const FailedGuard& f, SolverState& solver_state) const {
   std::vector<std::size_t>& before = solver_state.slid_contacts;
   if (!stops_on_path(model_.contacts[f.contact], f, solver_state.states[f.contact].state,
@@ -230,8 +231,8 @@ std::vector<Block> selected(const std::vector<Block>& blocks, const std::vector<
 
 }  // namespace
 
-/// Sets the next states of contacts that are decided separately. Returns the blocks whose contacts must be
-/// decided together.
+/// Sets the next states of the contacts that are decided separately. Returns the blocks of contacts that must be decided
+/// together.
 std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   ImpactResult& found = solver_state.impact_result;
   std::vector<bool> jointly(blocks_.all.size(), false);
@@ -243,7 +244,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   };
   if (solver_state.touched && model_.contacts[solver_state.touched->contact].normal_damping > 0.0)
     solver_state.instant.u = way.from + solver_state.touched->fraction * (way.to - way.from);
-  // Failures are deferred only until states repeat; then all contacts are decided.
+  // Failures are deferred only in the rounds before states repeat; then all contacts are decided.
   if (solver_state.decision.rounds >= 2 && !solver_state.noise_increased) {
     defer_slip_failures(model_, solver_state.failed);
     if (!found.sliders)
@@ -252,7 +253,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   for (const FailedGuard& f : solver_state.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
-    // A contact that closes on the path has no crossing of its own: the event is another contact's.
+    // A contact that closes on the path has no crossing: another contact caused the event.
     if (!solver_state.decision.visited[c] && !touched(c) &&
         !is_pushed(f, solver_state.instant, solver_state.decision.before[c], solver_state.noise_before[c]))
       solver_state.decision.crossings.insert_or_assign(c, crossing(f.form, solver_state.jets[c]));
@@ -261,24 +262,24 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
     const bool slips = contact::is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
     if (!contact.takes_impulses() && !joins) {
-      // Its slip rate is zero up to rounding, so it is zero in any next state.
+      // The slip rate of this contact is zero up to rounding, so it is treated as zero in any next state.
       if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
       stop_there(f, solver_state);
       ContactState& state = solver_state.states[c];
       state = contact::next_state(contact, state, f.guard, solver_state.jets[c]);
-      if (touched(c))  // it sticks first; its friction limit decides about slip
+      if (touched(c))  // tried as sticking first; its friction limit decides about slip
         state = {contact::state_at_rest(contact),
                  solver_state.jets[c].motion[0].ut + solver_state.touched->ut};
       continue;
     }
     jointly[blocks_.of[c]] = true;
-    // The contact was expected to leave, but g' is zero in the resulting states; or its gap closed with g' zero.
+    // The contact should leave, but g' is zero in the resulting states; or its gap has closed with g' = 0.
     if (f.guard == Guard::closing && f.sign.order > 1 &&
         (found.known[c].touches || solver_state.instant.has_triggered(c, Guard::closing)))
       found.stays[c] = true;
-    // It was at its static limit, which is now exceeded.
+    // The contact was at its static limit, and now exceeds that limit.
     if (slips && found.decided[c])
       (held_by_others(c, solver_state) ? found.bears_limit : found.kinetic)[c] = true;
     if (f.guard == Guard::sliding && found.decided[c] &&
@@ -292,7 +293,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   return selected(blocks_.all, jointly);
 }
 
-/// Sets the slip rates of sliders that reverse to zero: otherwise the slip rate that is left at the located
+/// Sets the slip rates of reversing sliders to zero: the event time is located within a tolerance, and the slip rate at that
 /// time would persist.
 void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const {
   if (turning.empty()) return;
@@ -309,7 +310,7 @@ void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverSta
   solver_state.impact_result.capture(with_reactions(model_, *system, turning, impulses));
 }
 
-/// Records the crossings of gaps that closed at the same time as others, up to rounding.
+/// Records the crossings of gaps that closed, up to rounding, at the same time as the gap that triggered the instant.
 void ContactStateSolver::note_hits(SolverState& solver_state) const {
   Decision& d = solver_state.decision;
   if (d.rounds > 1) return;
@@ -337,7 +338,7 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
     }
   }
   if (solver_state.impact_result.hit)
-    solver_state.tried_states.clear();  // the velocities are new, so states may recur
+    solver_state.tried_states.clear();  // velocities have changed, so earlier states may be tried again
   const bool again = std::find(solver_state.tried_states.begin(), solver_state.tried_states.end(),
                                solver_state.states) != solver_state.tried_states.end();
   if (again && !(solver_state.instant.start && d.rounds == 1))
@@ -346,8 +347,8 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
   return {};
 }
 
-/// Proposes the next states and computes their motion. A slider that stops beside sticking contacts need not stick:
-/// if the rows are dependent, they are decided together.
+/// Proposes the next states and computes their motion. A slider that stops together with sticking contacts need not stick: if
+/// the constraint rows are linearly dependent, all of them are decided together.
 Refusal ContactStateSolver::try_next(SolverState& solver_state) {
   const contact::ContactStates last = solver_state.states;
   if (Refusal why = propose(solver_state)) return why;
@@ -355,7 +356,7 @@ Refusal ContactStateSolver::try_next(SolverState& solver_state) {
   if (!solver_state.impact_result.hit && !std::exchange(solver_state.impact_result.sliders, true)) {
     solver_state.tried_states.pop_back();
     solver_state.states = last;
-    // Several sliders that are decided together need all orders of their motions.
+    // A joint decision of several sliders needs all orders of their motions.
     if (!evaluate(solver_state.after, solver_state.states, solver_state))
       return no_system(model_, solver_state.states);
     if (Refusal why = propose(solver_state)) return why;
@@ -373,7 +374,7 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
   check_guards(solver_state, true);
   if (solver_state.failed.empty() && !solver_state.instant.triggered.empty() && !solver_state.instant.jump) {
     solver_state
-        .increase_noise();  // the engine located a zero of a guard: its positive value may be rounding
+        .increase_noise();  // the engine located a zero of a guard, so a positive value may be rounding
     check_guards(solver_state, true);
   }
   Decision& d = solver_state.decision;
@@ -389,7 +390,7 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
   return {};
 }
 
-/// True if the contact sticks at its limit from this instant on, for a time that no derivative determines.
+/// True if the contact sticks at its friction limit from this instant on, and no derivative shows when it will slip.
 bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::size_t c,
                                         const GuardStart& guard) {
   const bool limit = contact::is_friction_limit(guard.kind);
@@ -399,8 +400,8 @@ bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::si
          std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
 }
 
-/// True if the contact stops at its static limit, up to rounding, and kinetic friction is lower. Beyond the limit it
-/// slips immediately, by much more than rounding. At a start the loads lead to the limit, not beyond it.
+/// True if the contact stops exactly at its static limit (up to rounding), and kinetic friction is lower. Beyond the limit
+/// the contact slips at once, by much more than rounding. At the start of a run, loads lead to the limit but not beyond it.
 bool ContactStateSolver::meets_static_limit(const SolverState& solver_state, std::size_t c,
                                             const GuardStart& guard) const {
   const bool asked = solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
@@ -409,12 +410,12 @@ bool ContactStateSolver::meets_static_limit(const SolverState& solver_state, std
          std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
 }
 
-/// True if all guards of contact c are clearly positive in value.
+/// True if the values of all guards of contact c are positive by more than rounding.
 bool ContactStateSolver::clearly_holds(const SolverState& solver_state, std::size_t c) {
   return solver_state.open && !std::binary_search(solver_state.open->begin(), solver_state.open->end(), c);
 }
 
-/// For a guard that is not clearly positive: determines whether it starts at zero, and the order of its first nonzero
+/// For a guard that is not clearly positive: determines whether the guard starts at zero, and the order of its first nonzero
 /// derivative.
 void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_t c, const GuardForm& guard,
                                            GuardStart& start) const {
@@ -438,12 +439,12 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
   const double value = guard.value(jet.motion[0]);
   if (rests || (known.zeros == 0 && meets_static_limit(solver_state, c, start)))
     d.at_limit.push_back({c, value, start.noise});
-  // A value that the decision took as zero is rounding for the engine, too.
+  // The decision treated this value as zero, so the engine must treat it as rounding, too.
   if (start.at_zero && (start.leading_order < 0 || base != nullptr))
     start.noise = std::max(start.noise, std::abs(value));
 }
 
-/// Fills in the data about the new states that engine and log need.
+/// Fills in the data of the decision that the engine and the event log need.
 void ContactStateSolver::finish(SolverState& solver_state) {
   Decision& d = solver_state.decision;
   d.consistent = true;
@@ -465,7 +466,7 @@ void ContactStateSolver::finish(SolverState& solver_state) {
     for (std::size_t i = 0; i < d.layout.guards(c); ++i) {
       const GuardForm& guard = guards[i];
       GuardStart& start = d.guards[d.layout.guard(c, i)];
-      // Other contacts may hold its slip rate at zero, except for rounding: the guard is then absent.
+      // If other contacts hold the slip rate at zero up to rounding, the guard is omitted.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, solver_state)))
         continue;
       start.kind = guard.kind;
@@ -479,8 +480,8 @@ void ContactStateSolver::finish(SolverState& solver_state) {
   record_released(solver_state, d);
 }
 
-/// Records contacts that enumeration released, in addition to those of CycleFallback::release(): at its
-/// friction limit a contact on massless parts opens, and its force drops to zero.
+/// Records contacts that were opened by the enumeration of states, in addition to those of CycleFallback::release(). At its
+/// friction limit a contact on massless parts may open, and its force drops to zero.
 void ContactStateSolver::record_released(const SolverState& solver_state, Decision& d) const {
   const Instant& now = solver_state.instant;
   if (now.jump || now.start || !d.released.empty()) return;
@@ -492,8 +493,8 @@ void ContactStateSolver::record_released(const SolverState& solver_state, Decisi
   }
 }
 
-/// Refuses a slipping contact whose slip rate is zero with all its derivatives because sticking contacts hold
-/// it. Its row depends on theirs, and its force need not stay at the limit.
+/// Refuses a slipping contact whose slip rate and all its derivatives are zero because sticking contacts hold it. Its
+/// constraint row depends on theirs, so its force is not unique and need not stay at the limit.
 Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const {
   const Decision& d = solver_state.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
@@ -505,7 +506,7 @@ Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const 
     sticking[c].state = State::stick;
     if (systems_.system_of(sticking)) continue;
     Refusal why = dependent_rows({c});
-    why.reason += fmt::format(" ('{}' slips no more); {} makes them unique", model_.contacts[c].name,
+    why.reason += fmt::format(" ('{}' stops slipping); {} makes them unique", model_.contacts[c].name,
                               springs_for_uniqueness(model_, why.contacts));
     return why;
   }
@@ -537,14 +538,13 @@ Decision ContactStateSolver::decide(Instant instant, const motion::Forcing& befo
   const Refusal::Kind kind = first.decision.refusal.kind;
   if (kind == Refusal::Kind::none) return std::move(first.decision);
   if (first.flight_taken_as_rest) {
-    // If no state with the contact at rest is consistent, its flights are computed as long as times resolve
-    // them.
+    // If no consistent state has the contact at rest, its low flights are computed as long as the resolution of time permits.
     Instant flying = instant;
     flying.keep_low_flights = true;
     if (Attempt a = attempt(flying, before, after); !a.decision.refusal) return std::move(a.decision);
   }
-  // Otherwise slip rates as small as the speeds that were taken as rest count as zero. The omitted impacts
-  // would change them, and the slip ends with the chatter.
+  // A third attempt treats slip rates up to the speeds that were taken as rest as zero: the omitted impacts would change
+  // these slip rates, and the slip ends together with the bouncing.
   const bool painleve = kind == Refusal::Kind::ambiguous || kind == Refusal::Kind::paradox;
   if (!painleve || !(first.max_rest_speed > 0.0)) return std::move(first.decision);
   instant.rest_speed = retry_noise_factor * first.max_rest_speed;

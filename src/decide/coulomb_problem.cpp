@@ -16,22 +16,22 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Tolerance for the conditions of a solution, relative to the size of the problem.
+// Tolerance for the conditions of a solution, relative to the size of the problem's forces and responses.
 constexpr double misses = rounding::elimination;
-// Two responses are equal if they differ by less than this, relative to the size of the problem, or by less
-// than `misses` times the condition of their equations. Chosen value: far below the differences in Painleve's
+// Two solutions are the same if their responses differ by less than this fraction of the problem's size, or by less than
+// `misses` times the condition number of their equations. Chosen value, far below the differences of solutions in Painleve's
 // paradox.
 constexpr double same_solution = 1e-9;
-// Largest such difference, for any condition. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a margin of
-// 1e-10; responses in Painleve's paradox differ by the size of the problem.
+// Upper limit for that fraction, whatever the condition number. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a margin
+// of 1e-10; in Painleve's paradox responses differ by the size of the problem.
 constexpr double most_alike = 1e-3;
 
-/// The problem in units that make the diagonal of W one.
+/// The problem in units in which the diagonal of W is one.
 struct Scaled {
   VectorXd unit;  // response / unit, force * unit
   MatrixXd W;
   VectorXd b;
-  std::vector<double> ratio;  // unit of the normal divided by that of the tangent: f l is a force along t
+  std::vector<double> ratio;  // unit of the normal / unit of the tangent, a factor of the limit force f l
 };
 
 Scaled scaled(const CoulombProblem& p) {
@@ -43,7 +43,7 @@ Scaled scaled(const CoulombProblem& p) {
   const VectorXd inverse = s.unit.cwiseInverse();
   s.W = inverse.asDiagonal() * p.W * inverse.asDiagonal();
   s.b = inverse.cwiseProduct(p.b);
-  // An unused place responds to itself alone; its force is zero.
+  // An unused place has the diagonal entry one and the force zero.
   for (std::size_t place = 0; place < p.layout.size(); ++place)
     if (!p.layout.is_used(place)) s.W(static_cast<Index>(place), static_cast<Index>(place)) = 1.0;
   for (std::size_t i = 0; i < p.items.size(); ++i)
@@ -51,13 +51,12 @@ Scaled scaled(const CoulombProblem& p) {
   return s;
 }
 
-/// Number of covering vectors tried with Lemke's method. With W semidefinite, each one leads to a solution in
-/// exact arithmetic; with rounding, and many contacts that share few motions, the method may end in a ray.
-/// Chosen value: 4 of 150 seams need a second vector (tests/unit/base/lcp.cpp).
+/// Number of covering vectors tried with Lemke's method. If W is semidefinite, each one leads to a solution in exact
+/// arithmetic. With rounding, and with many contacts on few motions, the method may end in a ray. Chosen value: 4 of 150
+/// seams need a second vector (tests/unit/base/lcp.cpp).
 constexpr int most_ways = 12;
 
-/// Covering vector d: ones for way = 0, otherwise irregular numbers from 1 to 2 (multiples of the golden
-/// section).
+/// Covering vector d: all ones for way = 0; otherwise irregular numbers from 1 to 2, from multiples of the golden section.
 VectorXd cover_of(Index size, int way) {
   VectorXd d = VectorXd::Ones(size);
   for (Index i = 0; way > 0 && i < size; ++i) {
@@ -67,8 +66,9 @@ VectorXd cover_of(Index size, int way) {
   return d;
 }
 
-/// Solves the linear complementarity problem of the variables z by Lemke's method: forces = F z + given
-/// forces, w = responses, or distances to cones. Returns the forces, scaled.
+/// Solves the linear complementarity problem in the variables z by Lemke's method. Forces are F z plus given forces; w
+/// contains responses, or distances of forces from their friction cones. Returns the scaled forces; nullopt: no solution was
+/// found.
 std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const std::vector<bool>& kinetic,
                                  int way) {
   Index size = 0;
@@ -83,7 +83,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
     const Index ni = p.normal(i), ti = p.tangent(i);
-    // In scaled units: force_t = physical * unit_t; f l * unit_t = f (l unit_n) unit_t / unit_n.
+    // In scaled units the tangential force is k unit_t, and f l unit_t = f (l unit_n) unit_t / unit_n.
     const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     switch (item.kind) {
       case Kind::normal:
@@ -112,7 +112,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
         H(at, at + 2) = H(at + 1, at + 2) = 1.0;
         H(at + 2, at) = H(at + 2, at + 1) = -1.0;
         if (item.kind == Kind::pressed) {
-          // The given l is part of b already; only its cone enters here.
+          // b already contains the effect of the given l; here l only limits friction.
           h[at + 2] = f * item.applied_normal_force * s.unit[ni];
         }
         at += 3;
@@ -128,7 +128,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   return VectorXd(F * *z * size_of_q);
 }
 
-/// States of an item in the enumeration; sign_of() is the direction of slip.
+/// States of an item in the enumeration. sign_of() gives the direction of slip.
 enum class TrialState : unsigned char { open, stick, slip_plus, slip_minus };
 
 int sign_of(TrialState state) {
@@ -138,7 +138,7 @@ int sign_of(TrialState state) {
 std::vector<TrialState> choices(const CoulombItem& item) {
   switch (item.kind) {
     case Kind::normal:
-      return {TrialState::open, TrialState::stick};  // stick means closed
+      return {TrialState::open, TrialState::stick};  // stick: closed
     case Kind::sliding:
       return {TrialState::open, item.sign > 0 ? TrialState::slip_plus : TrialState::slip_minus};
     case Kind::frictional:
@@ -146,12 +146,12 @@ std::vector<TrialState> choices(const CoulombItem& item) {
     case Kind::pressed:
       return {TrialState::stick, TrialState::slip_plus, TrialState::slip_minus};
     case Kind::limit:
-      return {TrialState::stick, TrialState::slip_plus};  // slip_plus means slip along its own sign
+      return {TrialState::stick, TrialState::slip_plus};  // slip_plus: slip along item.sign
   }
   return {};
 }
 
-/// Equations A x = c of one combination of states, x the 2m scaled forces.
+/// Equations A x = c for one combination of states; x: the 2m scaled forces of the m items.
 struct Equations {
   MatrixXd A;
   VectorXd c;
@@ -190,8 +190,7 @@ Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vect
   return e;
 }
 
-/// Forces (scaled) of one combination of states, and their largest violation of a condition, relative to the size of
-/// the problem.
+/// Scaled forces of one combination of states, and its largest violation of a condition, relative to the size of the problem.
 struct Attempt {
   VectorXd force;
   double miss = 0.0;
@@ -236,7 +235,7 @@ CoulombSolution finished(const CoulombProblem& p, const Scaled& s, const VectorX
   return solution;
 }
 
-/// True if the scaled forces x satisfy all conditions; with ties Lemke's method may end in a basis that
+/// True if the scaled forces x satisfy all conditions. With ties in its ratio test, Lemke's method may end in a basis that
 /// violates some.
 bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
@@ -261,13 +260,13 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
   return true;
 }
 
-/// Factor from a relative residual of the equations to the relative change of the solution.
+/// Factor by which a relative residual of the equations is amplified in the solution: their condition number.
 double amplification(const MatrixXd& equations) {
   const VectorXd values = base::singular_values(equations);
   return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
 }
 
-/// Marks items that slip in the solution, but had the static coefficient. True: there are such items.
+/// Marks items that slip in the solution but had the static coefficient. True: at least one item was marked.
 bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
@@ -297,11 +296,11 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
     combinations *= options.back().size();
   }
   double least = std::numeric_limits<double>::infinity();
-  std::vector<double> conditions;  // conditions of the solutions found
+  std::vector<double> conditions;  // condition number of the equations of each solution in `found`
   std::vector<TrialState> states(p.items.size());
   for (std::size_t code = 0; code < combinations; ++code) {
     std::size_t rest = code;
-    // A slipping item has the kinetic coefficient, a sticking item the static one.
+    // A slipping item has the kinetic coefficient, all other items have the static one.
     std::vector<bool> kinetic(p.items.size(), false);
     for (std::size_t i = 0; i < states.size(); ++i) {
       states[i] = options[i][rest % options[i].size()];
@@ -312,8 +311,8 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
     least = std::min(least, tried.miss);
     if (tried.miss > misses) continue;
     CoulombSolution solution = finished(p, s, tried.force, kinetic);
-    // Two solutions at a friction limit may be the same motion: near the limit of Painleve's paradox,
-    // residuals of rounding size separate them.
+    // Near the limit of Painleve's paradox, two solutions at a friction limit may be the same motion and differ by rounding
+    // only.
     const double condition = amplification(equations_of(p, s, states, kinetic).A);
     bool known = false;
     for (std::size_t k = 0; k < found.size() && !known; ++k) {
@@ -334,10 +333,10 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
 std::optional<CoulombSolution> solve(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   std::vector<bool> kinetic(p.items.size(), false);
-  for (int way = 0; way < most_ways;) {  // ends: each round marks one more item, or changes d
+  for (int way = 0; way < most_ways;) {  // ends: each round marks one more item or changes d
     const auto x = by_lemke(p, s, kinetic, way);
     if (!x || !fulfils(p, s, *x, kinetic)) {
-      // A few contacts are enumerated, which distinguishes Painleve's paradox from rounding.
+      // With few contacts, all states are enumerated, which distinguishes Painleve's paradox from a failure by rounding.
       way = p.items.size() > max_enumerated ? way + 1 : most_ways;
       continue;
     }
@@ -353,7 +352,7 @@ double condition_number(const CoulombProblem& p) { return amplification(scaled(p
 bool may_be_nonunique(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   const auto m = static_cast<Index>(p.items.size());
-  MatrixXd nt(m, m);  // normal responses to friction at its limit
+  MatrixXd nt(m, m);  // normal responses to friction forces at their limit
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) {
       const auto at = static_cast<std::size_t>(j);
@@ -370,10 +369,10 @@ namespace {
 using Kind = CoulombItem::Kind;
 
 constexpr double noise_of_solution =
-    2.0;  // relative to the noise of the right-hand side: the solution adds as much again
+    2.0;  // relative to the noise of the right-hand side, because the solution adds the same amount of noise
 
-/// Forces whose responses are zero, and the responses to a unit of each force. k of a slipping contact
-/// follows its l.
+/// Forces that act with zero response, and the responses to a unit of each. The tangential force k of a slipping contact is
+/// proportional to its l and is included in the column of l.
 struct Acting {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd columns;

@@ -3,10 +3,11 @@
 //   r = b + W f,   r = (rn_1, rt_1, rn_2, ...),   f = (l_1, k_1, l_2, ...)
 //   0 <= l  _|_  rn >= 0,      |k| <= f l,  k = -f l sign(rt) where rt is not 0        (frictional)
 //
-// l pushes along n, k along t: N = -l, T = -k. r may be velocities and f impulses, or accelerations and forces, or
-// derivatives of both. Planar friction gives a linear complementarity problem: with k = a - b,
+// l pushes along n, k along t: N = -l, T = -k. r and f are velocities and impulses, or accelerations and forces, or time
+// derivatives of accelerations and forces. With planar friction the problem is a linear complementarity problem; with k = a -
+// b:
 //   rn _|_ l,   rt + c _|_ a,   -rt + c _|_ b,   f l - a - b _|_ c                     all >= 0
-// Stick is tested with the static coefficient, slip has the kinetic one.
+// The static coefficient limits the force in stick, the kinetic coefficient applies in slip.
 // Source: Stewart, Trinkle 1996; Anitescu, Potra 1997; for one contact Glocker 2001.
 #pragma once
 
@@ -20,9 +21,9 @@
 
 namespace signorini::decide {
 
-// Rows of a listed contact in vectors that contain l and k, or rn and rt, contact by contact.
+// Places of a contact in vectors with the entries l and k, or rn and rt, of a list of contacts.
 //
-//   (n_1, t_1, n_2, t_2, ...)         the list contains touching, undecided, or reversing contacts
+//   (n_1, t_1, n_2, t_2, ...)         listed: touching, undecided or reversing contacts
 
 template <class Integer>
 [[nodiscard]] Eigen::Index normal_place(const ForceLayout& layout, Integer i) {
@@ -32,22 +33,23 @@ template <class Integer>
 [[nodiscard]] Eigen::Index tangent_place(const ForceLayout& layout, Integer i) {
   return static_cast<Eigen::Index>(layout.tangent(static_cast<std::size_t>(i)));
 }
-/// Length of such a vector.
+/// Length of a vector with these places.
 [[nodiscard]] inline Eigen::Index place_count(const ForceLayout& layout) {
   return static_cast<Eigen::Index>(layout.size());
 }
 
 struct CoulombItem {
   enum class Kind : unsigned char {
-    normal,      ///< no friction: l alone
-    sliding,     ///< slides along sign already: k = -sign f l
-    frictional,  ///< may stick, or begin to slip in either direction
-    pressed,     ///< l is given: k alone
-    limit,       ///< at its limit; W contains its slip along sign; if it sticks, k changes by sign d, d >= 0
+    normal,      ///< no friction: only l is unknown
+    sliding,     ///< already slides along sign: k = -sign f l
+    frictional,  ///< may stick, or start to slip in either direction
+    pressed,     ///< l is given: only k is unknown
+    /// at its friction limit: W contains the effect of slip along sign; in stick k changes by sign d, d >= 0.
+    limit,
   } kind = Kind::normal;
   double static_friction = 0.0, kinetic_friction = 0.0;
-  double applied_normal_force = 0.0;  ///< pressed: l
-  int sign = 0;                       ///< sliding, limit
+  double applied_normal_force = 0.0;  ///< pressed: the given l; force
+  int sign = 0;                       ///< sliding, limit: direction of slip, +1 or -1
 
   /// Coefficient of friction.
   [[nodiscard]] double friction(bool slips) const { return slips ? kinetic_friction : static_friction; }
@@ -58,7 +60,7 @@ struct CoulombProblem {
       W;  ///< places x places, symmetric positive semidefinite except for `limit`; unused places: zero
   Eigen::VectorXd b;  ///< one entry per place
   std::vector<CoulombItem> items;
-  ForceLayout layout = {};  ///< of the items
+  ForceLayout layout = {};  ///< layout of the items' forces
 
   [[nodiscard]] Eigen::Index normal(std::size_t i) const { return normal_place(layout, i); }
   [[nodiscard]] Eigen::Index tangent(std::size_t i) const { return tangent_place(layout, i); }
@@ -66,42 +68,43 @@ struct CoulombProblem {
 
 struct CoulombSolution {
   Eigen::VectorXd force, response;  ///< one entry per place
-  std::vector<bool> kinetic;        ///< items that have begun to slip: f is the kinetic coefficient
+  /// True for items that have started to slip: their f is the kinetic coefficient.
+  std::vector<bool> kinetic;
 };
 
-/// Solution by Lemke's method. If it finds none, all states of up to `max_enumerated` items are tried.
+/// Solution by Lemke's method. If that method fails, all combinations of states of up to `max_enumerated` items are tried.
 /// nullopt: no solution was found.
 [[nodiscard]] std::optional<CoulombSolution> solve(const CoulombProblem& problem);
 
 inline constexpr std::size_t max_enumerated = 6;
 
-/// Result of trying all states.
+/// Result of trying all combinations of states.
 struct EnumerationResult {
-  std::vector<CoulombSolution> solutions;  ///< solutions with different responses
-  /// Largest violation of a condition by the best combination, in multiples of the rounding of the problem's
-  /// size. 0: there is a solution; NaN: there are too many items.
+  std::vector<CoulombSolution> solutions;  ///< solutions whose responses differ
+  /// Largest violation of a condition in the best combination, in multiples of the rounding error of the problem's size. 0:
+  /// there is a solution; NaN: there are too many items.
   double min_violation = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Tries all states of at most `max_enumerated` items.
+/// Tries all combinations of states of at most `max_enumerated` items.
 [[nodiscard]] EnumerationResult all_solutions(const CoulombProblem& problem);
 
-/// Condition number of W in units that make its diagonal one: largest over smallest singular value.
+/// Condition number of W (largest / smallest singular value), in units in which the diagonal of W is one.
 [[nodiscard]] double condition_number(const CoulombProblem& problem);
 
 /// False if friction couples the tangent to the normal too weakly for a second solution to exist.
 [[nodiscard]] bool may_be_nonunique(const CoulombProblem& problem);
 
-// Accuracy of a Coulomb problem's solution: distinguishes its values from noise.
+// Accuracy of the solution of a Coulomb problem; distinguishes forces and responses from noise.
 //
 //   df = |A^-1| db,   dr = db + |W_A| df       A: rows and columns of W of the acting forces, |.| entrywise
 //
-// db: noise of the right-hand side. Each df is at least the noise for the contact alone, and at least the rounding of
-// the problem's largest entry, in units that make the diagonal of W one. Units: those of forces and responses.
+// db: noise of the right-hand side. Each df is at least the noise of that contact alone, and at least the rounding error of
+// the largest entry of the problem, in units in which the diagonal of W is one. Units: those of forces and responses.
 
 class CoulombSignificance {
  public:
-  /// Problem and solution must outlive the object. noise: of problem.b, >= 0.
+  /// Problem and solution must outlive the object. noise: noise of problem.b, >= 0.
   CoulombSignificance(const CoulombProblem& problem, const CoulombSolution& solution,
                       const Eigen::VectorXd& noise);
 
@@ -110,14 +113,17 @@ class CoulombSignificance {
   [[nodiscard]] Eigen::Index tangent(std::size_t i) const { return problem_.tangent(i); }
   [[nodiscard]] double force(Eigen::Index row) const { return solution_.force[row]; }
   [[nodiscard]] double response(Eigen::Index row) const { return solution_.response[row]; }
-  /// Compression of item i, and its coefficient of friction in the solution.
+  /// Compression l of item i in the solution.
   [[nodiscard]] double applied_normal_force(std::size_t i) const;
+  /// Coefficient of friction of item i in the solution, static or kinetic.
   [[nodiscard]] double friction(std::size_t i) const;
 
+  /// Size up to which the force at this place is treated as zero.
   [[nodiscard]] double force_tolerance(Eigen::Index row) const;
+  /// True if the response at this place is zero within its noise.
   [[nodiscard]] bool is_zero_response(Eigen::Index row) const;
-  /// True if the force is inside its cone by more than its noise: the contact is then at rest, whatever
-  /// rounding is left in its response.
+  /// True if the force lies inside its friction cone by more than its noise; the contact is then at rest, and a nonzero
+  /// response is rounding.
   [[nodiscard]] bool is_inside_cone(std::size_t i) const;
 
  private:

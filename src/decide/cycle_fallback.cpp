@@ -22,8 +22,7 @@ std::size_t ContactBlocks::max_rigid(const Model& model) const {
   return most;
 }
 
-/// Takes the best of all combinations of states of a block, if it is acceptable; otherwise returns the
-/// refusal.
+/// Takes the best of all combinations of states of a block if that combination is acceptable; otherwise returns the refusal.
 Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   StateEnumeration enumeration(systems_, jets_);
   std::vector<StateEnumeration::Choice> choices;
@@ -52,7 +51,7 @@ Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   if (!best->alternative.empty()) {
     refusal.kind = Refusal::Kind::ambiguous;
     refusal.reason =
-        fmt::format("{}; guards that fail in the last that was tried: {}",
+        fmt::format("{}; guards that fail in the states tried last: {}",
                     several_motions(model_, choices, *best), names_of(model_, solver_state.failed));
   }
   if (!best->acceptable()) return refusal;
@@ -66,8 +65,8 @@ Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   return {};
 }
 
-/// Lets massless parts leave the only failing contact of the block (massless_jump.hpp). False: several
-/// contacts fail, or the parts cannot leave, or have already left.
+/// Lets massless parts leave the contact of the block that fails alone (massless_jump.hpp). False: several contacts fail, or
+/// the parts cannot leave the contact, or have left it before.
 bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
   std::vector<std::size_t> circling;
   for (const FailedGuard& f : solver_state.failed)
@@ -87,10 +86,9 @@ bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
   return true;
 }
 
-/// Continues a decision whose states repeat, by the first of three steps that has not been taken yet. First,
-/// noise and resolution are increased: one sample of rounding may have separated zeros too sharply. Second,
-/// sliders are decided together with the other contacts. Third, all combinations of the states of each
-/// failing block are compared.
+/// Continues a decision whose states repeat, by the first of three steps that was not taken before. First, noise and
+/// resolution are increased, because one sample of rounding may have separated equal zeros. Second, sliders are decided
+/// together with the rigid contacts. Third, all combinations of states are compared in each block with a failing guard.
 Refusal CycleFallback::next_step(SolverState& solver_state) {
   if (solver_state.increase_noise()) {
     solver_state.tried_states.clear();

@@ -90,8 +90,8 @@ Eigen::VectorXd impose_velocities(const Delassus& d, const std::vector<FixedVelo
 
 namespace {
 
-/// Fraction of the largest force above which its noise is suspicious. The noise is 64 times 4 to 8 eps of the
-/// terms, times the condition; a check is worthwhile above a condition of about 1e10. Chosen value: the
+/// Fraction of the largest force; a larger noise is suspicious. Noise is 64 times 4 to 8 eps of the terms, times the
+/// condition number, so the check starts at condition numbers of about 1e10. Chosen value: it only selects cases; the
 /// singular value decides.
 constexpr double suspicious = 1e-3;
 
@@ -100,8 +100,8 @@ bool holds(const Contact& contact, const ContactState& state) {
   return contact.sticks_rigidly() && state.state == State::stick;
 }
 
-/// A of forces_are_unique(): the rows of W of normals of closed and tangents of sticking contacts, with
-/// friction in the columns of slipping ones.
+/// Matrix A of forces_are_unique(): rows of W for normals of closed contacts and tangents of sticking contacts; the column of
+/// a slipping contact's normal includes its friction.
 Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& states,
                           const std::vector<std::size_t>& contacts, const Delassus& d) {
   std::vector<Eigen::Index> rows;
@@ -118,8 +118,7 @@ Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& stat
   return effect(rows, rows);
 }
 
-/// Adds the entries s Z (D Y)' of linear/redundant_rows.hpp: with them the forces of feet of one body are
-/// unique.
+/// Adds the entries s Z (D Y)' of linear/redundant_rows.hpp, which make the forces of several feet of one body unique.
 void add_shares(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
                 const std::vector<std::size_t>& contacts, Delassus& d) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
@@ -159,7 +158,7 @@ bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStat
       contacts.push_back(c);
       free[c] = {State::open, 0.0};
     }
-  if (contacts.size() < 2) return true;  // normal and tangent of one contact are independent
+  if (contacts.size() < 2) return true;  // rows of a single contact are independent
   const motion::StateSystemPtr system = systems.system_of(free);
   if (!system) return true;
   Delassus d = delassus(model, *system, contacts);
@@ -179,7 +178,7 @@ namespace {
 
 using Kind = CoulombItem::Kind;
 
-/// Forces that may change without effect on the responses: their rows, item by item, and the admissible set
+/// Forces that may change without an effect on the responses: their rows, item by item, and the admissible set of the forces
 /// of each item.
 struct Shares {
   std::vector<Eigen::Index> rows;
@@ -231,7 +230,7 @@ void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may
                      CoulombSolution& solution) {
   const Shares shares = shares_of(problem, may_share, solution);
   if (shares.rows.size() < 2 || shares.resting.empty()) return;
-  const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // moves nothing
+  const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // no response
   if (open.cols() == 0) return;
   const Eigen::VectorXd given = solution.force(shares.rows);
   const Eigen::MatrixXd kept = base::orthogonal_complement(open).transpose();

@@ -19,8 +19,8 @@ constexpr std::size_t most_compared = 5;  // largest number of contacts for whic
 
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
-/// Removes the normal of items at their limit from the problem: it is a constraint row already, so W contains
-/// only rounding there.
+/// Removes the normal of items at their friction limit from the problem: the normal is already a constraint row, so its
+/// entries in W contain only rounding.
 void hold_normals(CoulombProblem& p) {
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     if (p.items[i].kind != Kind::limit) continue;
@@ -31,7 +31,7 @@ void hold_normals(CoulombProblem& p) {
   }
 }
 
-// open: undecided; limit: undecided, at its friction limit.
+// open: undecided; limit: undecided and at its friction limit.
 enum class Verdict : unsigned char { open, limit, decided };
 
 void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
@@ -39,7 +39,7 @@ void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& g
   guards.sliding = {order + 1, true};
 }
 
-/// Decides a contact whose friction is at its limit: back into the cone, slip, or still undecided.
+/// Decides a contact whose friction is at its limit: its force returns into the cone, it slips, or it stays undecided.
 Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t i, ContactState& state,
                     KnownGuards& guards) {
   const int sign = r.item(i).sign;
@@ -54,7 +54,7 @@ Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t
   return Verdict::decided;
 }
 
-/// Decides the friction of a contact that presses and has not slipped before.
+/// Decides the friction of a contact that presses and has not slipped before this order.
 Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::size_t i,
                         Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
@@ -68,14 +68,14 @@ Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::si
   const bool two = item.static_friction != item.kinetic_friction;
   if ((two && !participant.bears_limit) || std::abs(r.force(t)) <= r.force_tolerance(t))
     return Verdict::decided;
-  // The contact is at its limit. With one coefficient the next derivative decides. With two coefficients it
-  // sticks until the guard of the static limit fails; then it stays at that limit if other contacts hold it.
+  // The contact is at its friction limit. If static and kinetic coefficient are equal, the next derivative decides. Otherwise
+  // the contact sticks until the guard of the static limit fails; it then stays at that limit if other contacts prevent slip.
   participant.sign = -sign_of(r.force(t));
   state.state = contact::slip_state(participant.sign);
   return Verdict::limit;
 }
 
-/// Decides a contact. If its force is not zero, its response counts as zero, whatever rounding is left in it.
+/// Decides one contact. If its force is not zero, its response is treated as zero, although it may contain rounding.
 Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
                        Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
@@ -103,7 +103,7 @@ Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::siz
   return settle_friction(r, order, i, participant, state, guards);
 }
 
-/// Contacts whose rows are constraints.
+/// Participants that are closed in `states`, so their rows are constraints.
 std::vector<std::size_t> in_force(const std::vector<Participant>& participants,
                                   const contact::ContactStates& states) {
   std::vector<std::size_t> result;
@@ -127,7 +127,7 @@ std::string holds_no_mass(const Model& model, const Contact& contact) {
   };
   if (std::any_of(contact.tangent.terms.begin(), contact.tangent.terms.end(), moves_mass)) return {};
   return "contact '" + contact.name +
-         "' sticks rigidly to a point without mass; give it a tangential_stiffness, or the point a mass";
+         "' sticks rigidly to a massless point; give the contact a tangential_stiffness, or the point a mass";
 }
 
 CoulombItem DerivativeLevels::item_of(const Entry& entry, const motion::Forcing& forcing, double t) const {
@@ -167,21 +167,22 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
     const CoulombItem& item = problem.items[i];
     const Eigen::Index n = problem.normal(i), t = problem.tangent(i);
     result.reason +=
-        fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
+        fmt::format("; '{}': without contact forces g'' = {:.6g}, ut'' = {:.6g}; one unit of -N adds "
+                    "{:.6g} to g''",
                     model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
                     problem.b[t] * acceleration, problem.W(n, n) * per_force);
     const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);
     if (item.kind == Kind::sliding)
-      result.reason += fmt::format(", with friction {:.6g} while it slips ({})", sliding * per_force,
+      result.reason += fmt::format(", and {:.6g} together with friction in {}", sliding * per_force,
                                    to_string(contact::slip_state(item.sign)));
     else if (item.kind == Kind::frictional)
-      result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}",
+      result.reason += fmt::format(", one unit of -T adds {:.6g}, the coefficient of friction is {:.6g}",
                                    problem.W(n, t) * per_force, item.static_friction);
   }
   return result;
 }
 
-/// Fills in items, right-hand side and its noise, from the motion under the forces decided so far.
+/// Fills in the items, the right-hand side and its noise, from the motion under the forces that are already decided.
 void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forcing,
                             const std::vector<Entry>& entries, const std::vector<MotionJet>& jets,
                             Level& level) const {
@@ -204,7 +205,7 @@ void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forci
   }
 }
 
-/// Sets up the problems of the given levels (order, block) for all undecided contacts. False: constraint rows are
+/// Sets up the problems of the given levels (order, block) for all undecided contacts. False: constraint rows are linearly
 /// dependent.
 bool DerivativeLevels::set_up_levels(const Instant& instant, const motion::Forcing& forcing,
                                      const std::vector<Entry>& entries, const contact::ContactStates& states,
@@ -233,8 +234,8 @@ bool DerivativeLevels::set_up_levels(const Instant& instant, const motion::Forci
   return true;
 }
 
-/// Computes the solution of a level. If all right-hand sides are zero at this order, there is neither a
-/// solution nor a refusal.
+/// Solves the problem of a level. If all right-hand sides are zero at this order, `solution` stays empty and there is no
+/// refusal.
 Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
   CoulombProblem& problem = level.problem;
   const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
@@ -248,8 +249,8 @@ Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolutio
   for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
   min_norm_forces(problem, may_share, *solution);
   if (level.entries.size() > most_compared || !may_be_nonunique(problem)) return {};
-  // With a force between kinetic and static friction a contact may stick or slip. By the law it sticks, so
-  // this is not a paradox.
+  // If a force lies between kinetic and static friction, the contact could stick or slip. The friction law makes it stick, so
+  // this is not Painleve's paradox.
   CoulombProblem settled = problem;
   for (std::size_t i = 0; i < settled.items.size(); ++i) {
     CoulombItem& item = settled.items[i];
@@ -259,7 +260,7 @@ Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolutio
   return all.solutions.size() > 1 ? refusal(level, all) : Refusal{};
 }
 
-/// Takes over the decisions of the solution. True: at least one contact was decided.
+/// Applies the decisions of the solution. True: at least one contact was decided.
 bool DerivativeLevels::apply_solution(const Level& level, const CoulombSolution& solution,
                                       std::vector<Entry>& entries, contact::ContactStates& states,
                                       std::vector<KnownGuards>& known) const {
@@ -293,8 +294,8 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
     for (const Participant& participant : participants)
       if (levels.empty() || levels.back().block != participant.block)
         levels.push_back({order, participant.block, {}, {}, {}, {}, {}});
-    // An order of a block is solved again as long as it decides a contact: once large forces are constraints,
-    // small ones exceed the rounding.
+    // Each order of a block is solved again as long as it decides a contact: once large forces are constraints, smaller
+    // forces exceed the rounding error.
     while (!levels.empty()) {
       if (!set_up_levels(instant, forcing, entries, states, levels))
         return dependent_rows(in_force(participants, states));
@@ -309,12 +310,12 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
       levels = std::move(again);
     }
   }
-  // No derivative decides the remaining contacts: touching ones keep their states, those at their limit
+  // No derivative decides the remaining contacts: those that only touch keep their states, those at their friction limit
   // stick.
   for (const Entry& entry : entries) {
     if (entry.status == Status::limit &&
         systems_.held_by_others(entry.participant.contact, states, forcing, instant.t)) {
-      known[entry.participant.contact].sliding = Known::at_limit();  // bears its limit at rest
+      known[entry.participant.contact].sliding = Known::at_limit();  // it stays at the limit without slip
     } else if (entry.status == Status::limit) {
       states[entry.participant.contact].state = State::stick;
       KnownGuards& guards = known[entry.participant.contact];

@@ -1,16 +1,16 @@
-// derivative_levels.hpp: next states of all contacts whose forces may jump, decided together at one instant.
+// derivative_levels.hpp: decides, at one instant, the next states of all contacts whose forces may jump.
 //
-//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)      r: g'' and ut'' of undecided contacts, f: forces
+//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)      r: g'' and ut'' of undecided contacts; f: their forces
 //
-// Rigid contacts with g = g' = 0 and rigidly sticking sliders are coupled through M. On the level of accelerations this
-// is a Coulomb problem (decide/coulomb_problem.hpp) with the forces as unknowns. A contact whose force and acceleration
-// are both zero, or whose friction is exactly at its limit, stays undecided and enters the same problem for the next
-// derivative, with all decided contacts as constraints. Contacts that are undecided after the last known derivative
-// keep their states. Uncoupled contacts have one problem per block.
+// Rigid contacts with g = g' = 0 and rigidly sticking sliders are coupled through M. At order 0 (accelerations) this is a
+// Coulomb problem (decide/coulomb_problem.hpp) with the forces as unknowns. A contact stays undecided if its force and its
+// acceleration are both zero, or if its friction is exactly at its limit. It then enters the same problem for the next
+// derivative, with all decided contacts as constraints. A contact that is undecided after the last known derivative keeps its
+// state. There is one problem for each block of coupled contacts.
 //
-// A problem without solution, or with several that differ in their accelerations, is Painleve's paradox: friction
-// couples the tangent to the normal so strongly that pressing a sliding contact pushes it into the ground. The decision
-// is then refused with the numbers of the problem.
+// If a problem has no solution, or several with different accelerations, this is Painleve's paradox: friction couples tangent
+// and normal so strongly that pressing a sliding contact pushes it into the ground. The decision is then refused with the
+// numbers of the problem.
 // Source: Glocker 2001, chapters 4 to 6; Painleve 1895.
 #pragma once
 
@@ -24,14 +24,14 @@
 
 namespace signorini::decide {
 
-/// A contact that takes part, and its known data.
+/// A contact that is decided together with others, and its known data.
 struct Participant {
   std::size_t contact = 0;
-  bool slipping = false;  ///< t . v differs from the surface's velocity: it slides along `sign`
+  bool slipping = false;  ///< t . v differs from the velocity of the surface: the contact slides along `sign`
   int sign = 0;
-  double sliding_friction = 0.0;  ///< coefficient of friction at its slip rate
+  double sliding_friction = 0.0;  ///< coefficient of friction at the contact's slip rate
   bool kinetic = false;      ///< slip has begun at this instant: the static coefficient no longer applies
-  bool bears_limit = false;  ///< its static limit is exceeded, and other contacts hold it there
+  bool bears_limit = false;  ///< its static limit is exceeded, but other contacts prevent slip
   std::size_t block = 0;     ///< contacts of different blocks are not coupled
 };
 
@@ -40,8 +40,8 @@ class DerivativeLevels {
   DerivativeLevels(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Sets the states of the participants in `states`; old: states before the decision; contacts that no
-  /// derivative decides keep them. known: receives the signs of their guards, one entry per contact.
+  /// Decides the states of the participants and writes them to `states`. A contact that no derivative decides keeps its state
+  /// in `old`, the states before. known: receives the signs of the participants' guards, one entry per contact.
   [[nodiscard]] Refusal decide(const Instant& instant, const motion::Forcing& forcing,
                                const std::vector<Participant>& participants,
                                const contact::ContactStates& old, contact::ContactStates& states,
@@ -53,12 +53,12 @@ class DerivativeLevels {
     Participant participant;
     Status status = Status::apex;
   };
-  /// The Coulomb problem of one block and order.
+  /// The Coulomb problem of one block of contacts at one order of derivatives.
   struct Level {
     std::size_t order = 0, block = 0;
     std::vector<std::size_t> entries, contacts;  // indices of undecided entries, and their contacts
     CoulombProblem problem;
-    Eigen::VectorXd noise;  // of problem.b
+    Eigen::VectorXd noise;  // noise of problem.b
     motion::StateSystemPtr system;
   };
   [[nodiscard]] CoulombItem item_of(const Entry& entry, const motion::Forcing& forcing, double t) const;
@@ -78,10 +78,9 @@ class DerivativeLevels {
   motion::JetMaker& jets_;
 };
 
-/// Refusal for sticking contacts whose forces are not unique.
+/// Refusal for sticking contacts whose forces are not unique because their constraint rows are linearly dependent.
 [[nodiscard]] Refusal dependent_rows(std::vector<std::size_t> contacts = {});
-/// Message if a rigidly sticking contact has no unique force because its tangent moves no mass; otherwise
-/// empty.
+/// Message if a rigidly sticking contact has no unique force because its tangent moves no mass; otherwise an empty text.
 [[nodiscard]] std::string holds_no_mass(const Model& model, const Contact& contact);
 
 }  // namespace signorini::decide

@@ -9,11 +9,11 @@
 namespace signorini::decide {
 namespace {
 
-constexpr double same_value = 1e-12;  // relative difference of two pieces of a history that meet smoothly
+constexpr double same_value = 1e-12;  // relative difference up to which two pieces of a history meet smoothly
 
-/// Magnitude of the terms of a form of x, to which its rounding is relative. Every translation counts as the
-/// largest one, at least `own`; every rotation counts as the largest one, at least `own_turning`. The final
-/// values in a file have this accuracy.
+/// Magnitude of the terms of a form of x, to which its rounding error is relative. For every translation the largest
+/// translation is used, but at least `own`; for every rotation the largest rotation, but at least `own_turning`. Final values
+/// in a file have this accuracy.
 double left_size(const Model& model, const Combination& form, const Vector& x, double own,
                  double own_turning) {
   double greatest[2] = {own, own_turning}, sum = 0.0;
@@ -64,7 +64,7 @@ contact::ContactStates initial_states(const Model& model, const motion::Forcing&
     ContactMotion m;
     contact::set_displacement(contact, u, forcing.surface(c, t, 0), m);
     contact::set_velocity(contact, v, forcing.surface(c, t, 1), m);
-    // A touching rigid contact is decided together with the others.
+    // Touching rigid contacts are decided later, all together.
     const bool carries =
         contact.normal_force_given() ? !forcing.is_unloaded(c) : contact.normal_spring() && m.gap < 0.0;
     if (carries) {
@@ -120,7 +120,7 @@ void apply_forcing_jump(const Model& model, const Instant& instant, const motion
       s = {State::open, 0.0};
       continue;
     }
-    // Smooth tables meet up to the rounding of their pieces: no jump.
+    // Pieces of smooth tables meet up to rounding; this is not a jump.
     const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
     if (std::abs(surface_jump) <= same_value * (speed + model.scales.velocity)) surface_jump = 0.0;
@@ -134,7 +134,7 @@ void apply_forcing_jump(const Model& model, const Instant& instant, const motion
     }
     const int sign = slip_sign(s.state);
     if (contact.tangential_stiffness) {
-      // T is continuous if the compression jumps up: below its new limit the contact sticks.
+      // If the compression jumps up, T is continuous and below its new limit, so the contact sticks.
       const double now = after.applied_normal_force(c, t, 0), then = before.applied_normal_force(c, t, 0);
       if (sign != 0 && now - then > same_value * (std::abs(now) + std::abs(then)))
         s = {State::stick, contact::slip_of(contact, m.ut, motion[c].T)};

@@ -1,9 +1,9 @@
-// guard_signs.hpp: finds guards of contact states that fail just after an instant.
+// guard_signs.hpp: finds the guards of contact states that fail just after an instant.
 //
-//   g, g', g'', ...  lexicographically not negative, each entry zero within its rounding
+//   g, g', g'', ...  lexicographically nonnegative; an entry is zero if it is within its rounding error
 //
-// A derivative also counts as zero if the next one would compensate it within the resolution of time. A
-// quantity that a decision has set to zero is zero, whatever rounding an elimination leaves in it.
+// A derivative is also treated as zero if the next one would compensate it within the resolution of time. A quantity that a
+// decision has set to zero is zero, although an elimination may leave rounding in it.
 #pragma once
 
 #include <algorithm>
@@ -19,19 +19,19 @@
 
 namespace signorini::decide {
 
-// Fast values of a form with at most six terms, as most forms are.
+// Fast evaluation of forms with at most six terms, which most forms are.
 //
 //   f = c + N N + T T + gap g + ut ut + vn g' + vt ut'        other terms of the form are zero
 //
-// The values agree with Form to the last bit, for finite motions: omitting zeros does not change a sum.
+// For finite motions the values agree with Form to the last bit, because omitting zero terms does not change a sum.
 
-/// True if the other terms are zero.
+/// True if all terms besides these six are zero.
 [[nodiscard]] inline bool is_plain(const Form& f) {
   return f.an == 0.0 && f.at == 0.0 && f.applied_normal_force == 0.0 && f.applied_normal_force_rate == 0.0 &&
          f.limit == 0.0 && f.limit_rate == 0.0;
 }
 
-/// Evaluates a form, which must outlive it: by the short sum if the form is plain. Functions as in Form.
+/// Evaluates a form by the short sum if the form is plain. The form must outlive the object. Functions as in Form.
 class QuickForm {
  public:
   explicit QuickForm(const Form& form) : f_(form), plain_(is_plain(form)) {}
@@ -52,22 +52,22 @@ class QuickForm {
   bool plain_;
 };
 
-/// Known signs of a guard's derivatives: those of orders below `zeros` vanish; `rises`: that of order `zeros`
-/// is positive.
+/// Known signs of a guard's derivatives: derivatives of orders below `zeros` are zero; if `rises`, the derivative of order
+/// `zeros` is positive.
 struct Known {
   std::size_t zeros = 0;
   bool rises = false;
 
-  /// The guard is zero with all available derivatives.
+  /// For a guard that is zero with all available derivatives.
   [[nodiscard]] static Known at_limit() { return {MotionJet::orders, false}; }
 };
 
-/// Known signs of the guards of one contact that is decided together with others.
+/// Known signs of the guards of a contact that is decided together with other contacts.
 struct KnownGuards {
   bool touches = false;  ///< g = 0
   Known closing, separation, slip_plus, slip_minus, sliding;
 
-  /// The part that holds in any state of the contact: zeros of g, g' and the slip rate.
+  /// The part that is valid in any state of the contact: zeros of g, g' and the slip rate.
   [[nodiscard]] KnownGuards of_motion() const {
     KnownGuards result;
     result.touches = touches;
@@ -101,59 +101,59 @@ struct KnownGuards {
 /// Sign of a guard just after an instant.
 struct Sign {
   int sign = 0;         // -1, 0, +1
-  int order = 0;        // order of the derivative that decides; number of orders if all vanish
-  double excess = 0.0;  // magnitude of that derivative relative to the size that counts as zero
+  int order = 0;        // order of the first nonzero derivative; number of orders if all are zero
+  double excess = 0.0;  // magnitude of that derivative / magnitude up to which it is treated as zero
 };
 
-/// Returns so_far, the motion of the contact up to the instant, if the guard was a resting limit
-/// (Instant::resting_limits) and is still zero; otherwise null. The slip rate of a slipping state, p' = -(fs
-/// |N| - T)' / kt, counts as at rest if the limit that the contact left was.
+/// Returns `so_far`, the motion of the contact up to the instant, if the guard was a resting limit (Instant::resting_limits)
+/// and is still zero; otherwise nullptr. For the slip rate p' = -(fs |N| - T)' / kt of a slipping state the friction limit
+/// that the contact has left is tested instead.
 [[nodiscard]] const MotionJet* resting_reference(const Contact& contact, std::size_t c,
                                                  const ContactState& state, const GuardForm& guard,
                                                  const MotionJet& so_far, const Instant& instant);
-/// Sign of the first derivative of the form, from order `first` on, that is not zero to working precision.
-/// base: a motion in which the form is exactly zero; the derivatives are then those of the difference to it.
+/// Sign of the first derivative of the form, from order `first` on, that is not zero within its rounding error. base: a
+/// motion in which the form is exactly zero; the difference of the derivatives from those in `base` is then used.
 [[nodiscard]] Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                               std::size_t first, const MotionJet* base = nullptr);
-/// True if the form's value is zero within its rounding and the resolution of time.
+/// True if the form's value is zero within its rounding error and the resolution of time.
 [[nodiscard]] bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant);
-/// Factor by which the rounding of the form's derivatives must grow to make the form lexicographically
-/// nonnegative. 0: it is nonnegative.
+/// Factor by which the rounding errors of the form's derivatives would have to be multiplied to make the form
+/// lexicographically nonnegative. 0: it is nonnegative.
 [[nodiscard]] double relative_violation(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                         std::size_t first);
-/// Sign of a guard with known signs of derivatives; a guard that is known to rise counts as positive unless
-/// its derivative of that order is clearly negative.
+/// Sign of a guard with known signs of derivatives. A guard that is known to rise is positive, unless its derivative of order
+/// `zeros` is clearly negative.
 [[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
 using GuardsOfState = ContactLaw::Guards;
 
-/// True if the first `orders` orders determine the signs of all guards of a contact that is decided
-/// separately, also if noise and resolution are `most_blur` times as large. known: known signs of the guards.
+/// True if derivatives of orders below `orders` determine the signs of all guards of a contact that is decided separately,
+/// even if noise and resolution are `most_blur` times as large. known: known signs of the guards.
 [[nodiscard]] bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
                               std::size_t orders, const Instant& instant, const KnownGuards& known,
                               double most_blur);
 
-/// The guards of every contact; copies share those of contacts whose states have not changed since.
+/// Guards of every contact. Copies share the guards of contacts whose states do not change.
 using GuardForms = base::CopyOnWriteVector<GuardsOfState>;
 
-/// Cache of the guards of contacts in their last states, most of which have not changed.
+/// Cache of the guards of contacts in their last states; most states do not change between two decisions.
 class GuardCache {
  public:
   /// The model must outlive the object.
   explicit GuardCache(const Model& model)
       : model_(model), states_(model.contacts.size()), forms_(model.contacts.size()) {}
   [[nodiscard]] const GuardsOfState& of(std::size_t contact, const ContactState& state);
-  /// All guards in the cache.
+  /// Guards of all contacts in the cache.
   [[nodiscard]] const GuardForms& all() const { return forms_; }
 
  private:
   const Model& model_;
-  std::vector<std::optional<ContactState>> states_;  // nullopt: not yet in the cache
+  std::vector<std::optional<ContactState>> states_;  // states of the cached guards; nullopt: not in the cache
   GuardForms forms_;
 };
 
-/// A guard that is negative just after the instant; sign.sign = -1.
+/// A guard that is negative just after the instant, so sign.sign = -1.
 struct FailedGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
@@ -161,10 +161,9 @@ struct FailedGuard {
   Sign sign = {};
 };
 
-/// The guard that fails first, for each contact with a failing guard. before: the states are those of the
-/// motion up to the instant, so located guards are zero. known: one entry per contact. so_far: the motion up
-/// to the instant, one entry per contact; needed if there are resting limits. asked: contacts to examine,
-/// ascending.
+/// The guard that fails first, for each contact with a failing guard. before: true if the states are those of the motion up
+/// to the instant, so that located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one
+/// entry per contact; needed only if there are resting limits. asked: contacts to examine, ascending.
 [[nodiscard]] std::vector<FailedGuard> find_failed_guards(
     const Model& model, const std::vector<MotionJet>& jets, const contact::ContactStates& states,
     const Instant& instant, bool before, const std::vector<KnownGuards>& known,

@@ -16,12 +16,12 @@
 namespace signorini::decide {
 namespace {
 
-// Energy gains below this fraction of the largest energy are rounding of velocities and impulses; gains by
-// Newton's law are larger. Chosen value.
+// Energy gains below this fraction of the largest energy term are rounding of velocities and impulses; real gains by Newton's
+// law are larger. Chosen value.
 constexpr double no_gain = 1e-9;
 
-/// The states with all contacts open that can stick rigidly: only then does the system's matrix give the
-/// effect of an impulse.
+/// The states with all contacts open that take impulses or can stick rigidly. Only the system of these states gives the
+/// effect of a single impulse.
 contact::ContactStates released(const Model& model, contact::ContactStates states) {
   for (std::size_t c = 0; c < states.size(); ++c)
     if (const Contact& contact = model.contacts[c]; contact.takes_impulses() || contact.sticks_rigidly())
@@ -74,7 +74,7 @@ ImpactSolver::ImpactProblem ImpactSolver::set_up(const motion::Forcing& forcing,
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
     item.static_friction = contact::static_friction(contact);
     item.kinetic_friction = contact::kinetic_friction(contact);
-    // In a hit, friction that rises with the slip rate keeps its value from just before.
+    // In an impact, friction that rises with the slip rate has its value at the slip rate just before.
     if (contact.friction.is_rate_strengthening())
       item.static_friction = item.kinetic_friction =
           contact::sliding_friction(contact, std::abs(hit.before[tangent_place(layout, i)]));
@@ -83,14 +83,14 @@ ImpactSolver::ImpactProblem ImpactSolver::set_up(const motion::Forcing& forcing,
   return hit;
 }
 
-/// Computes the velocities after the impact; rebounds slower than capture_velocity are suppressed. False: there is no
-/// solution.
+/// Computes the velocities after the impact. A contact that rebounds slower than capture_velocity is captured: its
+/// restitution is set to zero. False: there is no solution.
 bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProblem& hit) const {
   const Eigen::Index m = hit.restitution.size();
   hit.rebound = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::quiet_NaN());
   std::vector<bool> may_share;
   for (const std::size_t c : touching) may_share.push_back(systems_.may_share(c));
-  for (bool captured = true; captured;) {  // ends: each round captures one more contact
+  for (bool captured = true; captured;) {  // ends, because each round captures one more contact
     captured = false;
     hit.problem.b = hit.before;
     for (Eigen::Index i = 0; i < m; ++i)
@@ -113,7 +113,8 @@ bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProbl
   return true;
 }
 
-/// Makes the velocities exact that the solution determines: zero, or those of the surface and of the rebound.
+/// Sets the velocities that the solution determines to their exact values: zero, the surface's velocity, or the rebound
+/// velocity.
 void ImpactSolver::come_to_rest(const motion::Forcing& forcing, double t,
                                 const std::vector<std::size_t>& touching, ImpactProblem& hit,
                                 Impact& impact) const {
@@ -136,7 +137,7 @@ void ImpactSolver::come_to_rest(const motion::Forcing& forcing, double t,
   impact.correction_impulses = impose_velocities(hit.d, fixed, impact.v);
 }
 
-/// Computes impulses and energies.
+/// Computes the impulses on all contacts and the energies.
 void ImpactSolver::balance(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                            const std::vector<std::size_t>& touching, const ImpactProblem& hit,
                            Impact& impact) const {
@@ -175,7 +176,9 @@ Impact ImpactSolver::solve(const motion::Forcing& forcing, double t, const conta
   ImpactProblem hit = set_up(forcing, t, *system, touching, v);
   if (!rebound(touching, hit)) {
     impact.refusal = {Refusal::Kind::impact,
-                      "the impact has no solution: its complementarity problem ends in a ray", touching,
+                      "the impact has no solution: Lemke's method for its complementarity problem ends "
+                      "in a ray",
+                      touching,
                       condition_number(hit.problem)};
     const double shown = model::in_scene_units(model_, 1.0, unit::velocity);
     for (std::size_t i = 0; i < touching.size(); ++i) {
@@ -219,7 +222,7 @@ std::vector<std::size_t> next_impact(std::vector<Approach>& all) {
   for (Approach& a : all) {
     const bool rests = a.gap == 0.0 && a.rate <= a.rest;
     const double gap = rests ? 0.0 : a.gap + a.rate * soonest;
-    a.gap = gap > rounding::few_operations * a.gap ? gap : 0.0;  // rounding of a product and a difference
+    a.gap = gap > rounding::few_operations * a.gap ? gap : 0.0;  // 0 within the rounding error
     if (a.gap == 0.0 && (a.is_closing() || a.rate <= a.rest)) struck.push_back(a.contact);
   }
   return struck;

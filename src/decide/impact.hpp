@@ -1,13 +1,13 @@
 // impact.hpp: velocities after an impact of rigid contacts.
 //
 //   M (v+ - v-) = sum_k ( n_k Pn_k + t_k Pt_k )      over all rigid contacts with g = 0
-//   0 <= Pn  _|_  vn+ + e min(vn-, 0) >= 0           Newton's restitution
+//   0 <= Pn  _|_  vn+ + e min(vn-, 0) >= 0           Newton's law of restitution
 //   |Pt| <= f Pn,  Pt = -f Pn sign(vt+) where vt+ is not 0      Coulomb's law on the impulse
 //   loss = -sum ( Pn (vn- + vn+) + Pt (vt- + vt+) )/2           vt relative to the surface
 //
-// M couples all contacts, so they are solved together (decide/coulomb_problem.hpp). If a contact rebounds
-// slower than capture_velocity, the impact is solved again with e = 0 for that contact. It then rests, so the
-// infinitely many bounces of a ball end after a finite number. Sliders and contact elements take no impulse.
+// M couples all contacts, so all impulses are computed together (decide/coulomb_problem.hpp). If a contact rebounds slower
+// than capture_velocity, the impact is computed again with e = 0 for that contact. The contact then rests, so that the
+// infinitely many bounces of a ball end after a finite number. Sliders and contacts with springs take no impulse.
 // Source: Newton 1687; Moreau 1988 for the simultaneous problem; Glocker 2001, chapter 8.
 #pragma once
 
@@ -25,14 +25,14 @@ namespace signorini::decide {
 
 /// Sum of the impulses on one contact at an instant. Unit: force * time.
 struct Impulse {
-  bool hit = false;  ///< the contact was open and takes an impulse; closed contacts may take one, too
+  bool hit = false;  ///< the contact was open and takes an impulse; closed contacts may also take an impulse
   double normal = 0.0, tangent = 0.0;
-  bool rests = false, sticks = false;  ///< vn+ = 0, vt+ = 0 by the solution
-  /// Rebound velocity divided by capture_velocity; less than one: it was captured. NaN: no rebound.
+  bool rests = false, sticks = false;  ///< true: the solution has vn+ = 0 (rests), vt+ = 0 (sticks)
+  /// Rebound velocity / capture_velocity; below one the contact was captured. NaN: the contact does not rebound.
   double rebound = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Impulse on one touching contact in one impact. turn: number of the impact among the successive ones of an
+/// Impulse on one touching contact in one impact. impact_number: number of the impact among the successive impacts at an
 /// instant, from 1.
 struct SingleImpact {
   std::size_t contact = 0;
@@ -41,13 +41,13 @@ struct SingleImpact {
 };
 
 struct Impact {
-  Refusal refusal;                ///< reason if there is no solution
+  Refusal refusal;                ///< reason why there is no solution
   Vector v;                       ///< velocities after the impact
   std::vector<Impulse> impulses;  ///< one entry per contact of the model
   double loss = 0.0;              ///< dissipated energy
   double surface_work = 0.0;      ///< work of moving surfaces
-  bool gains = false;             ///< the loss is negative: possible for Newton's law with friction
-  /// Impulses that make known velocities exact, rows as in Delassus; empty: none.
+  bool gains = false;             ///< the loss is negative, which is possible for Newton's law with friction
+  /// Impulses that set known velocities to their exact values; rows as in Delassus. Empty: none.
   Eigen::VectorXd correction_impulses = {};
 };
 
@@ -56,20 +56,20 @@ class ImpactSolver {
   ImpactSolver(motion::StateSystems& systems, double capture_velocity)
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
-  /// Returns u with the gaps of all touching contacts closed, by the least change in the norm of M. states:
-  /// of all other contacts.
+  /// Returns u after the gaps of all touching contacts have been closed, by the smallest change of u in the norm of M.
+  /// states: states of all other contacts.
   [[nodiscard]] Vector close_gaps(const contact::ContactStates& states,
                                   const std::vector<std::size_t>& touching, Vector u);
-  /// Solves an impact. v: velocities before; touching: rigid contacts with g = 0; states: of all other contacts.
+  /// Computes an impact. v: velocities before; touching: rigid contacts with g = 0; states: states of all other contacts.
   [[nodiscard]] Impact solve(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                              const std::vector<std::size_t>& touching, const Vector& v);
 
  private:
-  /// Velocities of all touching contacts before and after the impact, and the problem between; rows as in Delassus.
+  /// Velocities of all touching contacts before and after the impact, and the problem that relates them; rows as in Delassus.
   struct ImpactProblem {
     Delassus d;
     CoulombProblem problem;
-    Eigen::VectorXd before, size, after, restitution;  // size: sum of the magnitudes of the terms of `before`
+    Eigen::VectorXd before, size, after, restitution;  // size: magnitude of the terms of `before`
     Eigen::VectorXd rebound;                           // Impulse::rebound, one entry per touching contact
     std::optional<CoulombSolution> solution;
   };
@@ -84,36 +84,36 @@ class ImpactSolver {
 
   const Model& model_;
   motion::StateSystems& systems_;
-  double capture_velocity_;  // for contacts without a value of their own
+  double capture_velocity_;  // for contacts that do not specify one
 };
 
-/// States during an impact: a contact that takes an impulse is closed, sticks or slides according to it; all other
-/// contacts that could take one are open. impulses: one entry per contact.
+/// States during an impact. A contact that takes an impulse is closed, sticks or slips as the impulse requires; all other
+/// contacts that take impulses or can stick rigidly are open. impulses: one entry per contact.
 [[nodiscard]] contact::ContactStates states_of_impact(const Model& model, contact::ContactStates states,
                                                       const std::vector<Impulse>& impulses);
 
 // Order of the impacts of rigid contacts at one instant.
 //
-//   impact 1, 2, ...   closing contacts meet after g / |g'|; the first are hit, with those that touch at rest
+//   impact 1, 2, ...   closing contacts meet after g / |g'|; the first ones are hit, and touching ones at rest
 //
-// A leaving contact, g' > 0, takes no impulse: an impact at its neighbour does not stop it, and an impulse on
-// it would add energy. If a later impact makes it close again, it is hit again, as it would be a moment
-// later. Contacts that meet at the same time are hit together.
+// A leaving contact (g' > 0) takes no impulse: an impact at its neighbour does not stop it, and an impulse on it would add
+// energy. If a later impact makes it close again, the contact is hit again, as a moment later in reality. Contacts that meet
+// at the same time are hit together.
 
-/// A rigid contact at an instant with hits.
+/// A rigid contact at an instant with impacts. Units: length, length/time.
 struct Approach {
   std::size_t contact = 0;
-  double gap = 0.0;   ///< nonnegative; zero: it touches
+  double gap = 0.0;   ///< gap, >= 0; zero: the contact touches
   double rate = 0.0;  ///< g'
-  double rest = 0.0;  ///< the contact leaves if g' exceeds this
-  double hit = 0.0;   ///< the contact is hit if -g' exceeds this
-  bool open = false;  ///< false: the contact is closed and presses already
+  double rest = 0.0;  ///< limit of g' above which the contact leaves
+  double hit = 0.0;   ///< limit of -g' above which the contact is hit
+  bool open = false;  ///< false: the contact is already closed and presses
 
   [[nodiscard]] bool is_closing() const { return open && rate < -hit; }
 };
 
-/// Advances all gaps to the time at which the next contact closes. Returns the contacts hit then; empty: none
-/// closes.
+/// Advances all gaps to the time at which the next contact closes. Returns the contacts that are hit at that time; empty: no
+/// contact closes.
 [[nodiscard]] std::vector<std::size_t> next_impact(std::vector<Approach>& all);
 
 }  // namespace signorini::decide

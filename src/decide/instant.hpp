@@ -1,4 +1,4 @@
-// instant.hpp: input of a decision: the motion just before an instant, and the guards that triggered it.
+// instant.hpp: input of a decision: the motion just before an instant, and the guards that triggered the instant.
 #pragma once
 
 #include <algorithm>
@@ -12,32 +12,34 @@
 
 namespace signorini::decide {
 
-/// A guard that an integrator found at zero.
+/// A guard that the integrator located at zero.
 struct TriggeredGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
-  bool never_positive = false;  ///< zero at the segment's beginning, and never observed above its rounding
+  /// The guard is zero at the segment's beginning and never exceeded its rounding error.
+  bool never_positive = false;
 };
 
-/// The motion just before an event, a jump of the forcing or the start.
+/// The motion just before an event, just before a jump of the forcing, or at the start.
 struct Instant {
   double t = 0.0;
-  double resolution = 0.0;  ///< events closer than this in time count as one instant
+  double resolution = 0.0;  ///< events closer than this time are treated as one instant
   Vector u, v;
-  contact::ContactStates states;  ///< just before
+  contact::ContactStates states;  ///< contact states just before the instant
   std::vector<TriggeredGuard> triggered;
-  /// Friction limits that were zero with all their derivatives at the beginning of the segment, and that have
-  /// not failed since. They are zero under the forcing up to now, whatever rounding has accumulated in them.
+  /// Friction limits that were zero with all their derivatives at the beginning of the segment, and have not failed since.
+  /// They stay zero under the forcing up to this instant, although rounding has accumulated in them.
   std::vector<TriggeredGuard> resting_limits = {};
-  /// Last time at which each contact had g = 0; the start if there was none. Empty: unknown.
+  /// For each contact the last time with g = 0; the start of the run if there was none. Empty: unknown.
   std::vector<double> last_touch = {};
   bool jump = false;          ///< the forcing is not smooth here
-  double noise_factor = 1.0;  ///< factor of a jet's noise below which its entries are zero
-  bool start = false;  ///< start of the run: touching rigid contacts are decided even if no guard fails
-  /// Stepper::resolves_low_flights of the engine.
+  double noise_factor = 1.0;  ///< entries of a jet below this factor times their noise are zero
+  bool start = false;  ///< start of the run: touching rigid contacts are decided although no guard fails
+  /// Value of Stepper::resolves_low_flights of the engine.
   bool resolves_low_flights = false;
-  double rest_speed = 0.0;  ///< slip rates up to this one count as rest, in addition to rounding
-  /// True: flights are computed that otherwise count as rest because their height or speed is too small.
+  /// Slip rates up to this value are treated as rest, in addition to their rounding error.
+  double rest_speed = 0.0;
+  /// True: flights are computed although their height or speed is so small that they are otherwise treated as rest.
   bool keep_low_flights = false;
 
   [[nodiscard]] bool has_triggered(std::size_t contact, Guard guard) const {
@@ -54,7 +56,7 @@ struct Instant {
   }
 };
 
-/// Names of contacts and guards as text, from any list with both: "'first' (compression) and 'second' (gap)".
+/// Names of contacts and guards as text, from a list of any type with both: "'first' (compression) and 'second' (gap)".
 template <class Guarded>
 [[nodiscard]] std::string names_of(const Model& model, const std::vector<Guarded>& list) {
   std::vector<std::string> names;

@@ -8,7 +8,7 @@
 namespace signorini::decide {
 namespace {
 
-/// Position x on the path at which the gap closes; nullopt: it does not close.
+/// Position x on the path at which the gap of the failing contact closes; nullopt: the gap does not close on the path.
 std::optional<double> touched_at(const Model& model, const MasslessPath& way, const FailedGuard& f) {
   if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
   const Contact& contact = model.contacts[f.contact];

@@ -1,9 +1,9 @@
-// massless_jump.hpp: massless parts that move instantaneously while states are decided: their first contact
-// on the path, and their end position.
+// massless_jump.hpp: massless parts that move instantaneously during a decision: the first contact that closes on their path,
+// and their end position.
 //
 //   u(x) = (1 - x) u_from + x u_to,   0 <= x <= 1:   a gap closes at (1 - x) g_from + x g_to = 0
 //
-// No time passes on such a path. Contacts that close on it are decided by their positions x.
+// No time passes on such a path. Contacts that close on it are ordered by their positions x.
 #pragma once
 
 #include <optional>
@@ -20,44 +20,42 @@ struct MasslessPath {
   const Vector &from, &to;
 };
 
-/// A contact that closes on the path.
+/// The first contact that closes on the path.
 struct PathTouch {
   std::size_t contact;
-  double fraction;  ///< x
-  double ut;        ///< ut there minus ut at the end of the path
+  double fraction;  ///< position x on the path
+  double ut;        ///< ut at the position x minus ut at the end of the path
 };
 
-/// The first contact that closes on the path. Removes from `failed` the contacts that close later, because
-/// the path changes at the first one. nullopt: no contact closes.
+/// Returns the first contact that closes on the path. Removes from `failed` the contacts that close later, because the path
+/// changes at the first contact. nullopt: no contact closes.
 [[nodiscard]] std::optional<PathTouch> first_touch(const Model& model, const MasslessPath& way,
                                                    std::vector<FailedGuard>& failed);
 
-/// Removes failures of slip rates on massless parts from `failed`, if another guard there fails in value. The
-/// parts have then not yet reached the equilibrium of the tried states, and their slip rates are known only
-/// there.
+/// Removes failed slip rates on massless parts from `failed`, if another guard on massless parts fails in value. The parts
+/// have then not reached the equilibrium of the tried states yet, and their slip rates are known only in equilibrium.
 void defer_slip_failures(const Model& model, std::vector<FailedGuard>& failed);
 
-/// True if a contact whose slip rate fails has slid instantaneously along its slip, and its dashpot stops it
-/// at the end of the path. noise: of its ut.
+/// True if a contact whose slip rate fails has slid instantaneously in its slip direction, and stops at the end of the path.
+/// noise: noise of ut.
 [[nodiscard]] bool stops_on_path(const Contact& contact, const FailedGuard& failure, State slip,
                                  const MasslessPath& way, double noise);
 
 // Massless parts that leave a contact instantaneously.
 //
-//   |T| = f|N| in stick, and slip by a would change f|N| - |T| at the rate h' = h0' + c a:   h0' < 0,  c <= 0
+//   |T| = f|N| in stick; slip at the rate a changes f|N| - |T| at the rate h' = h0' + c a,   h0' < 0,  c <= 0
 //
-// Then neither stick (h' = h0' < 0) nor slip (a = -h0'/c < 0) continues the motion: slip reduces f|N| more
-// than |T|. No continuous motion exists. With a small mass the parts have a motion: the slip accelerates
-// until N = 0, the contact opens, and the parts move to their equilibrium without it. As the mass tends to
-// zero, this takes no time. The same happens if friction drops to its kinetic value, or if the data at the
-// start require a tensile force. A contact with a dashpot cannot close meanwhile, so the jump must open its
-// gap.
+// If h0' < 0 and c <= 0, neither stick (h' = h0' < 0) nor slip (a = -h0'/c < 0) continues the motion, because slip reduces
+// f|N| more than |T|. No continuous motion exists. With a small mass, the slip would accelerate until N = 0, the contact
+// would open, and the parts would move to their equilibrium without the contact. In the limit of zero mass this takes no
+// time. The same happens if friction drops to its kinetic value, or if the data at the start require a tensile force. A
+// contact with a dashpot cannot close again during the jump, so the jump must open its gap.
 
-/// True if the contact acts on a massless part.
+/// True if the normal or the tangent of the contact moves a massless degree of freedom.
 [[nodiscard]] bool acts_on_massless(const Model& model, const Contact& contact);
 
-/// Displacements after contact c has opened and massless parts have moved to equilibrium. `states`: of all
-/// other contacts. nullopt: the contact acts on no massless part, or its gap would not open.
+/// Displacements after contact c has opened and massless parts have moved to equilibrium. states: states of all other
+/// contacts. nullopt: the contact does not act on massless parts, or its gap would not open.
 [[nodiscard]] std::optional<Vector> released(motion::StateSystems& systems, motion::JetMaker& jets,
                                              const motion::Forcing& forcing, const Instant& instant,
                                              contact::ContactStates states, std::size_t c);

@@ -14,11 +14,11 @@
 namespace signorini::decide {
 namespace {
 
-/// Fraction of the scale of velocities: motions that differ by more were not separated by rounding alone. It
-/// is sqrt(eps), because no engine loses half of the digits.
+/// Fraction of the scale of velocities. Motions that differ by more are not separated by rounding alone, because no engine
+/// loses half of its digits: sqrt(eps).
 constexpr double half_of_digits = 0x1p-26;
-/// Limit for successive impacts at one instant; capture_velocity ends a sequence of rebounds long before,
-/// unless e is almost one.
+/// Limit for successive impacts at one instant. Unless e is almost one, capture_velocity ends a sequence of rebounds long
+/// before.
 constexpr int most_turns = 1000;
 
 double norm_of(const Combination& form) {
@@ -27,8 +27,8 @@ double norm_of(const Combination& form) {
   return std::sqrt(squared);
 }
 
-/// Rounding of a form of the velocities: eps |form| |v|, v the velocities in the form. If these are held at
-/// zero, they contain the rounding of corrections, which is relative to all velocities.
+/// Rounding error of a form of the velocities: eps |form| |v|, with the velocities v in the form. Velocities that are held at
+/// zero contain the rounding of corrections, which is relative to all velocities (`rest`).
 double rounding_of(const Combination& form, const Vector& v) {
   const double rest = rounding::eps * v.norm();
   double v_squared = 0.0;
@@ -36,7 +36,7 @@ double rounding_of(const Combination& form, const Vector& v) {
   return rounding::many_operations * norm_of(form) * (std::sqrt(v_squared) + rest);
 }
 
-/// Norm of all velocities; rotations have another unit and are omitted.
+/// Norm of all translational velocities; rotations have another unit and are left out.
 double speed_of(const Model& model, const Vector& v) {
   double squared = 0.0;
   for (Eigen::Index i = 0; i < v.size(); ++i)
@@ -44,8 +44,8 @@ double speed_of(const Model& model, const Vector& v) {
   return std::sqrt(squared);
 }
 
-/// Energy loss by capture impulses: -sum of impulse times mean velocity. before, now: sums of the capture
-/// impulses; twice: velocities before plus velocities after.
+/// Energy lost by capture impulses: -sum of impulse times mean velocity. before, now: capture impulses before and after the
+/// step; twice: velocities before plus velocities after.
 double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd& before,
                const Eigen::VectorXd& now, const Vector& twice) {
   double loss = 0.0;
@@ -87,8 +87,8 @@ RigidContactSolver::RigidContactSolver(motion::StateSystems& systems, motion::Je
       impacts_(systems, capture_velocity),
       levels_(systems, jets) {}
 
-/// Rounding of t.v minus the velocity of the surface, plus slip rates that count as rest; at the start at least the
-/// rounding of the scene's velocities.
+/// Bound up to which the slip rate t.v minus surface velocity is zero: rounding error plus Instant::rest_speed. At the start
+/// it is at least the rounding error of the scene's velocities.
 double RigidContactSolver::rounding_of_slide(std::size_t c, const motion::Forcing& forcing,
                                              const Instant& instant) const {
   const double given = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
@@ -101,17 +101,17 @@ double RigidContactSolver::min_flight_speed(std::size_t c) const {
   return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
 }
 
-/// Decides whether a contact with g = 0 leaves. It stays if its flight would be shorter than the resolution
-/// of time. Its flight is low if its speed is below capture_velocity. It is also low if its height is below
-/// the rounding of the gap, unless the engine resolves such flights. pull_before: -g'' just before, which
-/// also counts as a pull, because all touching bodies may fall freely together.
+/// Decides whether a contact with g = 0 leaves. It stays if its flight would be shorter than the resolution of time. A flight
+/// is low if its speed is below capture_velocity, or if its height is below the rounding error of the gap and the engine does
+/// not resolve such flights. pull_before: -g'' just before the instant. The larger of -g'' before and after is the pull,
+/// because all touching bodies may fall freely together.
 RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const MotionJet& free,
                                                             double pull_before,
                                                             const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &m = free.motion[0], &noise = free.noise[0];
   const double pull = std::max(-m.an, pull_before);
-  // A body at rest moves by the rounding of its equilibrium, not of its velocity.
+  // For a body at rest g' contains the rounding errors of its equilibrium, which exceed those of its velocity.
   const double rounding = instant.noise_factor * noise.vn + rounding_of(contact.normal, instant.v) +
                           instant.resolution * std::abs(pull);
   if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::Type::stays : Departure::Type::leaves};
@@ -123,22 +123,22 @@ RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const
   return {m.vn <= rounding + low ? Departure::Type::low : Departure::Type::leaves, ratio};
 }
 
-/// True if a dashpot makes the compression of a contact jump up, by -cn n . (v+ - v-). Velocities that do not
-/// jump contain rounding relative to all jumps of velocities.
+/// True if a dashpot makes the compression of a contact jump up, by -cn n . (v+ - v-). Velocities that do not jump contain
+/// rounding errors relative to all jumps of velocities.
 bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
   const Contact& contact = model_.contacts[c];
   if (!(contact.normal_damping > 0.0)) return false;
-  // The effect of an impact decays by a factor of 0.3 per node of a beam; below the rounding of an
-  // elimination it is no jump.
+  // The effect of an impact decays by a factor of 0.3 per node of a beam; below the rounding error of an elimination it is
+  // not a jump.
   const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
                           4.0 * rounding::elimination * norm_of(contact.normal) *
                               (speed_of(model_, before) + speed_of(model_, after));
   return contact::gap_rate(contact, after) - contact::gap_rate(contact, before) < -rounding;
 }
 
-/// Adapts states to the velocities after an impact: sliders that stick rigidly slip as soon as their slip rate is not
-/// zero. If a dashpot makes |N| jump up, T is continuous and below its new limit: the element sticks. If |N| jumps
-/// down, T follows its limit; if N does not jump, the slip continues as long as its own guard holds.
+/// Changes states according to the velocities after an impact. Rigidly sticking sliders slip if their slip rate is not zero.
+/// If a dashpot makes |N| jump up, T is continuous and below its new limit, so the contact sticks. If |N| jumps down, T
+/// follows its limit. If N does not jump, slip continues until the guard of slip fails.
 void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& before,
                                          const motion::Forcing& after, const Block& block,
                                          const std::vector<ContactMotion>& motion,
@@ -150,7 +150,7 @@ void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& b
       states[c] = {State::stick, contact::slip_of(contact, motion[c])};
     if (!contact.holds_tangent_only() || states[c].is_open()) continue;
     const double vt = contact::along_surface(contact, instant.v, after.surface(c, instant.t, 1));
-    // Same rounding as in presses_harder(): a contact that sticks is at rest up to the rounding of all jumps.
+    // Same rounding error as in presses_harder(): a sticking contact is at rest up to the rounding of all velocity jumps.
     const double of_jump =
         slip_sign(states[c].state) == 0
             ? rounding::elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
@@ -160,8 +160,8 @@ void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& b
   }
 }
 
-/// Sets the velocities of resting participants to zero, for all contacts at once, because each change moves
-/// the others. False: these velocities are zero already.
+/// Sets the velocities of resting participants to zero, for all contacts at once because each change affects the others.
+/// False: these velocities are already zero.
 bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
                                                 const motion::StateSystem& free, const TouchingContacts& met,
                                                 ImpactResult& found) const {
@@ -185,7 +185,7 @@ bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::
   return true;
 }
 
-/// Updates the direction of slip after other velocities were set to zero. True: one more contact rests.
+/// Updates the slip directions after other velocities were set to zero. True: at least one more contact is at rest.
 bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcing& forcing,
                                     const TouchingContacts& met, ImpactResult& found) const {
   bool rests = false;
@@ -203,12 +203,11 @@ bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcin
   return rests;
 }
 
-/// Rounding accumulated in g and g'. The error da of g'' gives dv = t da in all velocities since the beginning, and
-/// du = t^2/2 da in displacements. At the last touch g and g' were known exactly. In the time s since then, dv has
-/// changed g, da has changed g', and du has changed both through the stiffness of the structure:
-/// by du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency. This is an upper bound, useless for stiff
-/// structures after long times: velocities that differ by half_of_digits of their scale therefore count as different in
-/// any case.
+/// Rounding accumulated in g and g'. Since the beginning, an error da of g'' gives dv = t da in all velocities and du = t^2/2
+/// da in displacements. At the last touch g and g' were known exactly. In the time s since then, dv has changed g, da has
+/// changed g', and du has changed both through the stiffness of the structure: by du min(1, (w s)^2/2) and du w min(1, w s),
+/// w being the highest frequency. This upper bound is useless for stiff structures after long times, so it is limited:
+/// velocities that differ by half_of_digits of their scale are always different.
 RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double da,
                                                            const Instant& instant) const {
   if (instant.last_touch.empty()) return {};
@@ -218,8 +217,8 @@ RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double
   return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
 }
 
-/// Rounding of a gap. A flight begins with g = 0, so its gap is accurate to the rounding of the sum g0 + n .
-/// u. If the contact has never touched, the result is of_data: the terms of the sum have errors, too.
+/// Rounding error of a gap. A flight begins with g = 0, so its gap is as accurate as the sum g0 + n . u. If the contact has
+/// never touched, the result is of_data, because the terms of the sum also have errors.
 double RigidContactSolver::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
   const bool flew = !instant.last_touch.empty() && instant.last_touch[c] > 0.0;
   const Contact& contact = model_.contacts[c];
@@ -233,7 +232,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
-  // At the start, given values are accurate relative to the scales of the scene, even if they are very small.
+  // At the start, given values are only as accurate as the scales of the scene, even if the values are very small.
   const double given = instant.start ? rounding::few_operations * model_.scales.displacement : 0.0;
   const double given_rate = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
   TouchingContacts met;
@@ -245,12 +244,11 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     const bool open = states[c].is_open();
     const Carried carried = carried_by(c, noise.an, instant);
     const double known = rounding_of_gap(c, noise.gap, instant) + given;
-    // A contact that closes faster than min_flight_speed() is hit, whatever rounding has accumulated.
+    // A contact that closes faster than min_flight_speed() is hit, whatever rounding errors have accumulated.
     const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), min_flight_speed(c));
     Approach a{c,   0.0, m.vn, noise.vn + given_rate + min_flight_speed(c), noise.vn + unsure + given_rate,
                open};
-    // A contact whose gap has become negative touches as well: it closed with others, within the resolution
-    // of time.
+    // A contact whose gap has become negative also touches: it closed together with others, within the resolution of time.
     const bool pull_before =
         std::any_of(failed.begin(), failed.end(), [&](const FailedGuard& f) { return f.contact == c; });
     const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known;
@@ -265,8 +263,8 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     met.approaches.push_back(a);
     met.apart = met.apart || m.gap != 0.0;
     met.hit = met.hit || a.is_closing();
-    // If several contacts close within the rounding of their gaps, they are hit together: the order is
-    // unresolved.
+    // If several contacts close within the rounding errors of their gaps, their order is unresolved and they are hit
+    // together.
     const double own =
         rounding::few_operations * (model_.contacts[c].normal.magnitude(instant.u) +
                                     std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
@@ -278,7 +276,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
   return met;
 }
 
-/// True if the contact moves like another one of the block that closes now, up to rounding, or does not move.
+/// True if the contact is at rest, or moves like another contact of the block that closes now, up to rounding.
 bool RigidContactSolver::lands_alike(const Approach& a, const Instant& instant,
                                      const std::vector<MotionJet>& jets,
                                      const std::vector<FailedGuard>& failed, const Block& block) const {
@@ -311,8 +309,7 @@ Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcin
       if (!(a.rate > a.rest)) continue;
       states[a.contact] = {State::open, 0.0};
       a.open = true;
-      // A contact that an earlier impact stopped leaves now; the record of a rebound by its own impact is
-      // kept.
+      // A contact that an earlier impact stopped now leaves. A rebound by an impact on the contact itself stays recorded.
       if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
     }
   }
@@ -356,8 +353,7 @@ Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing
   return {};
 }
 
-/// Adds touching contacts that do not leave to the participants. free: the motion with all touching contacts
-/// open.
+/// Adds touching contacts that do not leave to the participants. free: motion with all touching contacts open.
 void RigidContactSolver::add_staying(const Instant& instant, const motion::Forcing& forcing,
                                      const TouchingContacts& met, const std::vector<MotionJet>& free,
                                      const Decision& decision, ImpactResult& found) const {
@@ -391,8 +387,8 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
   }
 }
 
-/// Sets participants to rest whose motion other resting participants hold, whatever rounding is left in their
-/// slip rate: feet of one body.
+/// Feet of one body: sets participants to rest if other resting participants constrain their motion, although rounding is
+/// left in their slip rate.
 void RigidContactSolver::rest_together(const Instant& instant, const motion::Forcing& forcing,
                                        const contact::ContactStates& states, ImpactResult& found) const {
   contact::ContactStates held = states;
@@ -411,8 +407,8 @@ void RigidContactSolver::rest_together(const Instant& instant, const motion::For
   }
 }
 
-/// Sliders at rest in groups of contacts that may hold the same motion, if a contact of the group has changed
-/// its state.
+/// Sliders at rest in groups of contacts that may constrain the same motion; only groups with a contact that has changed its
+/// state.
 std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, const motion::Forcing& forcing,
                                                      const contact::ContactStates& states,
                                                      const Decision& decision) const {
@@ -430,7 +426,7 @@ std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, con
                                   : 0.0;
       return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);
     };
-    for (int round = 0; round < 2; ++round)  // a stopped contact holds others
+    for (int round = 0; round < 2; ++round)  // second round: stopped contacts hold others
       for (const std::size_t c : group)
         if (model_.contacts[c].normal_force_given() && !states[c].is_open() && stops(c))
           held[c].state = State::stick;
@@ -441,8 +437,8 @@ std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, con
   return at_rest;
 }
 
-/// Adds sliders to the participants: those that an impact has stopped, those of sharing(), and, if
-/// found.sliders is true, those that have changed their states.
+/// Adds sliders to the participants: sliders that an impact has stopped, the sliders of sharing(), and, if found.sliders is
+/// true, sliders that have changed their states.
 void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forcing& forcing,
                                      const TouchingContacts& met, const Block& block,
                                      const contact::ContactStates& states, const Decision& decision,
@@ -466,8 +462,8 @@ void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forci
   }
 }
 
-/// Adds all rigidly sticking sliders to the participants, because a consistent state may require that they
-/// slip. False: there are none.
+/// Adds all rigidly sticking sliders to the participants, because a consistent state may require that they slip. False: there
+/// are no such sliders.
 bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,
                                       ImpactResult& found) const {
   std::vector<Participant> all;
@@ -492,8 +488,8 @@ bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const co
   return some;
 }
 
-/// Decides the participants (decide/derivative_levels.hpp). If sliders that keep sticking lead to no motion,
-/// several motions or dependent rows, these sliders are decided together with the participants.
+/// Decides the participants (decide/derivative_levels.hpp). If there is no motion, several motions, or dependent constraint
+/// rows while some sliders keep sticking, these sliders are decided together with the participants.
 Refusal RigidContactSolver::solve_levels(const Instant& instant, const motion::Forcing& forcing,
                                          const std::vector<Block>& blocks, const contact::ContactStates& old,
                                          ImpactResult& found, contact::ContactStates& states) {
@@ -552,13 +548,14 @@ Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forc
   for (std::size_t b = 0; b < all.size(); ++b) {
     add_staying(instant, forcing, all[b], free, decision, found);
     rest_together(instant, forcing, states, found);
-    while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
+    // ends: one more contact rests.
+    while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))
       if (!slide_anew(instant, forcing, all[b], found)) break;
     add_sliders(instant, forcing, all[b], blocks[b], states, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }
-  // A contact that an impact at its neighbour lifts slower than capture_velocity is stopped, and its energy
-  // is lost.
+  // If an impact at its neighbour lifts a contact more slowly than capture_velocity, the contact is stopped and its energy is
+  // lost.
   decision.impact_loss += loss_of(model_, touching, captured, found.capture_impulses, moving + instant.v);
   Refusal refusal = solve_levels(instant, forcing, blocks, old, found, states);
   for (const Participant& participant : found.participants) {

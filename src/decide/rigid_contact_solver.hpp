@@ -1,13 +1,13 @@
-// rigid_contact_solver.hpp: states of touching rigid contacts, from velocities and accelerations.
+// rigid_contact_solver.hpp: decides the states of touching rigid contacts from velocities and accelerations.
 //
 //   hit:     g = 0, g' < 0        impact (decide/impact.hpp), then
 //   leaves:  g' > 0               open
-//   stays:   g' = 0               decided with all others that stay (decide/derivative_levels.hpp)
+//   stays:   g' = 0               decided with all staying contacts (decide/derivative_levels.hpp)
 //
-// A velocity counts as zero if an acceleration compensates it within the resolution of time. The acceleration
-// is known only after a state has been tried, so these zeros are found in the course of a decision.
+// A velocity is treated as zero if an acceleration compensates it within the resolution of time. The acceleration is known
+// only after states have been tried, so these zeros are found during a decision.
 //
-// Uncoupled blocks of contacts are decided separately, with one common motion.
+// Blocks of contacts that are not coupled are decided separately, in one common motion.
 #pragma once
 
 #include <limits>
@@ -19,10 +19,10 @@
 
 namespace signorini::decide {
 
-/// Contacts coupled through M, C, K and contacts, ascending.
+/// A block: contacts that are coupled through M, C, K or other contacts; indices, ascending.
 using Block = std::vector<std::size_t>;
 
-/// Results about contacts whose forces may jump, during one decision. Lists have one entry per contact.
+/// Results of one decision about contacts whose forces may jump. Lists have one entry per contact.
 struct ImpactResult {
   explicit ImpactResult(std::size_t n)
       : decided(n, false),
@@ -33,51 +33,51 @@ struct ImpactResult {
         departures(n, std::numeric_limits<double>::quiet_NaN()),
         known(n) {}
   bool hit = false;                   ///< the last round began with an impact
-  bool sliders = false;               ///< sliders that stick rigidly are decided with the others
-  bool flight_taken_as_rest = false;  ///< a flight was taken as rest because of its height only
-  bool unresolved = false;            ///< Decision::unresolved
-  double max_rest_speed = 0.0;        ///< largest g' that was taken as rest
-  std::vector<bool> decided;          ///< contacts that have been participants
-  std::vector<bool> kinetic;  ///< contacts that have begun to slip: the static coefficient no longer applies
-  std::vector<bool> bears_limit;   ///< contacts that others hold at their static limit
-  std::vector<bool> stays, rests;  ///< contacts whose g', ut' count as zero
-  /// g' divided by the speed below which a contact stays; NaN: not computed.
+  bool sliders = false;               ///< sliders that stick rigidly are decided with rigid contacts
+  bool flight_taken_as_rest = false;  ///< a flight was replaced by rest only because it is low
+  bool unresolved = false;            ///< see Decision::unresolved
+  double max_rest_speed = 0.0;        ///< largest g' that was treated as rest; length/time
+  std::vector<bool> decided;          ///< true: the contact has been a participant
+  std::vector<bool> kinetic;  ///< true: slip has begun, so the static coefficient no longer applies
+  std::vector<bool> bears_limit;   ///< true: other contacts hold the contact at its static limit
+  std::vector<bool> stays, rests;  ///< true: g' (stays) or ut' (rests) is treated as zero
+  /// g' / speed below which the contact stays; NaN: not computed.
   std::vector<double> departures;
-  Eigen::VectorXd capture_impulses;  ///< Decision::capture_impulses; empty: none so far
-  /// Adds impulses to capture_impulses: rows 2 i and 2 i + 1 belong to the i-th of these contacts. Empty:
-  /// none.
+  Eigen::VectorXd capture_impulses;  ///< see Decision::capture_impulses; empty: none so far
+  /// Adds impulses to capture_impulses. Rows of `impulses`: places of the listed contacts (decide/coulomb_problem.hpp).
+  /// Empty: none.
   void capture(const Model& model, const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
-  /// Same for impulses of all contacts, indexed like forces.
+  /// Same for impulses on all contacts, in the order of forces.
   void capture(const Eigen::VectorXd& impulses);
-  std::vector<KnownGuards> known;         ///< known signs of guards; of touching contacts
+  std::vector<KnownGuards> known;         ///< known signs of the guards of touching contacts
   std::vector<Participant> participants;  ///< contacts decided together in the last round
 };
 
 class RigidContactSolver {
  public:
-  /// capture_velocity: for contacts without a value of their own.
+  /// capture_velocity: for contacts that do not specify one.
   RigidContactSolver(motion::StateSystems& systems, motion::JetMaker& jets, double capture_velocity);
 
-  /// Computes impacts if there are any, then the states of the given blocks, in `states`. failed: guards of
-  /// the last states that fail; jets: motion in these states.
+  /// Computes impacts, if there are any, and then the states of the given blocks in `states`. failed: guards that fail in the
+  /// last states; jets: motion in the last states.
   [[nodiscard]] Refusal decide(Instant& instant, const motion::Forcing& forcing,
                                const std::vector<MotionJet>& jets, const std::vector<FailedGuard>& failed,
                                const std::vector<Block>& blocks, ImpactResult& found, Decision& decision,
                                contact::ContactStates& states);
 
  private:
-  /// Rigid contacts of a block with g = 0.
+  /// Rigid contacts of a block that touch (g = 0).
   struct TouchingContacts {
     Block contacts;
-    std::vector<Approach> approaches;  // one per contact
-    bool hit = false, apart = false;   // hit: a contact closes; apart: a gap is not exactly zero
-    bool unresolved = false;           // a contact flies lower than the rounding of its data
+    std::vector<Approach> approaches;  // one entry per contact
+    bool hit = false, apart = false;   // hit: a contact closes; apart: some gap is not exactly 0
+    bool unresolved = false;           // a flight is lower than the rounding of its data
   };
-  /// Rounding of g and g' that has accumulated since the contact's last touch.
+  /// Rounding errors of g and g' accumulated since the contact's last touch.
   struct Carried {
     double gap = 0.0, rate = 0.0;
   };
-  /// Speed below which a rebound of the contact counts as rest.
+  /// Speed below which a rebound of the contact is treated as rest.
   [[nodiscard]] double min_flight_speed(std::size_t contact) const;
   [[nodiscard]] double rounding_of_gap(std::size_t contact, double of_data, const Instant& instant) const;
   [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
@@ -119,7 +119,7 @@ class RigidContactSolver {
   [[nodiscard]] Refusal solve_levels(const Instant& instant, const motion::Forcing& forcing,
                                      const std::vector<Block>& blocks, const contact::ContactStates& old,
                                      ImpactResult& found, contact::ContactStates& states);
-  /// Next motion of a contact with g = 0, and its g' relative to the largest value with which it stays.
+  /// Whether a contact with g = 0 stays or leaves, and its g' / largest g' with which it stays.
   struct Departure {
     // low: the flight is too slow or too low to be computed.
     enum class Type : unsigned char { stays, low, leaves } type;

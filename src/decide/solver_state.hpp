@@ -1,6 +1,6 @@
-// solver_state.hpp: state of one decision while it is computed.
+// solver_state.hpp: data of one decision while it is computed.
 //
-//   check the guards of `states` -> `failed` -> the next states -> ...   until none fails
+//   check the guards of `states` -> `failed` -> the next states -> ...   until no guard fails
 #pragma once
 
 #include <optional>
@@ -12,38 +12,37 @@
 
 namespace signorini::decide {
 
-/// Factor on noise and resolution of time if states repeat, or if a guard that an engine located does not
-/// fail.
+/// Factor on noise and on the resolution of time, applied if states repeat or if a guard located by an engine does not fail.
 inline constexpr double retry_noise_factor = 16.0;
 
-/// A decision in progress.
+/// All data of a decision in progress.
 struct SolverState {
   Instant instant;
   const motion::Forcing& after;
   Decision decision;
-  contact::ContactStates states;                     // states tried last
-  std::vector<MotionJet> jets;                       // motion in these states
-  std::vector<FailedGuard> failed;                   // guards that fail in this motion
-  std::vector<contact::ContactStates> tried_states;  // states tried so far, to recognise repetition
+  contact::ContactStates states;                     // the states tried last
+  std::vector<MotionJet> jets;                       // motion in `states`
+  std::vector<FailedGuard> failed;                   // guards that fail in the motion `jets`
+  std::vector<contact::ContactStates> tried_states;  // all states tried so far, to detect repetition
   std::vector<ContactMotion> noise_before;           // noise of Decision::before
   ImpactResult impact_result;
-  std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states are kept
+  std::vector<std::size_t> undecided;  // blocks that rounding leaves undecided: their states are kept
   bool noise_increased = false;
-  Vector initial_u = {};                        // at the start: given u, before massless parts move
-  std::vector<MotionJet> so_far = {};           // motion up to the instant; empty: no Instant::resting_limits
-  std::optional<PathTouch> touched = {};        // first touch of massless parts in this round
+  Vector initial_u = {};                        // at the start: the given u, before massless parts move
+  std::vector<MotionJet> so_far = {};  // motion up to the instant; empty if Instant::resting_limits is empty
+  std::optional<PathTouch> touched = {};        // first contact on the path in this round
   std::vector<std::size_t> slid_contacts = {};  // contacts that have slid instantaneously and stopped
-  // Contacts with a guard that is not clearly positive; nullopt: any contact.
+  // Contacts with a guard that is not clearly positive; nullopt: unknown, any contact may have one.
   std::optional<std::vector<std::size_t>> open = {};
   const motion::Forcing* forcing = nullptr;  // forcing of the last evaluation
   double noise_factor = 0.0;                 // Instant::noise_factor of the last evaluation
-  Eigen::VectorXd held = {};  // impulses by which v was set on the constraints of the states tried last
+  Eigen::VectorXd held = {};  // impulses that made v satisfy the constraints of `states`
 
-  /// Displacements from which massless parts move instantaneously.
+  /// Displacements from which massless parts start their instantaneous motion.
   [[nodiscard]] const Vector& jump_origin() const { return instant.start ? initial_u : instant.u; }
 
-  /// Increases noise and resolution by retry_noise_factor: the rounding of one sample may have separated
-  /// zeros too sharply. False: both have been increased before.
+  /// Multiplies noise and resolution by retry_noise_factor, because one sample of rounding may have separated equal zeros.
+  /// False: both were already increased.
   bool increase_noise() {
     if (std::exchange(noise_increased, true)) return false;
     instant.noise_factor = retry_noise_factor;

@@ -14,12 +14,12 @@
 namespace signorini::decide {
 namespace {
 
-// Accelerations are equal if they differ by less than this fraction of the largest acceleration of all
-// combinations. It is the accuracy of forces in a block with the worst condition that can still be decided
-// (1e8). A comparison relative to each other would separate two accelerations that are both rounding of zero.
+// Accelerations are equal if they differ by less than this fraction of the largest acceleration in all combinations. The
+// value is the accuracy of forces in a block with the worst acceptable condition number, 1e8. A comparison relative to the
+// two accelerations alone would separate accelerations that are both rounding errors of zero.
 constexpr double same_acceleration = 1e-8;
 
-/// Sets the states of the combination with number `code`, which has one digit per choice.
+/// Sets the states of combination number `code`. The digits of `code`, one per choice, are the indices of the chosen states.
 void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t code,
            contact::ContactStates& contact_states) {
   for (const StateEnumeration::Choice& choice : choices) {
@@ -28,8 +28,8 @@ void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t cod
   }
 }
 
-/// True if the combinations differ only because a force is between kinetic and static friction: the contact
-/// may stick or slip, and by the law it sticks.
+/// True if the combinations differ only because a force is between kinetic and static friction: such a contact could stick or
+/// slip, and by the friction law it sticks.
 bool differ_by_law(const Model& model, const contact::ContactStates& one,
                    const contact::ContactStates& other) {
   for (std::size_t c = 0; c < one.size(); ++c) {
@@ -42,7 +42,7 @@ bool differ_by_law(const Model& model, const contact::ContactStates& one,
   return true;
 }
 
-/// States of the contacts with choices, as text: "'first' stick, 'second' slip+".
+/// States of the contacts with choices, as text, for example "'first' stick, 'second' slip+".
 std::string named_states(const Model& model, const std::vector<StateEnumeration::Choice>& choices,
                          const contact::ContactStates& contact_states) {
   std::string text;
@@ -81,8 +81,7 @@ StateEnumeration::Choice StateEnumeration::choice(std::size_t c, const ContactSt
   return {c, contact.law->candidates(contact, state, before)};
 }
 
-/// Relative violation and accelerations of a combination; nullopt: the constraint rows of its states are
-/// dependent.
+/// Relative violation and accelerations of a combination of states; nullopt: its constraint rows are linearly dependent.
 std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
     const Instant& instant, const motion::Forcing& forcing, const Block& block,
     const std::vector<KnownGuards>& known, const contact::ContactStates& contact_states) {
@@ -106,7 +105,7 @@ std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
 double StateEnumeration::condition(const std::vector<std::size_t>& contacts,
                                    contact::ContactStates contact_states) {
   const ForceLayout layout = model_.layout.part(contacts);
-  std::vector<Eigen::Index> rows;  // of forces of rigid contacts and of rigid sticking
+  std::vector<Eigen::Index> rows;  // rows of the forces of rigid contacts and of rigid sticking
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model_.contacts[contacts[i]];
     if (contact.takes_impulses()) rows.push_back(normal_place(layout, i));
@@ -143,7 +142,7 @@ std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combinat
     if (best && weighed->relative_violation >= best->relative_violation) continue;
     best = BestCombination{std::move(tried), weighed->relative_violation, 1.0, {}};
   }
-  // Consistent combinations must have the same accelerations; the first one is the best.
+  // Consistent combinations must have the same accelerations; the first one is then taken.
   for (std::size_t i = 1; i < holding.size() && best->alternative.empty(); ++i)
     if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
         !differ_by_law(model_, holding[0].first, holding[i].first))

@@ -1,11 +1,11 @@
-// state_enumeration.hpp: tries all combinations of the states of a block, and measures their violations in
-// multiples of rounding.
+// state_enumeration.hpp: tries all combinations of the contact states of a block, and measures their violations in multiples
+// of rounding errors.
 //
 //   relative violation of a combination of states = max over the block's guards of ( -g^(k) / zero^(k) )
 //                           where g^(k) is negative and no lower derivative is positive
 //
-// 0: every guard holds. A combination is acceptable if its relative violation does not exceed the condition
-// number of the block. Used for blocks that rounding leaves undecided; it costs one jet per combination.
+// Relative violation 0: no guard fails. A combination is acceptable if its relative violation does not exceed the condition
+// number of the block. Used for blocks that rounding leaves undecided, at the cost of one jet per combination.
 #pragma once
 
 #include <optional>
@@ -20,15 +20,15 @@ class StateEnumeration {
   StateEnumeration(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Largest number of contacts for which all combinations are tried: 4^5 jets.
+  /// Largest number of contacts for which all combinations are tried; the cost is up to 4^5 jets.
   static constexpr std::size_t max_contacts = 5;
 
-  /// A contact and the states that it may take.
+  /// A contact with the states that it may take.
   struct Choice {
     std::size_t contact = 0;
     std::vector<ContactState> states;
   };
-  /// Choice for a contact that touches and is decided with others.
+  /// Choice for a touching contact that is decided with other contacts.
   [[nodiscard]] Choice choice(const Participant& participant) const;
   /// Choice for any other contact, from its state and motion just before the instant.
   [[nodiscard]] Choice choice(std::size_t contact, const ContactState& state,
@@ -38,14 +38,14 @@ class StateEnumeration {
     contact::ContactStates contact_states;
     double relative_violation = 0.0;
     double condition = 1.0;  ///< condition() of the contacts with choices
-    /// Another consistent combination with other accelerations; empty: none.
+    /// Another consistent combination that has other accelerations; empty: there is none.
     contact::ContactStates alternative;
-    /// True if there is no alternative, and the violation is explained by rounding.
+    /// True if there is no alternative and rounding explains the violation.
     [[nodiscard]] bool acceptable() const;
   };
-  /// The combination with the smallest violation; contacts without a choice keep their states in
-  /// `contact_states`. known: known signs of guards, one entry per contact. nullopt: there are no choices or
-  /// too many, or no combination has unique forces.
+  /// The combination with the smallest violation. Contacts without a choice keep their states in `contact_states`. known:
+  /// known signs of guards, one entry per contact. nullopt: there are no choices or too many, or no combination has unique
+  /// forces.
   [[nodiscard]] std::optional<BestCombination> best_combination(const Instant& instant,
                                                                 const motion::Forcing& forcing,
                                                                 const Block& block,
@@ -53,9 +53,8 @@ class StateEnumeration {
                                                                 const std::vector<KnownGuards>& known,
                                                                 const contact::ContactStates& contact_states);
 
-  /// Condition number of W (decide/delassus.hpp) for the constraint forces of these contacts; W is that of
-  /// the structure with these contacts open. Forces of contact elements follow from displacements and are not
-  /// included. NaN: unknown.
+  /// Condition number of W (decide/delassus.hpp) for the constraint forces of these contacts, W of the structure with these
+  /// contacts open. Spring forces follow from displacements and are not included. NaN: unknown.
   [[nodiscard]] double condition(const std::vector<std::size_t>& contacts,
                                  contact::ContactStates contact_states);
 
@@ -72,8 +71,8 @@ class StateEnumeration {
   motion::JetMaker& jets_;
 };
 
-/// Message about a best combination with an alternative: "several motions continue this one, as 'first'
-/// stick, 'second' slip+ and as ...".
+/// Message about a best combination with an alternative: "several motions continue this one, as 'first' stick, 'second' slip+
+/// and as ...".
 [[nodiscard]] std::string several_motions(const Model& model,
                                           const std::vector<StateEnumeration::Choice>& choices,
                                           const StateEnumeration::BestCombination& best);

@@ -10,11 +10,11 @@
 namespace signorini::linear {
 namespace {
 
-// Three digits: the same loss as for pivots kept from another step size (linear/klu.cpp).
+// Largest tolerated growth: a loss of three digits, as for pivots kept from another step size (linear/klu.cpp).
 constexpr double most_growth = 1e3;
 constexpr std::size_t lanes = 4;
 
-/// row -= factor * pivots, both padded to whole lanes: pivots are zero in the padding.
+/// row -= factor * pivots. Both are padded to whole lanes; pivots are zero in the padding.
 [[gnu::always_inline]] inline void eliminate(double factor, const double* pivots, std::size_t count,
                                              double* row) {
   for (std::size_t c = 0; c < count; c += lanes)
@@ -28,7 +28,7 @@ struct Band {
   double* inverse_pivot;
 };
 
-/// Eliminates rows [begin, end) one by one; sums[i] += |l_ik u_ki|. False: a pivot is zero or NaN.
+/// Eliminates rows [begin, end) one by one and adds |l_ik u_ki| to sums[i]. False: a pivot is zero or NaN.
 SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, std::size_t end) {
   for (std::size_t k = begin - std::min(begin, band.width); k < end; ++k) {
     const double* pivots = band.values + k * band.stride + band.width;
@@ -72,14 +72,14 @@ SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, st
   for (std::size_t i = size - edge; i-- > 0;) back(i, width);
 }
 
-/// solve_band_of() with a width known at compile time.
+/// solve_band_of() for a width that is known at compile time.
 template <std::size_t width>
 void solve_band(std::size_t size, std::size_t stride, const double* values, const double* inverse_pivot,
                 double* b) {
   solve_band_of(width, size, stride, values, inverse_pivot, b);
 }
 
-/// Greatest width known at compile time; it covers chains of nodes with two or three unknowns each.
+/// Largest width with a solver compiled for it; it covers chains of nodes with two or three unknowns each.
 constexpr std::size_t most_unrolled = 8;
 
 }  // namespace

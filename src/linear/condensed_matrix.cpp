@@ -34,7 +34,7 @@ Neighbours neighbours_of(const Model& model, const SystemMatrices& structure) {
   return result;
 }
 
-/// Connected component of `first`, level by level; `seen` marks it.
+/// Connected component of `first`, level by level; sets `seen` for its members.
 std::vector<int> levels_from(int first, const Neighbours& neighbours, std::vector<bool>& seen) {
   std::vector<int> order{first};
   seen[static_cast<std::size_t>(first)] = true;
@@ -80,7 +80,7 @@ BandOrder band_order(const Model& model, const SystemMatrices& structure) {
 
 namespace {
 
-/// Number of changes that are recorded: after more changes, factoring all rows costs less.
+/// Number of changes that are recorded; after more changes, factoring all rows costs less than updating.
 constexpr std::size_t most_remembered = 64;
 
 CondensedRows::ContactCoefficients held_by(const Rows& rows) {
@@ -91,7 +91,7 @@ CondensedRows::ContactCoefficients held_by(const Rows& rows) {
                                           normal.vn,  normal.vt, tangent.gap, tangent.ut, tangent.vn,
                                           tangent.vt, false,     false};
   held.on_motion = moves(normal) || moves(tangent);
-  // N from its own row, then T: no elimination that could lose digits.
+  // N follows from the normal row alone, then T from the tangent row, so no elimination can lose digits.
   held.known = !accelerates && normal.T == 0.0 && normal.N != 0.0 && tangent.T != 0.0;
   return held;
 }
@@ -150,7 +150,7 @@ void CondensedRows::set_rows(std::size_t c, const Rows& rows) {
   unknown_ -= coefficients_[c].known ? 0 : 1;
   coefficients_[c] = held_by(rows);
   unknown_ += coefficients_[c].known ? 0 : 1;
-  if (changed_.size() == most_remembered) {  // discards the earlier half
+  if (changed_.size() == most_remembered) {  // discards the earlier half of the record
     constexpr std::size_t half = most_remembered / 2;
     changed_.erase(changed_.begin(), changed_.begin() + half);
     dropped_changes_ += half;
@@ -194,7 +194,7 @@ void CondensedRows::fill(std::size_t place, const Weights& w, const double* by_N
 
 namespace {
 
-/// Number of rows that are computed again at once: a few widths of a narrow band.
+/// Least number of rows that are factored at once: a few widths of a narrow band.
 constexpr std::size_t rows_at_once = 32;
 
 }  // namespace
@@ -224,8 +224,8 @@ bool CondensedMatrix::factor() {
   return band_.factor();
 }
 
-/// Computes rows of the factors again, from `begin` on until they equal the old ones. Returns the first
-/// unchanged row; nullopt: the factors lose digits.
+/// Factors rows again, from `begin` on, until rows of the factors equal the old ones. Returns the first unchanged row;
+/// nullopt: factoring loses too many digits.
 std::optional<std::size_t> CondensedMatrix::refactor(std::size_t begin) {
   const std::size_t stride = band_.stride(), count = std::max(rows_at_once, 2 * rows_.width());
   before_.resize(count * stride);

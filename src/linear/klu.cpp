@@ -10,27 +10,27 @@
 
 namespace signorini::linear {
 
-// Reads the factors computed by KLU.
+// Reads the factors that KLU has computed.
 //
 //   FactorReader reader;  reader.read(symbolic, numeric, common, true, factors);   after klu_l_factor
 //                         reader.read(symbolic, numeric, common, false, factors);  after klu_l_refactor
 //
-// A factorisation with kept pivots changes values only, so the reader keeps their places.
+// After a refactorisation with kept pivots only values have changed, so the reader keeps all positions.
 
 class FactorReader {
  public:
-  /// pattern: also the indices, after a factorisation with fresh pivots. Errors: runtime_error.
+  /// pattern: true after a factorisation with fresh pivots; the indices are then read, too. Errors: runtime_error.
   void read(klu_l_symbolic* symbolic, klu_l_numeric* numeric, klu_l_common* common, bool pattern,
             TriangularFactors& factors);
 
  private:
   using Columns = TriangularFactors::Columns;
   using Long = SuiteSparse_long;
-  /// Factors in KLU's own format.
+  /// One of KLU's factors in KLU's format.
   struct Raw {
     std::vector<Long> start, row;
     std::vector<double> value;
-    std::vector<std::size_t> from;  // place in this object of each value of the packed columns
+    std::vector<std::size_t> from;  // place in this object, for each value in the packed columns
     [[nodiscard]] std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(start[k]); }
     void resize(std::size_t columns, Long entries);
   };
@@ -48,13 +48,13 @@ namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
 
-// KLU reads only, but its interface is not const.
+// KLU only reads these arrays, but its interface lacks const.
 SuiteSparse_long* raw(const std::vector<std::int64_t>& v) {
   return reinterpret_cast<SuiteSparse_long*>(const_cast<std::int64_t*>(v.data()));
 }
 double* raw(const std::vector<double>& v) { return const_cast<double*>(v.data()); }
 
-// Pivots kept from another step size may lose this much of their quality before new ones are chosen.
+// Fraction of the quality (reciprocal condition) that kept pivots must retain; otherwise new pivots are chosen.
 constexpr double kept_quality = 1e-3;
 
 }  // namespace
@@ -118,7 +118,7 @@ void FactorReader::Raw::resize(std::size_t columns, Long entries) {
   value.resize(static_cast<std::size_t>(entries) + 1);
 }
 
-/// Sorts the columns of each block by level; columns of one level are independent of each other.
+/// Sorts the columns of each block by level. Columns of the same level do not depend on each other.
 void FactorReader::arrange(const std::vector<int>& level, bool backwards, std::vector<int>& columns) const {
   columns.resize(level.size());
   std::iota(columns.begin(), columns.end(), 0);
@@ -132,7 +132,7 @@ void FactorReader::arrange(const std::vector<int>& level, bool backwards, std::v
 }
 
 void FactorReader::order(Raw& raw, bool lower, Columns& c) const {
-  // Diagonals stand first in columns of L and last in those of U.
+  // The diagonal is the first entry in a column of L and the last entry in a column of U.
   const std::size_t n = raw.start.size() - 1, first = lower ? 1 : 0, last = lower ? 0 : 1;
   std::vector<int> level(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -213,7 +213,7 @@ std::size_t TriangularFactors::bytes() const {
          sizeof(double) * (inverse_scale_.size() + inverse_pivot_.size());
 }
 
-/// x_row -= value x_column for the columns number [begin, end) of the sweep.
+/// x_row -= value x_column for columns [begin, end) in the order of the sweep.
 void TriangularFactors::sweep(const Columns& c, std::size_t begin, std::size_t end, double* x) {
   auto p = static_cast<std::size_t>(begin == 0 ? 0 : c.end[begin - 1]);
   const int* row = c.row.data();

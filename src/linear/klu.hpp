@@ -1,6 +1,6 @@
-// klu.hpp: sparse LU by KLU on one pattern.
+// klu.hpp: sparse LU factors by KLU, for many matrices with the same pattern.
 //
-//   A x = b        symbolic analysis once, factor with fresh pivots, refactor with the pivots kept
+//   A x = b        symbolic analysis once; factor with fresh pivots; refactor with kept pivots
 #pragma once
 
 #include <cstddef>
@@ -10,36 +10,35 @@
 
 namespace signorini::linear {
 
-// KLU's factors packed for many solves.
+// KLU's factors, packed in a format that is faster for many solves.
 //
 //   R \ (P A Q) = L U + F       block upper triangular: L, U on the diagonal blocks, F above them
 //   U = D U',  u'_ii = 1        pivots are stored as reciprocals, applied once, not between columns
 //
-// KLU uses 16 bytes for each entry, and divides by pivots and scales. It processes columns in the order of
-// elimination, where most columns depend on the previous one. This format uses 12 bytes, and places
-// independent columns next to each other. Solves outnumber factorisations: an IDA step takes one solve, a
-// step of the series thirty.
+// KLU uses 16 bytes for each entry, divides by pivots and scales, and processes columns in the order of elimination, in which
+// most columns depend on the previous one. This format uses 12 bytes, and places independent columns next to each other.
+// Solves are more frequent than factorisations: an IDA step needs one solve, a step of the Taylor series thirty.
 
 class TriangularFactors {
  public:
-  /// b := A^-1 b; both of length size(), work: scratch.
+  /// b := A^-1 b; b and work have length size(); work: scratch.
   void solve(double* b, double* work) const;
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
-  /// Memory in use.
+  /// Memory in use, in bytes.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   friend class FactorReader;  // linear/klu.cpp
-  /// Entries column after column; those of the i-th column end at end[i].
+  /// Entries column by column; the entries of the i-th column end before index end[i].
   struct Columns {
-    std::vector<int> column, end, row;  // column: in the order of a sweep
+    std::vector<int> column, end, row;  // column: columns in the order of a sweep
     std::vector<double> value;
     [[nodiscard]] std::size_t bytes() const;
   };
   static void sweep(const Columns& c, std::size_t begin, std::size_t end, double* x);
 
   Columns lower_, upper_, off_;
-  std::vector<int> rows_, columns_, blocks_;  // permutations; beginnings of blocks
+  std::vector<int> rows_, columns_, blocks_;  // two permutations; starts of blocks
   std::vector<double> inverse_scale_, inverse_pivot_;
 };
 
@@ -51,9 +50,10 @@ class Klu {
   Klu(const Klu&) = delete;
   Klu& operator=(const Klu&) = delete;
 
-  /// Factors with fresh pivots. False: singular to working precision.
+  /// Factors with fresh pivots. False: the matrix is singular to working precision.
   bool factor(const std::vector<double>& values);
-  /// Factors with the last pivots; falls back to fresh ones where these have become poor.
+  /// Factors with the pivots of the last factorisation, or with fresh pivots if the old ones have become poor. False:
+  /// singular.
   bool refactor(const std::vector<double>& values);
   /// b := A^-1 b.
   void solve(double* b);

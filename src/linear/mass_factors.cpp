@@ -32,7 +32,7 @@ std::vector<ContactForceBlock> contact_force_blocks(const std::vector<Rows>& row
     const ContactForceBlock b{r.normal.N, r.normal.T, r.tangent.N, r.tangent.T};
     const bool accelerates =
         r.normal.an != 0.0 || r.normal.at != 0.0 || r.tangent.an != 0.0 || r.tangent.at != 0.0;
-    // N from its own row, then T: no elimination that could lose digits.
+    // N follows from the normal row alone, then T from the tangent row, so no elimination can lose digits.
     if (accelerates || b.normal_T != 0.0 || b.normal_N == 0.0 || b.tangent_T == 0.0) return {};
     result.push_back(b);
   }
@@ -59,11 +59,11 @@ void MassSolver::solve(double* x, double* work) const {
 
 namespace {
 
-// Limit for the loss of digits by 1 + D Y: three, the same as for pivots kept from another step size
-// (linear/klu.cpp). The inverse loses as many digits as its condition number has; and if D Y is large, the
-// solution is a small difference of x and of Y times its factors.
+// Limit for the loss of digits by 1 + D Y: three digits, as for pivots kept from another step size (linear/klu.cpp). The
+// inverse loses as many digits as its condition number has. If D Y is large, the solution is a small difference of x and a
+// multiple of Y, which loses digits, too.
 constexpr double least_quality = 1e-3;
-// Number of columns of Y that are kept, since the same rows change again.
+// Number of columns of Y that are kept, because the same rows often change again.
 constexpr std::size_t most_columns = 4 * WoodburyFactors::max_rows;
 
 double dot(const ChangedRow& row, const double* x) {

@@ -11,13 +11,13 @@
 namespace signorini::linear {
 namespace {
 
-// A row is dependent if its remainder after removal of all others is below this fraction of it; rounding is
-// smaller.
+// A row is linearly dependent if the part that is orthogonal to all other rows is below this fraction of the row. Rounding
+// errors are smaller than this fraction.
 constexpr double dependent = 1e-12;
 
 }  // namespace
 
-// H = Q R on the columns that are independent of earlier ones, by Gram-Schmidt, applied twice.
+// H = Q R on those columns that are independent of earlier ones, by Gram-Schmidt orthogonalisation, applied twice.
 Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
   const Eigen::Index most = std::min(h.rows(), h.cols());
   Eigen::MatrixXd q(h.rows(), most), r = Eigen::MatrixXd::Zero(most, most), null(h.cols(), 0);
@@ -55,7 +55,7 @@ bool has_share(const Eigen::MatrixXd& null, Eigen::Index i) { return null.row(i)
 
 namespace {
 
-/// dT/dN of a contact at its limit of friction; 0 where T does not follow N.
+/// dT/dN of a contact at its friction limit; 0 if T is independent of N.
 double friction_of_compression(const Rows& rows) {
   return rows.tangent.T != 0.0 ? -rows.tangent.N / rows.tangent.T : 0.0;
 }
@@ -73,12 +73,12 @@ bool RedundantRows::has_mass(const Combination& form) const {
   });
 }
 
-/// Groups of rigid contacts that act on common degrees of freedom; separately, groups of sliders on ground at
-/// rest. The normal forces of sliders are prescribed, and surfaces that move differently constrain no common
-/// motion.
+/// Groups of rigid contacts that act on common degrees of freedom, and separate groups of sliders on ground at rest. Sliders
+/// are separate because their normal forces are given; on moving ground, surfaces with different motions do not constrain a
+/// common motion.
 std::vector<std::vector<std::size_t>> RedundantRows::coupled_groups() const {
   base::DisjointSets sets(model_.contacts.size());
-  std::unordered_map<int, std::size_t> feet, sliders;  // the first that acts on a degree of freedom
+  std::unordered_map<int, std::size_t> feet, sliders;  // first contact on each degree of freedom
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const bool slides = contact.sticks_rigidly() && contact.surface_motion.is_constant();
@@ -107,7 +107,7 @@ RedundantRows::RedundantRows(const Model& model, const SystemMatrices& structure
       if (model.contacts[k].takes_impulses()) rows.push_back(model.layout.normal(k));
       if (model.contacts[k].sticks_rigidly()) rows.push_back(model.layout.tangent(k));
     }
-    // Without friction no group is needed: two walls on both sides of a mass never close together.
+    // Groups without friction are left out: two walls on opposite sides of a mass are never closed together.
     const Eigen::MatrixXd null = null_of_columns(columns(rows));
     bool friction = false;
     for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
@@ -145,7 +145,7 @@ std::vector<SharedForces> RedundantRows::in_force(const std::vector<Rows>& rows)
     shared.null = null_of_columns(h);
     if (shared.null.cols() == 0) continue;
     Eigen::MatrixXd h_f = h;
-    // D: sum of the squares of N and T that belong to a unit of each force.
+    // D: sum of the squares of N and T that a unit of each force produces.
     Eigen::VectorXd squares = Eigen::VectorXd::Ones(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const std::size_t row = shared.rows[static_cast<std::size_t>(i)];

@@ -10,7 +10,7 @@
 namespace signorini::linear {
 
 SystemMatrices::SystemMatrices(const Model& model) : size(model.size()) {
-  // A sum of magnitudes cannot cancel, so its pattern is the union.
+  // Sums of magnitudes cannot cancel, so the pattern of this sum is the union of the three patterns.
   SparseMatrix pattern = model.mass.cwiseAbs() + model.damping.cwiseAbs() + model.stiffness.cwiseAbs();
   pattern.makeCompressed();
   column_start.push_back(0);
@@ -107,11 +107,11 @@ double SystemMatrices::quadratic(const std::vector<double>& values, const double
 namespace {
 
 constexpr std::size_t rows_of_lanes = 4;
-// Greatest number of places in the band per entry: a diagonal of four rows, two loads of matrices and two of
-// motions, costs as much as three entries one by one.
+// Largest number of places in the band per matrix entry for which the band format saves time. One diagonal of four rows (two
+// loads of matrix entries, two of motions) costs as much as three single entries.
 constexpr std::size_t most_of_entries = 3;
 
-/// Blocks of rows whose columns all exist: [first, last).
+/// Blocks of four rows, all columns of which exist, numbered [first, last).
 struct InnerBlocks {
   std::size_t first, last;
 };
@@ -136,7 +136,7 @@ SIGNORINI_WIDE_LANES void subtract_blocks(InnerBlocks blocks, std::size_t width,
   }
 }
 
-/// Calls take(row, diagonal of its block, lane, column) for the entries of rows before and after the inner blocks.
+/// Calls take(row, index of its diagonal in the blocks, lane, column) for the entries of all rows outside the inner blocks.
 template <class Take>
 void at_edges(InnerBlocks blocks, std::size_t size, std::size_t width, const Take& take) {
   const auto rows = [&](std::size_t begin, std::size_t end) {
@@ -211,7 +211,7 @@ StructuralForces::StructuralForces(const Model& model, const SystemMatrices& str
 }
 
 void StructuralForces::apply(double* r) const {
-  // Both products of an entry at once: pairs are one register.
+  // Both products of an entry are computed at once: a pair is one register.
   using Pair = Eigen::Map<const Eigen::Array2d>;
   const double *value = values_.data(), *x = x_.data();
   const int* column = column_.data();

@@ -2,7 +2,7 @@
 //
 //   r = M a + C v + K u        in one pass over the pattern
 //
-// Shapes: n degrees of freedom; compressed columns, rows ascending.
+// n degrees of freedom; matrices are stored by compressed columns, with rows in ascending order.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,19 @@
 
 namespace signorini::linear {
 
-// Forces of a structure with narrow band matrices, four equations at once.
+// Forces of a structure with narrow band matrices, computed for four rows at once.
 //
 //   r_i -= sum_j ( c_ij v_j + k_ij u_j ),   j from i - width to i + width
 //
-// A product column by column would wait for each sum until the previous one is stored. Here four rows are
-// processed in parallel, diagonal by diagonal. Each row adds its terms in the order of the columns, and
-// missing entries add zero, so the results are bitwise the same.
+// In a product column by column each sum must wait until the previous sum is stored. Here four rows are computed in parallel,
+// diagonal by diagonal. Each row adds its terms in the order of the columns and missing entries add zero, so the results are
+// bitwise the same.
 
 class BandedForces {
  public:
   BandedForces() = default;
-  /// Stays empty if the band would have far more places than entries. Compressed columns; c, k: aligned with
-  /// `row`.
+  /// Stays empty if the band would have far more places than the matrices have entries. Pattern by compressed columns; c and
+  /// k are aligned with `row`.
   BandedForces(const std::vector<std::int64_t>& column_start, const std::vector<int>& row,
                const std::vector<double>& c, const std::vector<double>& k);
 
@@ -35,7 +35,7 @@ class BandedForces {
 
  private:
   std::size_t size_ = 0, width_ = 0;
-  std::vector<double> values_;  // four rows, diagonal by diagonal: c of each, k of each
+  std::vector<double> values_;  // blocks of four rows, by diagonals: four entries of c, then four of k
 };
 
 struct SystemMatrices {
@@ -44,24 +44,24 @@ struct SystemMatrices {
   int size = 0;
   std::vector<std::int64_t> column_start;
   std::vector<int> row;
-  std::vector<double> m, c, k;  ///< values of M, C, K, aligned with `row`
+  std::vector<double> m, c, k;  ///< values of M, C and K, aligned with `row`
 
   /// r += M a + C v + K u
   void add_product(const double* a, const double* v, const double* u, double* r) const;
   /// r -= C v + K u
   void subtract_forces(const double* v, const double* u, double* r) const;
-  /// v^T C v, computed from the nonzero entries of one triangle.
+  /// v^T C v, the power dissipated by C, computed from the nonzero entries of one triangle.
   [[nodiscard]] double damping_power(const double* v) const;
-  /// x^T values x
+  /// x^T A x, where `values` are the entries of A: one of m, c, k.
   [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
-  /// Sum of the magnitudes of the terms of quadratic(): its rounding error is relative to it.
+  /// Sum of the magnitudes of all terms of quadratic(), to which its rounding error is relative.
   [[nodiscard]] double magnitude(const std::vector<double>& values, const double* x) const;
-  /// r += values x, for one of m, c, k
+  /// r += A x, where `values` are the entries of A: one of m, c, k.
   void add_product(const std::vector<double>& values, const double* x, double* r) const;
 
  private:
   struct HalfColumn {
-    int column = 0, end = 0;  // end: end of its entries in half_row_
+    int column = 0, end = 0;  // end: end of the column's entries in half_row_
     double diagonal = 0.0;
   };
   BandedForces banded_;
@@ -70,12 +70,12 @@ struct SystemMatrices {
   std::vector<double> half_value_;  // c_ij + c_ji, i < j
 };
 
-// Inertia, damping and elastic forces, one pass over the entries.
+// Sum of inertia, damping and elastic forces, in one pass over the entries.
 //
 //   r = M a + C v + K u = M (a + alpha v) + K (u + beta v) + R v,   C = alpha M + beta K + R
 //
-// R contains discrete dampers and is mostly zero, so an entry costs two numbers instead of three. The product
-// is taken row by row, so that every sum stays in a register. Shapes: n degrees of freedom; unit of r: force.
+// R contains the discrete dampers and is mostly zero, so an entry needs two numbers instead of three. The product is computed
+// row by row, so each sum stays in a register. n degrees of freedom; unit of r: force.
 //
 //   for (i) product.put(i, a[i], v[i], u[i]);
 //   product.apply(r);
@@ -101,8 +101,8 @@ class StructuralForces {
   double alpha_, beta_;
   std::vector<int> row_start_, column_;
   std::vector<double> values_;  // (M, K) of each entry, row by row
-  std::vector<Entry> rest_;     // R
-  std::vector<double> x_, v_;   // factors of the rows, (for M, for K) of each column
+  std::vector<Entry> rest_;     // entries of R
+  std::vector<double> x_, v_;   // x_: pairs (a + alpha v, u + beta v), one per column; v_: v
 };
 
 }  // namespace signorini::linear

@@ -7,12 +7,12 @@
 namespace signorini::linear {
 namespace {
 
-/// The pattern as sets of rows by column, and the look-up of positions once it is complete.
+/// The sparsity pattern: sets of rows, column by column.
 class Pattern {
  public:
   explicit Pattern(int size) : columns_(static_cast<std::size_t>(size)) {}
   void add(int row, int column) { columns_[static_cast<std::size_t>(column)].insert(row); }
-  /// Gives each of these columns the rows of all of them.
+  /// Gives each of these columns the union of their rows.
   void unite(const std::vector<int>& columns) {
     std::set<int> all;
     for (const int j : columns) {
@@ -34,7 +34,7 @@ class Pattern {
   std::vector<std::set<int>> columns_;
 };
 
-/// Rows and columns of forces in the matrix; they follow those of the degrees of freedom.
+/// Rows and columns of contact forces in the matrix; they follow the rows and columns of the degrees of freedom.
 struct ForcePlaces {
   int dofs;
   const ForceLayout& layout;
@@ -48,7 +48,7 @@ struct ForcePlaces {
   [[nodiscard]] std::array<int, 2> of(std::size_t contact) const {
     return {normal(contact), tangent(contact)};
   }
-  /// Places without a force.
+  /// Rows of places that have no force.
   [[nodiscard]] std::vector<int> unused() const {
     std::vector<int> result;
     for (std::size_t place = 0; place < layout.size(); ++place)
@@ -207,7 +207,7 @@ void SystemMatrix::add_shared(const std::vector<Rows>& rows) {
 
 bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
                        const std::vector<UndampedMotion>& undamped) {
-  if (united_) std::fill(values_.begin(), values_.end(), 0.0);  // slots that only a motion fills
+  if (united_) std::fill(values_.begin(), values_.end(), 0.0);  // clears entries of other states
   for (int j = 0; j < structure_.size; ++j) {
     const Weights& w = weights[static_cast<std::size_t>(j)];
     const auto begin = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(j)]);

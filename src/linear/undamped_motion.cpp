@@ -11,13 +11,14 @@
 namespace signorini::linear {
 namespace {
 
-/// x_dof = (normal r + tangent q)/divisor.
+/// Share of a degree of freedom: x_dof = (normal r + tangent q)/divisor.
 struct Share {
   int dof = 0;
   double normal = 0.0, tangent = 0.0, divisor = 1.0;
 };
 
-/// Shares of the two degrees of freedom that are common to both forms, from n . x = r and t . x = q.
+/// Shares of the two degrees of freedom of both forms, from n . x = r and t . x = q; nullopt: the forms differ or are
+/// dependent.
 std::optional<std::array<Share, 2>> shares(const Combination& n, const Combination& t) {
   if (n.terms.size() != 2 || t.terms.size() != 2) return std::nullopt;
   const auto [i, ni] = n.terms[0];
@@ -70,7 +71,7 @@ namespace {
 
 using SparseRow = std::map<int, double>;
 
-/// a += factor b; cancelled entries are removed.
+/// a += factor b. Entries that cancel up to rounding are removed.
 void add_row(SparseRow& a, double factor, const SparseRow& b) {
   for (const auto& [dof, value] : b) {
     double& entry = a[dof];
@@ -80,7 +81,7 @@ void add_row(SparseRow& a, double factor, const SparseRow& b) {
   }
 }
 
-/// Form of the velocity that a row depends on, restricted to degrees of freedom with neither mass nor damper.
+/// Velocity on which the row depends, as a form restricted to degrees of freedom with neither mass nor damper.
 SparseRow velocity_of(const Form& row, const Contact& contact, const std::vector<DofKind>& own) {
   SparseRow result;
   const auto add = [&](const Combination& form, double factor) {
@@ -96,7 +97,7 @@ SparseRow velocity_of(const Form& row, const Contact& contact, const std::vector
   return result;
 }
 
-/// Rows in reduced form: each is one at its own column, where all others are zero.
+/// Linearly independent rows in reduced form: each row is one in its pivot column, where all other rows are zero.
 class Elimination {
  public:
   void add(SparseRow row) {
@@ -124,10 +125,10 @@ class Elimination {
   [[nodiscard]] const std::map<int, SparseRow>& rows() const { return rows_; }
 
  private:
-  std::map<int, SparseRow> rows_;  // by column
+  std::map<int, SparseRow> rows_;  // rows by pivot column
 };
 
-/// Forms of all velocities that rows of the contact depend on in some state.
+/// Forms of all velocities on which rows of the contact depend in some state.
 std::vector<Combination> velocities_of(const Contact& contact) {
   if (!contact.obeys_coulomb()) {
     Combination both = contact.normal;

@@ -1,11 +1,11 @@
-// undamped_motion.hpp: motions without mass that the dashpots of a contact state do not resist.
+// undamped_motion.hpp: massless motions that the dashpots of a contact state do not damp.
 //
 //   d_k . z = 0,  z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p
 //
-// d_k: the form of the velocity in a row of the contact state, such as g' in kn g + cn g'. It contains only
-// degrees of freedom with neither mass nor damper. As many of these as there are independent d_k count as
-// damped. Every other one, p, represents a motion z along which forces are in equilibrium at every instant.
-// Motions that the structure itself leaves undamped: model/massless.hpp.
+// d_k: form of the velocity in a row of the contact state, such as g' in kn g + cn g', restricted to degrees of freedom with
+// neither mass nor damper. There are as many damped degrees of freedom among these as independent d_k. Each remaining one, p,
+// represents a motion z along which forces are in equilibrium at every instant. For motions that the structure itself leaves
+// undamped see model/massless.hpp.
 #pragma once
 
 #include <utility>
@@ -19,45 +19,44 @@ namespace signorini::linear {
 
 // Motions of degrees of freedom that a single contact prescribes.
 //
-//   n . x = r,  t . x = q      rows g'' = 0 and ut'' = s'' of one contact, and likewise for velocities
-//   x_i = (a r + b q)/d        forms of a single term each, or both of the same two degrees of freedom
+//   n . x = r,  t . x = q      rows g'' = 0 and ut'' = s'' of one contact; the same for velocities
+//   x_i = (a r + b q)/d        each form has one term, or both have the same two degrees of freedom
 //
-// Such degrees of freedom are set exactly, without the rounding of an elimination. So there is no drift, and
-// a body at rest on an incline does not move at all, as on level ground.
+// Such degrees of freedom are set exactly, without the rounding errors of an elimination. So there is no drift, and a body at
+// rest on an incline does not move at all, like a body on level ground.
 
-/// A degree of freedom whose acceleration a contact's rows prescribe: (normal r + tangent q)/divisor.
+/// A degree of freedom whose acceleration the rows of a contact prescribe: (normal r + tangent q)/divisor.
 struct PrescribedDof {
   std::size_t dof = 0, contact = 0;
   double normal = 0.0, tangent = 0.0, divisor = 1.0;
 };
 
-/// All degrees of freedom that the rows prescribe; rows: one entry for each contact.
+/// All degrees of freedom that the rows prescribe. rows: one entry per contact.
 [[nodiscard]] std::vector<PrescribedDof> prescribed_dofs(const Model& model, const std::vector<Rows>& rows);
 
-/// Sets x such that form . x = value exactly, if the form has a single term; else x is unchanged.
+/// Sets x so that form . x = value exactly, if the form has a single term; otherwise x is unchanged.
 void set_exactly(const Combination& form, double value, Vector& x);
-/// Sets x such that n . x = r and t . x = q exactly, if the forms have a single term each or the same two
-/// degrees of freedom; else x is unchanged.
+/// Sets x so that n . x = r and t . x = q exactly, if each form has a single term or both have the same two degrees of
+/// freedom; otherwise x is unchanged.
 void set_exactly(const Combination& n, double r, const Combination& t, double q, Vector& x);
 
-/// A motion z without mass and damping.
+/// A motion z that has neither mass nor damping; z_dof = 1.
 struct UndampedMotion {
-  int dof = 0;                                 ///< p
-  std::vector<std::pair<int, double>> others;  ///< damped degrees of freedom, and z there
+  int dof = 0;                                 ///< the representing degree of freedom p
+  std::vector<std::pair<int, double>> others;  ///< damped degrees of freedom i, with z_i
 };
 
-/// Kind of each unknown in the equations of a contact state, and the undamped massless motions of that state.
+/// Kind of each degree of freedom in the equations of a contact state, and the undamped massless motions of that state.
 struct MotionKinds {
-  std::vector<DofKind> kinds;  ///< one for each degree of freedom
+  std::vector<DofKind> kinds;  ///< one entry per degree of freedom
   std::vector<UndampedMotion> undamped;
 };
 
-/// Kinds and motions in a contact state with these rows. own: kinds by the structure alone (dof_kinds).
+/// Kinds and motions in a contact state with these rows. own: kinds from the structure alone (dof_kinds).
 [[nodiscard]] MotionKinds kinds_in_states(const std::vector<DofKind>& own, const Model& model,
                                           const std::vector<Rows>& rows);
 
-/// Lists of two or more degrees of freedom that may occur together in one UndampedMotion, in any contact
-/// state.
+/// Lists of two or more degrees of freedom that may occur in the same UndampedMotion in some contact state.
 [[nodiscard]] std::vector<std::vector<int>> undamped_together(const std::vector<DofKind>& own,
                                                               const Model& model);
 

@@ -25,7 +25,7 @@ bool has_massless(const Model& model) {
 
 namespace {
 
-/// Scales, frequencies and factors are those of the whole, so that decisions that depend on them agree.
+/// A model with the scales, frequencies and factors of the whole, so that decisions that depend on them agree in all parts.
 Model common_to_parts(const Model& whole) {
   Model model;
   model.units = whole.units;
@@ -40,8 +40,8 @@ Model common_to_parts(const Model& whole) {
   return model;
 }
 
-/// Block of a matrix on `dofs`. place: place of each degree of freedom of the whole in the part; -1: not in
-/// the part.
+/// Block of a matrix for the degrees of freedom `dofs`. place: index in the part for each degree of freedom of the whole; -1:
+/// not in the part.
 SparseMatrix block_of(const SparseMatrix& a, const std::vector<int>& dofs, const std::vector<int>& place) {
   const auto n = static_cast<int>(dofs.size());
   std::vector<Eigen::Triplet<double>> entries;

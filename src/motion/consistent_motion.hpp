@@ -1,9 +1,9 @@
-// consistent_motion.hpp: forces and accelerations that follow from u and v at one instant in a contact state.
+// consistent_motion.hpp: forces and accelerations that are consistent with u and v at one instant in a contact state.
 //
 //   M a + C v + K u + sum ( n N + t T ) = P,   rows of the state     for a, N, T and v of massless parts
 //
-// For massless degrees of freedom without damping the equation itself yields u, its first derivative v and
-// its second derivative a. For damped ones it yields v, and its first derivative a.
+// For massless degrees of freedom without damping the equation itself determines u; its first derivative determines v, its
+// second derivative a. For massless degrees of freedom with damping the equation determines v, its first derivative a.
 #pragma once
 
 #include "motion/taylor.hpp"
@@ -14,20 +14,20 @@ class ConsistentMotion {
  public:
   explicit ConsistentMotion(StateSystems& systems) : taylor_(systems) {}
 
-  /// Computes forces, accelerations and v of massless degrees of freedom that are consistent with u and v.
+  /// Computes forces, accelerations and the v of massless degrees of freedom from u and v, and writes them into the point.
   void make(const StateSystemPtr& system, const Forcing& forcing, double t, Point& point) {
     taylor_.expand(system, forcing, t, point.u, point.v, taylor_.massless() ? 1 : 0, 1.0, series_);
     point = {series_.u.col(0), series_.u.col(1), series_.forces.col(0), 2.0 * series_.u.col(2)};
   }
 
-  /// Writes all accelerations that are consistent with u and v into the point, including massless degrees of freedom;
-  /// u, v and forces remain unchanged.
+  /// Computes all accelerations, including those of massless degrees of freedom, and writes them into the point. u, v and
+  /// forces stay unchanged.
   void accelerate(const StateSystemPtr& system, const Forcing& forcing, double t, Point& point) {
     taylor_.expand(system, forcing, t, point.u, point.v, taylor_.massless() ? 2 : 0, 1.0, series_);
     point.a = 2.0 * series_.u.col(2);
   }
 
-  /// True if there are massless degrees of freedom, whose accelerations make() leaves at zero.
+  /// True if there are massless degrees of freedom; make() sets their accelerations to zero.
   [[nodiscard]] bool massless() const { return taylor_.massless(); }
 
  private:

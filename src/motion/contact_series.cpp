@@ -50,7 +50,7 @@ void ContactSeries::fill_rate(Field field) const {
     out[k] = field == vn   ? rate * g[k + 1]
              : field == vt ? rate * slip[k + 1]
              : field == an ? second * g[k + 2]
-                           : 0.0;  // no applied normal force
+                           : 0.0;  // without an applied normal force its rate is zero
   }
   valid_[field] = true;
 }
@@ -60,7 +60,7 @@ void ContactSeries::bound_rates(double x) {
   std::array<const double*, bounded.size()> a{};
   std::array<double, bounded.size()> rate{};
   for (std::size_t f = 0; f < bounded.size(); ++f) a[f] = coefficients(bounded[f]);
-  for (std::size_t k = degree_; k >= 1; --k)  // four independent sums at once
+  for (std::size_t k = degree_; k >= 1; --k)  // four independent sums in one loop
     for (std::size_t f = 0; f < bounded.size(); ++f)
       rate[f] = rate[f] * x + static_cast<double>(k) * std::abs(a[f][k]);
   for (std::size_t f = 0; f < bounded.size(); ++f) rates_[bounded[f]] = rate[f];

@@ -1,9 +1,9 @@
-// contact_series.hpp: motion and forces of contacts on a step, as polynomials.
+// contact_series.hpp: motion and forces of a contact on a time step, as polynomials of x.
 //
-//   f(t + s x) = sum_k f_k x^k  for N, T, g, ut, g', ut', g'', q', and ut of the body (slide)
+//   f(t + s x) = sum_k f_k x^k  for N, T, g, ut, g', ut', g'', q', and ut of the touching body (slide)
 //
-// A guard is a linear form on these, so it is a polynomial too. Rates are computed from g and ut on request: most
-// guards use none.
+// A guard is a linear form on these quantities, so it is a polynomial, too. Polynomials of rates are computed from g and ut
+// on request, because most guards need none.
 #pragma once
 
 #include <array>
@@ -14,25 +14,25 @@
 
 namespace signorini::motion {
 
-/// Value at x of a polynomial of degree + 1 coefficients, ascending.
+/// Value at x of a polynomial; a: its degree + 1 coefficients, in ascending order.
 [[nodiscard]] inline double value_at(const double* a, std::size_t degree, double x) {
   double sum = a[degree];
   for (std::size_t k = degree; k-- > 0;) sum = sum * x + a[k];
   return sum;
 }
 
-/// Converts coefficients about 0 to coefficients about x.
+/// Converts the coefficients about 0 in `a` to coefficients about x.
 inline void shift(double* a, std::size_t degree, double x) {
   for (std::size_t j = 0; j < degree; ++j)
     for (std::size_t k = degree; k-- > j;) a[k] += x * a[k + 1];
 }
 
-/// Polynomials of one contact; each has `degree + 1` coefficients.
+/// Polynomials of one contact; each has degree + 1 coefficients.
 class ContactSeries {
  public:
   enum Field : std::size_t { N, T, gap, ut, vn, vt, an, applied_normal_force_rate, slide, fields };
 
-  /// Takes the polynomials of contact number `index` from a series of the structure.
+  /// Computes the polynomials of contact number `index` from a series of the structure.
   void fill(const Contact& contact, std::size_t index, const Series& series, std::size_t degree);
   /// Allocates polynomials to be filled by the caller; all are zero.
   void reset(std::size_t degree) {
@@ -49,26 +49,26 @@ class ContactSeries {
     if (!valid_[field]) fill_rate(field);
     return values_.data() + row_of(field) * stride();
   }
-  /// Place in the structure's series where x is 0 for these coefficients; value() and integral() take x of the
-  /// structure's series.
+  /// Position x in the structure's series that is 0 for these coefficients. value() and integral() take x of the structure's
+  /// series.
   void set_origin(double origin) { origin_ = origin; }
   [[nodiscard]] double origin() const { return origin_; }
-  /// Computes upper bounds of |f'| within x of the origin, for the quantities whose extremes are searched: N,
-  /// T, gap and slide.
+  /// Computes upper bounds of |f'| up to a distance x from the origin, for the quantities whose extremes are searched: N, T,
+  /// gap and slide.
   void bound_rates(double x);
-  /// Upper bound of |f'| by bound_rates(); infinite if it was not called since fill().
+  /// Upper bound of |f'| from bound_rates(); infinite if bound_rates() was not called after fill().
   [[nodiscard]] double rate(Field field) const { return rates_[field]; }
-  /// out[0 .. degree]: coefficients of the form, about the origin.
+  /// out[0 .. degree]: coefficients of the form about the origin.
   void combine(const Form& form, double* out) const;
   /// Properties of a guard's polynomial about the origin.
   struct GuardSeries {
     std::size_t degree = 0;
-    double truncation_bound = 0.0;  ///< upper limit of the sum of terms of higher orders
-    double terms = 0.0;             ///< sum of the magnitudes of the terms in products
+    double truncation_bound = 0.0;  ///< upper bound of the sum of all omitted terms of higher order
+    double terms = 0.0;             ///< sum of the magnitudes of the terms in products of forms
   };
-  /// out[0 .. most_degree]: coefficients of the guard; reach: the greatest distance from the origin.
+  /// out[0 .. most_degree]: coefficients of the guard about the origin. reach: largest distance from the origin that is used.
   GuardSeries expand(const GuardForm& guard, double reach, std::size_t most_degree, double* out) const;
-  /// Sum of the magnitudes of the form's terms at distances up to reach.
+  /// Upper bound of the sum of the magnitudes of the form's terms, at distances up to `reach` from the origin.
   [[nodiscard]] double magnitude(const Form& form, double reach) const;
   [[nodiscard]] double value(Field field, double x) const {
     return value_at(coefficients(field), degree_, x - origin_);
@@ -88,19 +88,19 @@ class ContactSeries {
     rates.fill(std::numeric_limits<double>::infinity());
     return rates;
   }
-  /// Distance from one row to the next: g and ut have two more orders, for their rates.
+  /// Number of doubles from one row to the next. g and ut have two more coefficients, from which rates are computed.
   [[nodiscard]] std::size_t stride() const { return degree_ + 3; }
   [[nodiscard]] std::size_t row_of(Field field) const { return field == slide ? slide_row_ : field; }
-  /// Fills the row of vn, vt or an from the coefficients of g and ut; rows of other rates with zeros.
+  /// Fills the row of vn, vt or an from the coefficients of g and ut; fills the row of another rate with zeros.
   void fill_rate(Field field) const;
 
   std::size_t degree_ = 0;
   double origin_ = 0.0, scale_ = 1.0;
   std::array<double, fields> rates_ = unbounded();
-  std::size_t slide_row_ = slide;  // row of ut, if the body's ut is the same
+  std::size_t slide_row_ = slide;  // row of ut if the body has the same ut as the contact
   mutable std::vector<double> values_;
-  mutable std::array<bool, fields> valid_{};           // rows of values_ that are filled
-  mutable std::vector<double> factor_, other_factor_;  // factors of a product
+  mutable std::array<bool, fields> valid_{};           // rows of values_ that contain valid coefficients
+  mutable std::vector<double> factor_, other_factor_;  // coefficients of the factors of a product
 };
 
 }  // namespace signorini::motion

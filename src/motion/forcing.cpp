@@ -64,7 +64,7 @@ void Forcing::add_load(double t, int order, double* P, double factor) const {
 }
 
 std::size_t Forcing::surface_terms(std::size_t k) const {
-  constexpr std::size_t of_wave = 13, of_function = 9;  // user functions provide orders up to 8
+  constexpr std::size_t of_wave = 13, of_function = 9;  // user-defined functions have orders up to 8
   const Piece& p = *surface_[k];
   return std::max({p.coefficients.size(), std::size_t{1}, p.amplitude != 0.0 ? of_wave : 0,
                    p.function ? of_function : 0});

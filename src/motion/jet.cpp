@@ -10,22 +10,23 @@
 namespace signorini::motion {
 namespace {
 
-// Noise per difference of the two computations; larger than one, because the difference is a single sample.
+// Noise = this factor times the difference of both computations. It is larger than one because the difference is only one
+// sample of the rounding errors.
 constexpr double noise_factor = rounding::many_operations / rounding::eps / DataPerturbation::max_roundings;
 
-// Noise of a form on data, relative to the sum of its terms: the largest sample of their rounding, and the
-// rounding of the sum.
+// Noise of a form on given data, relative to the sum of the magnitudes of its terms. It covers the largest perturbation of
+// the data and the rounding of the sum.
 constexpr double of_data = 2.0 * rounding::many_operations;
 
-constexpr std::size_t known = MotionJet::orders + 2;  // number of derivatives used by the orders of a motion
+constexpr std::size_t known = MotionJet::orders + 2;  // number of derivatives that the orders of a motion use
 
-/// Derivatives of N, T, g and ut of one contact, with the sizes of the terms in the latter two.
+/// Derivatives of N, T, g and ut of one contact; for g and ut also the magnitudes of their terms.
 struct Derivatives {
   std::array<double, known> N{}, T{}, gap{}, ut{}, limit{}, gap_terms{}, ut_terms{};
 };
 
-/// Derivatives of the limit of friction that depends on N, with N from g or q. One order more than the motion, for its
-/// rate.
+/// Derivatives of the limit F of friction that depends on N; N follows from g or q. One order more than the motion is
+/// computed, for the rate of F.
 void fill_limit(const Contact& contact, std::size_t c, const Series& series, std::size_t last,
                 Derivatives& d) {
   const double* applied = series.forcing.applied_normal_force.data() + c * series.forcing.count;
@@ -42,8 +43,8 @@ void fill_limit(const Contact& contact, std::size_t c, const Series& series, std
   }
 }
 
-/// Fills derivatives from a series of scale 1: they are k! times the coefficients, as far as orders 0 .. last of a
-/// motion need them; with_terms: also the sizes of their terms.
+/// Computes the derivatives that orders 0 .. last of a motion need from a series of scale 1: k! times the coefficients.
+/// with_terms: also computes the magnitudes of their terms.
 void fill(const Model& model, std::size_t c, const Series& series, std::size_t last, bool with_terms,
           Derivatives& d) {
   const Contact& contact = model.contacts[c];
@@ -69,7 +70,7 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
   if (contact.friction.is_load_dependent()) fill_limit(contact, c, series, last, d);
 }
 
-/// The k-th derivative; applied: coefficients of the applied normal force, factorial: k!.
+/// Motion of order k, which is its k-th derivative. applied: coefficients of the applied normal force; factorial: k!.
 ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double* applied, double factorial) {
   ContactMotion m;
   m.N = d.N[k];
@@ -92,7 +93,7 @@ ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double*
 JetMaker::JetMaker(StateSystems& systems)
     : model_(systems.model()),
       taylor_(systems),
-      // u^(k) of massless degrees of freedom is known one or two levels later.
+      // For massless degrees of freedom u^(k) is known one or two levels later.
       levels_(taylor_.massless() ? Jet::orders + 2 : Jet::orders) {}
 
 Jet JetMaker::expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
@@ -126,7 +127,7 @@ Jet JetMaker::make(const StateSystemPtr& system, const Forcing& forcing, double 
   return jet;
 }
 
-/// Computes order by order, as far as requested.
+/// Computes order by order, until no contact needs a higher order.
 void JetMaker::expand_undecided(const StateSystem& system, const Forcing& forcing,
                                 const DataPerturbation& disturbance, const StopCriterion& enough,
                                 std::vector<MotionJet>& result) {
@@ -147,7 +148,7 @@ void JetMaker::expand_undecided(const StateSystem& system, const Forcing& forcin
   }
 }
 
-/// Sums over the balance of forces at the degrees of freedom of a contact.
+/// Sums of the magnitudes of terms in the balance of forces at the degrees of freedom of a contact.
 JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows, double factorial,
                                        std::size_t k) const {
   const auto terms = taylor_.terms().col(static_cast<Eigen::Index>(k));
@@ -170,7 +171,7 @@ JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows,
           rows.tangent.at != 0.0 ? factorial * size(t) / squared(t) : 0.0};
 }
 
-/// Computes orders first .. last of a motion, without their noise.
+/// Computes orders first .. last of a contact's motion, without noise.
 void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJet& result) const {
   Derivatives a;
   fill(model_, c, series_, last, false, a);
@@ -182,10 +183,10 @@ void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJ
   }
 }
 
-/// Computes orders first .. last of a motion, with their noise.
+/// Computes orders first .. last of a contact's motion, with noise.
 void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t first, std::size_t last,
                        MotionJet& result) const {
-  // A single sample of rounding can be small by chance, so the terms of each sum count as well.
+  // A single sample of rounding can be small by chance, so the rounding of the terms of each sum is added.
   const auto noise = [](double x, double y, double size) {
     return noise_factor * std::abs(x - y) + rounding::many_operations * size;
   };
@@ -200,7 +201,7 @@ void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t fir
     if (k < first) continue;
     ContactMotion &m = result.motion[k], &d = result.noise[k];
     m = motion_of_order(a, k, applied, factorial);
-    // The sizes of the terms of each row bound the rounding of its force.
+    // The magnitudes of the terms of each row bound the rounding of the row's force.
     ContactMotion terms;
     terms.gap = a.gap_terms[k];
     terms.ut = a.ut_terms[k];
@@ -224,7 +225,8 @@ void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t fir
     d.ut = noise(a.ut[k], b.ut[k], terms.ut);
     d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
     if (k == 0) {
-      // u and v with mass are data: this bounds a sample of their rounding for every orientation of the scene.
+      // u and v of degrees of freedom with mass are data. This bounds their rounding errors for every orientation of the
+      // scene.
       d.gap = std::max(d.gap, of_data * terms.gap);
       d.vn = std::max(d.vn, of_data * terms.vn);
     }

@@ -1,14 +1,11 @@
-// jet.hpp: derivatives of the motion on one side of an instant, exact for the linear system of a contact
-// state.
+// jet.hpp: time derivatives of the motion on one side of an instant, exact for the linear system of a contact state.
 //
 //   M u^(k+2) + C u^(k+1) + K u^(k) + sum ( n N^(k) + t T^(k) ) = P^(k),   d^k/dt^k of the state's rows
 //
-// The derivatives are those of motion/taylor.hpp.
-//
-// Each jet is computed twice, the second time with data and right-hand sides perturbed by some roundings. The
-// difference shows which entries are zero to working precision. Most contacts are far from a change of state,
-// so that value and rate decide their state. The second computation ends with the last order that some
-// contact needs.
+// The derivatives are computed by motion/taylor.hpp. Each jet is computed twice, the second time with data and right-hand
+// sides perturbed by a few rounding errors; the difference shows which entries are zero to working precision. For most
+// contacts, which are far from a change of state, value and rate already decide the state. So the second computation ends
+// with the highest order that some contact needs.
 #pragma once
 
 #include <functional>
@@ -18,49 +15,48 @@
 
 namespace signorini::motion {
 
-/// Derivatives at t, order k in column k. u: n rows; forces: of all contacts, in the order of the model's
-/// layout.
+/// Derivatives at t; column k: order k. u: n rows; forces: forces of all contacts, in the order of the model's layout.
 struct Jet {
-  /// Greatest order of contact motions that is needed to decide their states.
+  /// Largest order of contact motions that may be needed to decide contact states.
   static constexpr int orders = static_cast<int>(MotionJet::orders) - 1;
 
   double t = 0.0;
   Eigen::MatrixXd u, forces;
-  StateSystemPtr system;  ///< system of the contact state, with friction at this instant's slip rates
+  StateSystemPtr system;  ///< system of the contact state, with friction at the slip rates of this instant
 
-  /// True for a jet of JetMaker. Local jets (motion/local_derivatives.hpp) end with accelerations and the
+  /// True for a jet of JetMaker. A local jet (motion/local_derivatives.hpp) contains only u, v, accelerations, forces and
   /// rates of forces.
   [[nodiscard]] bool is_complete() const { return forces.cols() > orders; }
   [[nodiscard]] auto v() const { return u.col(1); }
   [[nodiscard]] auto a() const { return u.col(2); }
 };
 
-/// Computes jets; the memory for the underlying series belongs to this object.
+/// Computes jets. The object owns the memory of the series that it uses.
 class JetMaker {
  public:
   explicit JetMaker(StateSystems& systems);
 
-  /// Predicate: true if no query about the contact needs more than the noise of the first `orders` orders of
-  /// its motion. The motion itself is known to one order more.
+  /// Predicate: true if `orders` orders of the contact's motion, with their noise, are enough for all later queries. The
+  /// motion without noise is known to one order more.
   using StopCriterion = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
 
-  /// The jet at t from u and v (v of massless degrees of freedom is not read).
+  /// Jet at t from u and v; v of massless degrees of freedom is ignored and computed.
   [[nodiscard]] Jet expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                            const Vector& v);
-  /// Same, and computes the motion of every contact, orders 0 to Jet::orders, with its noise. If `enough` is
-  /// given, orders that no query needs are not computed, and are undefined. Computed values are bitwise the
-  /// same. The motion of contacts that order 0 does not decide is complete. `second` replaces `forcing` in
-  /// the second computation, so that the difference between the two forcings counts as noise, too.
+  /// Same, but also computes orders 0 to Jet::orders of the motion of every contact, with their noise. If `enough` is given,
+  /// orders that no query needs are left undefined; computed values are bitwise the same. For contacts that order 0 does not
+  /// decide, the motion is complete. `second` replaces `forcing` in the second computation, so that the difference of the two
+  /// forcings is part of the noise.
   [[nodiscard]] Jet make(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                          const Vector& v, std::vector<MotionJet>& motions, const StopCriterion& enough = {},
                          const Forcing* second = nullptr);
 
  private:
-  /// Sums of the magnitudes of the terms whose differences are the accelerations and forces of a contact.
+  /// Sums of the magnitudes of the terms whose differences give the accelerations and the forces of a contact.
   struct Balance {
     double an, at, N, T;
   };
-  /// N and T are nonzero only if the contact's row contains an acceleration.
+  /// Balance of a contact; its N and T are nonzero only if the contact's row contains an acceleration.
   [[nodiscard]] Balance balance_of(const Contact& contact, const Rows& rows, double factorial,
                                    std::size_t k) const;
   void expand_undecided(const StateSystem& system, const Forcing& forcing,
@@ -72,7 +68,7 @@ class JetMaker {
 
   const Model& model_;
   Taylor taylor_;
-  Series series_, perturbed_;  // series of the last jet
+  Series series_, perturbed_;  // both series of the last jet
   int levels_;
 };
 

@@ -11,25 +11,25 @@
 namespace signorini::motion {
 namespace {
 
-/// Number of elements added to the radius: each order spreads a change by one element by M^-1, and one by K.
+/// Number of elements added to the radius of W: each order spreads a change by one element through M^-1 and one through K.
 constexpr int spread = 2 * (Jet::orders + 1);
-/// Limit for the number of contacts that are expanded locally, one by one; with more the whole structure is
-/// used. Chosen.
+/// Limit for the number of contacts that are expanded locally, one by one. With more contacts the whole structure is used.
+/// Chosen value.
 constexpr std::size_t most_open = 6;
 
-/// True if some guard contains an acceleration, whose order 1 is not known here.
+/// True if some guard contains an acceleration, whose order 1 is not computed here.
 bool accelerates(const Contact& contact, const ContactState& state) {
   for (const GuardForm& guard : contact::guards(contact, state))
     if (guard.kind != Guard::none && (guard.form.an != 0.0 || guard.form.at != 0.0)) return true;
   return false;
 }
 
-/// Entries of a column of M^-1 below of_nothing_here times its greatest one are rounding. A column saves no
-/// time if more than 1 / part_of_structure of its entries remain.
+/// Entries of a column of M^-1 that are below of_nothing_here times the largest entry are rounding. A column saves time only
+/// if at most 1 / part_of_structure of its entries remain.
 constexpr double of_nothing_here = rounding::eps / 16.0;
 constexpr std::size_t part_of_structure = 4;
 
-/// Forces of the surrounding structure on the neighbourhood at order 0.
+/// Forces of order 0 that the surrounding structure exerts on the neighbourhood.
 Vector from_outside(const Neighbourhood& near, const Point& now) {
   Vector P = Vector::Zero(near.model.size());
   for (const Neighbourhood::Coupling& tie : near.couplings)
@@ -67,8 +67,8 @@ LocalDerivatives::LocalDerivatives(StateSystems& systems, int least)
   }
 }
 
-/// Same results, bit by bit, as motion_of(), order_one() and bound_rounding() for a soft contact that is not driven and
-/// whose surface is at rest.
+/// Motion, rate and rounding of a soft contact that is not driven and whose surface is at rest. The results are bitwise those
+/// of motion_of(), order_one() and bound_rounding().
 void LocalDerivatives::set_soft_motion(const Rows& rows, double surface, const Point& now,
                                        std::size_t contact, MotionJet& result) const {
   const Soft& c = soft_[contact];
@@ -115,7 +115,7 @@ void LocalDerivatives::set_soft_motion(const Rows& rows, double surface, const P
   noise.vt = 3.0 * once * terms.vt;
 }
 
-/// Rate of the motion without g''' and ut'''. Forces follow from their own rows.
+/// Rate of the contact's motion, without g''' and ut'''. Rates of N and T follow from the contact's own rows.
 void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forcing, std::size_t contact,
                                  MotionJet& result) const {
   const Rows& rows = system.rows()[contact];
@@ -131,9 +131,9 @@ void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forci
   d.T = -rows.tangent.rate(d) / rows.tangent.T;
 }
 
-/// Upper limit for the noise of motion/jet.cpp. There the terms count once, and |x - y| once for each
-/// perturbation: of displacements and velocities as data, of N in its row, of T in its own row and through N.
-/// The rounding of x and y themselves is less than one more.
+/// Upper bound of the noise of motion/jet.cpp. That noise is one rounding of the terms plus |x - y| for each perturbation: of
+/// displacements and velocities as data, of N in its row, of T in its row and through N. The rounding errors of x and y
+/// themselves add less than one more.
 void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
                                       std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];
@@ -159,7 +159,7 @@ void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& 
   d.applied_normal_force_rate = once * terms.applied_normal_force_rate;
 }
 
-/// False: the neighbourhood does not decide the contact's state.
+/// Computes the contact's motion on a neighbourhood. False: the neighbourhood does not decide the contact's state.
 bool LocalDerivatives::compute_locally(const StateSystemPtr& system, const Forcing& forcing, const Point& now,
                                        std::size_t contact, const JetMaker::StopCriterion& enough,
                                        MotionJet& motion) {
@@ -194,8 +194,8 @@ bool LocalDerivatives::compute_locally(const StateSystemPtr& system, const Forci
   return is_enough;
 }
 
-/// True if order 0 decided the contact before and is bitwise unchanged: forces follow from its own rows,
-/// displacements and velocities.
+/// True if order 0 decided the contact before and its motion is bitwise unchanged. Forces follow from the contact's own rows,
+/// displacements and velocities, so only states and accelerations are compared.
 bool LocalDerivatives::is_unchanged(std::size_t contact, const Jet& jet, const PreviousJet& previous) const {
   if (jet.system->states()[contact] != previous.jet.system->states()[contact] ||
       std::binary_search(previous.open.begin(), previous.open.end(), contact))
@@ -206,7 +206,7 @@ bool LocalDerivatives::is_unchanged(std::size_t contact, const Jet& jet, const P
          std::all_of(c.tangent.terms.begin(), c.tangent.terms.end(), same);
 }
 
-/// Orders 0 to 2 of the whole structure; rates of forces are computed later.
+/// Orders 0 to 2 of u in the whole structure, order 0 of forces; the caller computes rates of forces.
 Jet LocalDerivatives::expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                              const Vector& v) {
   taylor_.begin(system, forcing, t, u, v, 0, 1.0, series_);
@@ -217,7 +217,7 @@ Jet LocalDerivatives::expand(const StateSystemPtr& system, const Forcing& forcin
   return jet;
 }
 
-/// Columns of M^-1 for a contact; system: that of any state.
+/// Columns M^-1 n and M^-1 t of a contact. system: the system of any contact state.
 const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contact,
                                                               const StateSystem& system) {
   columns_.resize(model_.contacts.size());
@@ -248,8 +248,8 @@ const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contac
   return columns;
 }
 
-/// Same as expand(), from a known jet for states that differ from its own. nullopt: too many states differ,
-/// or the change reaches far.
+/// Same as expand(), from a known jet in other states, by the effect of contacts whose states differ. nullopt: too many
+/// states differ, or the effect reaches far.
 std::optional<Jet> LocalDerivatives::update(const StateSystemPtr& system, const Forcing& forcing, double t,
                                             const PreviousJet& previous) {
   const contact::ContactStates &states = system->states(), &before = previous.jet.system->states();
@@ -264,7 +264,7 @@ std::optional<Jet> LocalDerivatives::update(const StateSystemPtr& system, const 
   for (const std::size_t c : others) {
     const Contact& contact = model_.contacts[c];
     const Rows& rows = system->rows()[c];
-    ContactMotion m;  // the part without forces
+    ContactMotion m;  // motion without forces
     contact::set_displacement(contact, jet.u.col(0), forcing.surface(c, t, 0), m);
     contact::set_velocity(contact, jet.u.col(1), forcing.surface(c, t, 1), m);
     m.applied_normal_force = forcing.applied_normal_force(c, t, 0);
@@ -327,7 +327,7 @@ struct Columns {
   double factor;
 };
 
-/// Rows i to i + count lanes of T.
+/// Computes rows i to i + count * lanes of the products.
 template <class T, std::size_t count>
 [[gnu::always_inline]] inline void some_rows(const Columns& c, std::size_t i, double* y) {
   constexpr std::size_t lanes = sizeof(T) / sizeof(double);

@@ -1,17 +1,16 @@
-// local_derivatives.hpp: the motion that a decision needs, computed near the contacts concerned.
+// local_derivatives.hpp: the motion for a decision of contact states, computed only near the contacts concerned.
 //
-//   M a = P - C v - K u - sum ( n N + t T )        everywhere, once; with it every guard's value and rate
+//   M a = P - C v - K u - sum ( n N + t T )        everywhere, once; gives every guard's value and rate
 //   |guard| > rounding + resolution |guard'|       decides the states of most contacts
-//   derivatives of higher order                    of the others, each on a neighbourhood W (motion/jet.hpp)
-//   a - M^-1 (n dN + t dT)                         for other states at the same u and v: dN, dT of contacts
+//   derivatives of higher order                    for other contacts, each on a neighbourhood W
+//   a - M^-1 (n dN + t dT)                         in other states with the same u and v: dN, dT of contacts
 //                                                  whose state differs
 //
-// W: motion/neighbourhoods.hpp. The structure outside W acts on it with its forces of order 0. Their noise is the
-// difference between the two computations of a jet (motion/jet.hpp), the second of which omits them. If the guard does
-// not exceed that noise, the neighbourhood does not decide the state.
+// W: motion/neighbourhoods.hpp. The structure outside W acts on W with its forces of order 0. The second of the two
+// computations of a jet (motion/jet.hpp) omits these forces, so their effect is part of the noise. A guard that does not
+// exceed the noise cannot be decided on the neighbourhood.
 //
-// For large structures and states whose forces follow from displacements and velocities alone
-// (linear/mass_factors.hpp).
+// Used for large structures, in states whose forces follow from displacements and velocities alone (linear/mass_factors.hpp).
 #pragma once
 
 #include <cstddef>
@@ -25,24 +24,23 @@ namespace signorini::motion {
 
 class LocalDerivatives {
  public:
-  /// least: smallest number of degrees of freedom for which local jets save time. All arguments must outlive the
-  /// object.
+  /// least: smallest number of degrees of freedom for which local jets are used. All arguments must outlive the object.
   explicit LocalDerivatives(StateSystems& systems, int least = large_structure);
 
-  /// True if local jets can be computed for the model; false once M^-1 was found to decay nowhere.
+  /// True if local jets can be computed for the model; false after M^-1 was found not to decay anywhere.
   [[nodiscard]] bool possible() const { return possible_; }
   struct LocalJet {
     Jet jet;                        ///< orders 0 to 2 of u, orders 0 and 1 of forces
-    std::vector<std::size_t> open;  ///< contacts that order 0 does not decide
+    std::vector<std::size_t> open;  ///< contacts that order 0 of the motion does not decide
   };
-  /// Last result at the same instant, under the same forcing and for the same query, possibly in other states.
+  /// The last result at the same instant, under the same forcing and with the same criterion, possibly in other states.
   struct PreviousJet {
     const Jet& jet;
     const std::vector<std::size_t>& open;
   };
-  /// Same meaning as JetMaker::make. nullopt: the whole structure is needed. With `previous`, `motions` must
-  /// still contain the motions of that jet; they are kept if the other states change neither row nor
-  /// acceleration.
+  /// Same as JetMaker::make(). nullopt: the jet must be computed on the whole structure. With `previous`, `motions` must
+  /// still contain the motions of that jet. A motion is kept if the change of states affects neither the rows nor the
+  /// accelerations of its contact.
   [[nodiscard]] std::optional<LocalJet> make(const StateSystemPtr& system, const Forcing& forcing, double t,
                                              const Vector& u, const Vector& v,
                                              std::vector<MotionJet>& motions,
@@ -50,15 +48,16 @@ class LocalDerivatives {
                                              const std::optional<PreviousJet>& previous = {});
 
  private:
-  /// A soft contact without a dashpot, on translations alone: data for its motion and rounding, contiguous in memory.
+  /// A contact with springs, without dashpot, acting on translations alone. The data for its motion and rounding errors are
+  /// contiguous in memory.
   struct Soft {
     bool valid = false;
-    std::size_t first = 0, middle = 0, end = 0;  // terms of its normal, terms of its tangent
+    std::size_t first = 0, middle = 0, end = 0;  // terms: normal [first, middle), tangent [middle, end)
     double gap = 0.0, normal_squared = 0.0, tangent_squared = 0.0;
   };
-  /// Entries of M^-1 n and M^-1 t of a contact above rounding.
+  /// Entries of M^-1 n and M^-1 t of a contact that are above rounding.
   struct Columns {
-    bool known = false, few = false;  // few: a small part of the structure
+    bool known = false, few = false;  // few: on a small part of the structure
     std::vector<std::pair<Eigen::Index, double>> by_N, by_T;
   };
   [[nodiscard]] const Columns& columns_of(std::size_t contact, const StateSystem& system);
@@ -81,12 +80,12 @@ class LocalDerivatives {
   bool possible_;
   Taylor taylor_;
   Series series_;
-  std::vector<Soft> soft_;                // one for each contact
-  std::vector<Columns> columns_;          // one for each contact
-  std::vector<double> column_, scratch_;  // scratch for one column
+  std::vector<Soft> soft_;                // one entry per contact
+  std::vector<Columns> columns_;          // one entry per contact
+  std::vector<double> column_, scratch_;  // scratch for the computation of one column
   std::vector<std::pair<std::size_t, double>> terms_;
   std::optional<Neighbourhoods> neighbourhoods_;
-  struct Work {  // scratch for one neighbourhood
+  struct Work {  // memory for one neighbourhood
     explicit Work(StateSystems& systems) : jets(systems) {}
     JetMaker jets;
     std::vector<MotionJet> motions;
@@ -94,11 +93,11 @@ class LocalDerivatives {
   std::vector<std::unique_ptr<Work>> work_;
 };
 
-// Two small dense products at once, by columns.
+// The sum of two small dense products, computed in one pass by columns.
 //
 //   y_i = sum_j ( a_ij u_j + b_ij factor w_j ),      a, b: rows x columns, one column after the other
 //
-// Rows are summed four at a time, each in the order of j: the results are bitwise those of the plain loop.
+// Four rows are summed at a time, each in the order of j, so the results are bitwise those of a plain loop.
 
 void fused_products(const double* a, const double* b, std::size_t rows, std::size_t columns, const double* u,
                     const double* w, double factor, double* y);

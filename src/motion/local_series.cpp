@@ -8,11 +8,11 @@
 namespace signorini::motion {
 namespace {
 
-/// Number of elements by which W extends beyond the place where M^-1 falls below rounding: each level of a
-/// series spreads a change by one more element, with decreasing size. Chosen; decays() checks it.
+/// Number of elements by which W extends beyond the region where M^-1 is above rounding. Each level of a series spreads a
+/// change by one more element, with decreasing size. Chosen value; decays() checks it.
 constexpr int spread_of_series = 20;
 
-/// Sorts ascending and removes duplicates.
+/// Sorts the elements in ascending order and removes duplicates.
 template <class T>
 void sort_out(std::vector<T>& of) {
   std::sort(of.begin(), of.end());
@@ -46,8 +46,8 @@ LocalSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
     place_of_crossing.push_back(place_in(across, pull.force));
 }
 
-/// True if the new series equals the old one at the boundary, up to some roundings of the motion there and
-/// next to it.
+/// True if the new series equals the old one at the boundary of W, up to a few rounding errors of the motion there and in the
+/// adjacent elements.
 bool LocalSeries::decays(const Neighbourhood& near, const Work& work, double reach, const Sizes& sizes,
                          const PreviousSeries& previous) const {
   const auto terms_of = [&](const double* a, std::size_t count, int dof) {

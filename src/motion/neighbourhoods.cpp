@@ -10,9 +10,9 @@
 namespace signorini::motion {
 namespace {
 
-/// Entries of a column of M^-1 below this fraction of its largest one are rounding.
+/// Fraction of the largest entry of a column of M^-1 below which entries are rounding.
 constexpr double of_nothing = rounding::eps / 16.0;
-/// Contacts whose distance is at most radius / sharing share a neighbourhood. A neighbourhood has at most
+/// Contacts within the distance radius / sharing of each other share a neighbourhood. A neighbourhood must not have more than
 /// 1 / least_gain of all degrees of freedom. Chosen values.
 constexpr int sharing = 4, least_gain = 4;
 
@@ -57,7 +57,7 @@ Neighbourhoods::Neighbourhoods(StateSystems& systems, int spread)
     root_of_mass_.push_back(std::sqrt(model_.mass.coeff(i, i)));
 }
 
-/// Distance of each degree of freedom from those in `from`, in elements; -1: not connected.
+/// Distance of each degree of freedom from those in `from`, as a number of elements; -1: not connected.
 std::vector<int> Neighbourhoods::distances(const std::vector<int>& from) const {
   std::vector<int> distance(neighbours_.size(), -1), queue = from;
   for (const int dof : from) distance[static_cast<std::size_t>(dof)] = 0;
@@ -70,7 +70,7 @@ std::vector<int> Neighbourhoods::distances(const std::vector<int>& from) const {
   return distance;
 }
 
-/// Distance to which M^-1 n and M^-1 t are above rounding, each entry relative to the response of its own mass.
+/// Distance up to which M^-1 n and M^-1 t are above rounding. Each entry is weighted by the square root of its mass.
 int Neighbourhoods::reach(std::size_t contact, const StateSystem& system,
                           const std::vector<int>& distance) const {
   int farthest = 0;
@@ -110,7 +110,7 @@ std::unique_ptr<Neighbourhood> Neighbourhoods::make(const std::vector<int>& dist
   Model part = linear::restricted(model_, dofs, contacts);
   std::vector<std::size_t> loads;
   for (std::size_t i = 0; i < model_.loads.size(); ++i) {
-    Load load;  // its history is that of the forcing
+    Load load;  // without history: the Forcing contains the histories
     for (const auto& [dof, factor] : model_.loads[i].direction.terms)
       if (inside(dof)) load.direction.terms.emplace_back(place[static_cast<std::size_t>(dof)], factor);
     if (load.direction.terms.empty()) continue;
@@ -156,7 +156,7 @@ Neighbourhood* Neighbourhoods::around(std::size_t contact, const StateSystem& sy
         searched_[c] = true;
         of_contact_[c] = near;
       }
-  searched_[contact] = true;  // the contact may act on no degree of freedom
+  searched_[contact] = true;  // also set if the contact acts on no degree of freedom
   return near;
 }
 

@@ -1,4 +1,4 @@
-// point.hpp: the state at one time, and the motion of a contact in it.
+// point.hpp: the state at one time, and the motion of a contact in this state.
 //
 //   u, v, N, T, a at t  ->  g, ut, g', ut', g'', ut'' of one contact       contact/motion.hpp
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace signorini::motion {
 
-/// Times closer than this are equal for an integrator, by IDA's own measure.
+/// Times closer than this are equal for an integrator; same criterion as in IDA. step: length of the time step.
 [[nodiscard]] inline double resolution_at(double t, double step) {
   return rounding::time_resolution * (std::abs(t) + std::abs(step));
 }
@@ -28,12 +28,12 @@ struct StructureEnergy {
   double kinetic = 0.0, elastic = 0.0;
 };
 
-/// u, v (length n) and forces (signorini/force_layout.hpp) at one time.
+/// Displacements, velocities (length n) and forces (signorini/force_layout.hpp) at one time.
 struct Point {
   Vector u, v, forces;
-  Vector a = {};  ///< empty if not needed
-  /// Energy of u and v, if the engine knows it more accurately than v^T M v and u^T K u: on a fine mesh these are sums
-  /// of terms far greater than their result.
+  Vector a = {};  ///< accelerations; empty if not needed
+  /// Energy of u and v, if the engine knows it more accurately than v^T M v and u^T K u, which on a fine mesh are sums of
+  /// terms far larger than the result.
   std::optional<StructureEnergy> energy = {};
 
   [[nodiscard]] double N(const ForceLayout& layout, std::size_t k) const {
@@ -44,13 +44,13 @@ struct Point {
   }
 };
 
-/// Point on the straight line from a to b, 0 <= x <= 1.
+/// Point on the straight line from a (x = 0) to b (x = 1).
 [[nodiscard]] inline Point interpolate(const Point& a, const Point& b, double x) {
   return {(1.0 - x) * a.u + x * b.u, (1.0 - x) * a.v + x * b.v, (1.0 - x) * a.forces + x * b.forces,
           (1.0 - x) * a.a + x * b.a};
 }
 
-/// Motion of contact k; g'' and ut'' are zero if the point has no accelerations.
+/// Motion of contact k; g'' and ut'' are zero if the point contains no accelerations.
 [[nodiscard]] inline ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing,
                                              double t, const Point& point) {
   ContactMotion m;
@@ -65,8 +65,8 @@ struct Point {
   return m;
 }
 
-/// Tangential displacement and velocity of the touching body, relative to the surface. Without a shear
-/// element they are ut and ut' of motion_of().
+/// Tangential displacement and velocity of the touching body relative to the surface. Without a shear element these are ut
+/// and ut' of motion_of().
 struct BodySlide {
   double ut = 0.0, vt = 0.0;
 };
@@ -80,19 +80,19 @@ struct BodySlide {
 //
 //   r = M a + C v + K u + sum ( n N + t T ) - P(t)
 
-/// Greatest |r_i| at a point whose accelerations are known. Unit: force.
+/// Largest |r_i| at a point whose accelerations are known. Unit: force.
 [[nodiscard]] double equilibrium_residual(const Model& model, const linear::SystemMatrices& structure,
                                           const Forcing& forcing, double t, const Point& point);
 
-// The rates at which the system gains and loses energy.
+// Powers: rates at which the system gains and loses energy.
 //
 //   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
 //   friction  T p'  of each contact          surface   -T s'(t)  of each contact
 //
-// Powers of a contact: contact/work.hpp.
+// For the powers of a contact see contact/work.hpp.
 
-/// Integrals of the powers. friction, surface and applied_normal_force have one entry for each contact;
-/// applied_normal_force is the integral of -N, force * time.
+/// Integrals of the powers over time. friction, surface and applied_normal_force have one entry per contact;
+/// applied_normal_force is the integral of -N, unit force * time.
 struct WorkIntegrals {
   explicit WorkIntegrals(std::size_t contacts = 0)
       : friction(contacts, 0.0), surface(contacts, 0.0), applied_normal_force(contacts, 0.0) {}
@@ -105,7 +105,7 @@ struct WorkIntegrals {
     std::fill(surface.begin(), surface.end(), 0.0);
     std::fill(applied_normal_force.begin(), applied_normal_force.end(), 0.0);
   }
-  /// Adds factor times the work of contact k.
+  /// Adds `factor` times the work of contact k.
   void add(std::size_t k, const ContactWork& work, double factor) {
     damping += factor * work.damping;
     friction[k] += factor * work.friction;
@@ -121,7 +121,7 @@ class Powers {
 
   /// Number of powers at one time: loads, damping, then friction, surface and -N of each contact.
   [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
-  /// Evaluates all powers into out[0 .. count()).
+  /// Writes all powers into out[0 .. count()).
   void at(const Forcing& forcing, double t, const contact::ContactStates& states, const Point& point,
           double* out) const;
   /// works += factor * powers
@@ -132,13 +132,13 @@ class Powers {
   const linear::SystemMatrices& structure_;
 };
 
-// Rounding error of form . x if the data are rounded once, in units of eps.
+// Rounding error of form . x in units of eps, if the entries of x are rounded once.
 //
-//   |form| |x|  in the plane, whatever the angle between them and the axes;  sum |form_i x_i|  of unlike coordinates
+// |form| |x| for forms in the plane, whatever the angle to the axes; sum |form_i x_i| for coordinates of different kinds
 
-inline constexpr std::size_t max_plane_terms = 4;  // for a form on the translations of one node, or of two
+inline constexpr std::size_t max_plane_terms = 4;  // for a form on the translations of one or two nodes
 
-/// x(dof): size of a degree of freedom. Components that the form does not contain do not count.
+/// Magnitude of form . x as above. x(dof): magnitude of a degree of freedom; terms with the factor zero do not contribute.
 template <class Size>
 double form_magnitude_by(const Model& model, const Combination& form, const Size& x) {
   double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
@@ -154,7 +154,7 @@ double form_magnitude_by(const Model& model, const Combination& form, const Size
   }
   return terms + std::sqrt(form_squared * x_squared);
 }
-/// Same with the sizes of a vector x.
+/// Same with the magnitudes of the entries of a vector x.
 template <class Entries>
 double form_magnitude(const Model& model, const Combination& form, const Entries& x) {
   return form_magnitude_by(model, form, [&x](int dof) { return x[dof]; });

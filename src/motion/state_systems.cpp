@@ -36,11 +36,10 @@ std::size_t FactorisedStates::bytes() const {
 
 namespace {
 
-/// Number of derivatives of surface motions that a decision examines.
+/// Number of derivatives of surface motions that a decision may examine.
 constexpr int most_reported = 8;
 
-/// True if z.s' = 0 from t on: the surfaces of contacts that constrain one motion together move alike, or are
-/// at rest.
+/// True if z.s' = 0 from t on: the surfaces of the contacts that constrain a common motion move alike, or are at rest.
 bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared, const Eigen::VectorXd& z,
                   const Forcing& forcing, double t) {
   for (int order = 1; order <= most_reported; ++order) {
@@ -48,7 +47,7 @@ bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared,
     for (std::size_t i = 0; i < shared.rows.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       if (layout.is_normal(shared.rows[i]) || !linear::has_share(shared.null, at))
-        continue;  // a normal row, or no participation
+        continue;  // only tangential rows that participate
       const std::size_t c = layout.contact_of(shared.rows[i]);
       const double zi = z[at], rate = forcing.surface(c, t, order);
       sum += zi * rate;
@@ -82,8 +81,8 @@ StateSystems::StateSystems(const Model& model, const linear::SystemMatrices& str
     }
 }
 
-/// System by the factors of M. Computing it takes no longer than a search, which compares states one by one.
-/// Null: a row contains an acceleration, or friction whose coefficient varies.
+/// System that uses the factors of M. It is computed as fast as a search in the cache, which compares states one by one.
+/// nullptr: some row contains an acceleration or friction with a varying coefficient.
 std::shared_ptr<const FactorisedStates> StateSystems::by_mass(const contact::ContactStates& contact_states,
                                                               const std::vector<Rows>& rows) {
   std::vector<linear::ContactForceBlock> forces =
@@ -151,7 +150,7 @@ void StateSystems::invert(const std::vector<Rows>& rows, FactorisedStates& mode)
     matrix_.solve(inverse.data() + j * size);
   }
   mode.inverse = std::move(inverse);
-  if (massless_) return;  // u and v of massless parts are not known beforehand
+  if (massless_) return;  // u and v of massless parts are unknowns
   mode.from_u.assign(size * n, 0.0);
   mode.from_v.assign(size * n, 0.0);
   for (std::size_t j = 0; j < n; ++j) {
@@ -174,7 +173,7 @@ void StateSystems::invert(const std::vector<Rows>& rows, FactorisedStates& mode)
   }
 }
 
-/// Rows of the last state, updated for contacts that have changed.
+/// Rows of the last state, with the rows of contacts whose states differ computed again.
 std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& contact_states) const {
   if (!last_) return linear::rows_of(model_, contact_states);
   std::vector<Rows> result = last_->rows();
@@ -186,7 +185,7 @@ std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& contac
 
 StateSystemPtr StateSystems::system_of(const contact::ContactStates& contact_states) {
   if (last_ && last_->states() == contact_states)
-    return last_;  // a decision begins with the final state of the previous one
+    return last_;  // a decision begins with the states in which the last one ended
   std::vector<Rows> rows = rows_beside(contact_states);
   std::shared_ptr<const FactorisedStates> factorised = by_mass(contact_states, rows);
   if (!factorised) factorised = cached(contact_states, rows);
@@ -204,7 +203,7 @@ bool StateSystems::held_by_others(std::size_t c, contact::ContactStates contact_
         std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
     if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::has_share(shared.null, at))
       continue;
-    // The motion with the greatest z_c among the redundantly constrained ones.
+    // z of the redundantly constrained motion with the largest z_c.
     return moves_as_one(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t);
   }
   return false;
@@ -233,8 +232,8 @@ StateSystemPtr StateSystems::with_friction(const StateSystem& system, std::span<
 
 namespace {
 
-/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows. Returns the
-/// corresponding multipliers of these forms, M times a length or a velocity.
+/// Changes x as little as possible in the norm of M so that the forms of the contacts' rows grow by `misses`. Returns the
+/// multipliers of these forms, with the unit of M times x.
 Eigen::VectorXd correct(const StateSystem& system, const std::vector<double>& misses, Vector& x) {
   if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return {};
   const std::size_t n = system.unknowns().dofs, size = system.unknowns().size();

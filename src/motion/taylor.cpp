@@ -27,8 +27,8 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
   row_ = contact::sliding_row(s, friction_.first());
 }
 
-/// Begins a series with friction that depends on N. N_0 follows from g or q, because all degrees of freedom
-/// of such a contact have mass.
+/// Starts the series for friction that depends on N. N_0 follows from g or q, because all degrees of freedom of such a
+/// contact have mass.
 void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   const Friction& friction = contact_->friction;
   const double pressed = -normal_coefficient(*contact_, index_, normal, series, 0);
@@ -37,7 +37,7 @@ void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   row_.constant = sign_ * (limit_->slope() * pressed - contact::friction_limit(friction, pressed));
 }
 
-/// Begins a series of a point without mass: the forces of its spring and dashpot determine its slip rate.
+/// Starts the series for a massless sliding point, whose slip rate follows from the forces of its spring and dashpot.
 void FrictionSeries::begin_massless(int s, const Form& normal, const Series& series) {
   const Contact& c = *contact_;
   const ShearElement& element = *c.sliding_point();
@@ -47,7 +47,7 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   // Velocity of the body, relative to the surface.
   const double along = s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
-  // The contribution of a dashpot to the growth of |N| needs accelerations (is_ambiguous()).
+  // Growth of |N| without the part of a dashpot, which depends on accelerations (is_ambiguous()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +
                         normal.applied_normal_force * per_time * f.applied_normal_force[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
@@ -55,7 +55,7 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
       rounding::elimination * (std::abs(normal.gap) * (std::abs(c.gap) + c.normal.magnitude(u)) +
                                element.stiffness * (element.body.magnitude(u) + c.tangent.magnitude(u)));
   double rate = 0.0;
-  if (pressed <= zero) {  // T and N begin together
+  if (pressed <= zero) {  // T and N start from zero together
     constant_ = true;
     if (element.damping > 0.0)
       rate = pull / element.damping;
@@ -94,7 +94,7 @@ void FrictionSeries::follow_quasi_statically() {
   row_ = contact::sliding_row(sign_, contact_->friction.kinetic);
 }
 
-/// Coefficient k of the slip rate.
+/// Coefficient k of the Taylor series of the slip rate.
 double FrictionSeries::slip_rate(std::size_t k, const Series& series) const {
   return static_cast<double>(k + 1) / series.scale * ut_coefficient(*contact_, index_, series, k + 1);
 }
@@ -145,8 +145,7 @@ Taylor::Taylor(StateSystems& systems)
     if (model_.contacts[c].curved_surface()) curved_contacts_.push_back(c);
 }
 
-/// Prepares all contacts with varying friction. Their friction at the beginning of the series is a
-/// coefficient of its matrix.
+/// Prepares all contacts with varying friction; their initial friction coefficients enter the matrix of the series.
 void Taylor::start_friction(const Forcing& forcing, Series& series) {
   friction_.clear();
   const std::vector<std::size_t>& by_rate = system_->factorised().rate_dependent;
@@ -169,8 +168,8 @@ StateSystemPtr Taylor::at_friction() const {
   return systems_.with_friction(*system_, rows);
 }
 
-/// Points that may follow quasi-statically do so for two levels, which yields accelerations and thus their rates.
-/// Points whose rate reaches that of greatest friction remain quasi-static.
+/// Points that may follow quasi-statically do so for two levels, which gives accelerations and thus the rates of the points.
+/// Points whose rate then reaches max_rate() stay quasi-static.
 void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   const std::vector<FrictionSeries> given = friction_;
   const StateSystemPtr own = system_;
@@ -190,7 +189,7 @@ void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   friction_ = std::move(settled);
 }
 
-/// Adds the forces of curved surfaces that are not in K: products of two series.
+/// Adds those forces of curved surfaces that are not in K; they are products of two series.
 void Taylor::add_restoring_forces(int order, const Series& series) {
   for (const std::size_t c : curved_contacts_) {
     const Contact& contact = model_.contacts[c];
@@ -202,7 +201,7 @@ void Taylor::add_restoring_forces(int order, const Series& series) {
       const double* u = series.u.data() + (k - j) * static_cast<std::size_t>(series.u.rows());
       const double ut =
           contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
-      // The constant contained in K counts once.
+      // The constant N_K is subtracted only once, in the term j = 0.
       force += j == 0 ? contact::restoring_force(contact, N, ut) : contact::restoring_product(contact, N, ut);
     }
     contact.body_tangent().add_to(x_, -force);
@@ -217,7 +216,7 @@ double Taylor::prescribed_value(const linear::PrescribedDof& p, int order, const
          p.divisor;
 }
 
-/// Known part of the rows of contact c at order k, from forcing and constants: applied normal force, surface, gap.
+/// Known parts r and q of the normal and tangent row of contact c at level k: applied normal force, surface, gap, constants.
 void Taylor::known_of_rows(std::size_t c, int order, const Series& series, double& r, double& q) const {
   const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
   const ForcingSeries& f = series.forcing;
@@ -234,7 +233,7 @@ void Taylor::known_of_rows(std::size_t c, int order, const Series& series, doubl
 
 namespace {
 
-/// True if a surface or a normal force acts on contact c at this order. Most of them are polynomials of low degree.
+/// True if a surface motion or an applied normal force is nonzero at this order; most are polynomials of low degree.
 bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
   const std::size_t at = c * f.count + static_cast<std::size_t>(order);
   const double *surface = f.surface.data() + at, *applied = f.applied_normal_force.data() + at;
@@ -243,7 +242,7 @@ bool is_driven(const ForcingSeries& f, std::size_t c, int order) {
 
 }  // namespace
 
-/// Sizes known to the compiler (0: unknown) let it unroll the loops over one or two masses.
+/// Sizes known at compile time (0: unknown) allow the compiler to unroll the loops for one or two masses.
 template <std::size_t fixed_n, std::size_t fixed_size>
 void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
   const FactorisedStates& mode = system_->factorised();
@@ -300,7 +299,7 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Data
   return level_dense<0, 0>(forcing, order, series);
 }
 
-/// Writes u and v at order k as far as they are not unknowns of this level.
+/// Writes the parts of u and v at level k that are not unknowns of this level.
 void Taylor::set_known_motion(int order, const Series& series) {
   const std::size_t n = known_u_.size();
   const double to_velocity = (order + 1) / series.scale;
@@ -322,7 +321,7 @@ void Taylor::set_known_motion(int order, const Series& series) {
       known_u_[static_cast<std::size_t>(dof)] -= factor * u_k[motion.dof];
 }
 
-/// Magnitudes of the terms of the equations of motion at level k, including the rounding of lower levels.
+/// Adds the magnitudes of the terms of the equations of motion at level k, including rounding errors of lower levels.
 void Taylor::measure_equations(const Forcing& forcing, int order, const Series& series, double* terms) const {
   const std::size_t n = known_u_.size();
   const double to_velocity = (order + 1) / series.scale;
@@ -339,7 +338,7 @@ void Taylor::measure_equations(const Forcing& forcing, int order, const Series& 
   }
 }
 
-/// Magnitudes of the forces of a contact in the equations of motion.
+/// Adds the magnitudes of a contact's forces in the equations of motion.
 void Taylor::measure_forces(std::size_t c, int order, const Series& series, double* terms) const {
   const double* forces =
       series.forces.data() + static_cast<std::size_t>(order) * (x_.size() - known_u_.size());
@@ -349,8 +348,8 @@ void Taylor::measure_forces(std::size_t c, int order, const Series& series, doub
     terms[dof] += std::abs(factor * forces[model_.layout.tangent(c)]);
 }
 
-/// Magnitudes in the contact's rows. kn g is a difference of large numbers: its rounding is that of its terms. A row
-/// that contains an acceleration has the rounding of the forces whose difference the acceleration is.
+/// Magnitudes of the terms in the contact's rows. kn g is a difference of large numbers, so its rounding error is that of its
+/// terms. A row that contains an acceleration has the rounding error of the forces whose difference is the acceleration.
 void Taylor::measure_rows(std::size_t c, int order, const Series& series, double* terms) const {
   const Contact& contact = model_.contacts[c];
   const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
@@ -384,7 +383,7 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
   terms[system_->unknowns().tangent(c)] = q;
 }
 
-/// Perturbs each equation by some roundings of its terms: the backward error of its solution.
+/// Perturbs each equation by a few rounding errors of its terms, like the backward error of a solution.
 void Taylor::perturb(const Forcing& forcing, int order, const DataPerturbation& disturbance) {
   const Series& motion = disturbance.motion;
   if (order == 0) {
@@ -400,7 +399,7 @@ void Taylor::perturb(const Forcing& forcing, int order, const DataPerturbation& 
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) measure_rows(c, order, motion, terms);
   for (std::size_t i = 0; i < x_.size(); ++i)
     x_[i] += parts_[i + x_.size() * static_cast<std::size_t>(order)] * terms[i];
-  // The rounding of this level enters the levels after the next only approximately.
+  // The rounding error of this level enters levels after the next one only approximately.
   const double to_acceleration = (order + 1) * (order + 2) / (motion.scale * motion.scale);
   double* carried = sizes_.col(order + 2).data();
   for (std::size_t i = 0; i < known_u_.size(); ++i) carried[i] += mobility_[i] * terms[i] / to_acceleration;

@@ -138,10 +138,10 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
     const char* what = remembers                        ? "a contact law with memory"
                        : multiplies                     ? "a contact law whose guards contain products"
                        : c.curved_surface()             ? "a pendulum whose normal force varies"
-                       : rises && c.sliding_point()     ? "friction that rises with the slip rate beside a "
-                                                          "tangential_stiffness"
+                       : rises && c.sliding_point()     ? "friction that rises with the slip rate together "
+                                                          "with a tangential_stiffness"
                        : c.friction.is_load_dependent() ? contact::friction_description(c)
-                       : c.compliance_split()           ? "a rigid contact on parts without mass"
+                       : c.compliance_split()           ? "a rigid contact on massless parts"
                        : rises && c.takes_impulses()
                            ? "friction that rises with the slip rate at a rigid contact"
                            : nullptr;

@@ -9,12 +9,13 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr std::size_t few_terms = 3;  // terms of the forcing's series: value, first and second derivative
+constexpr std::size_t few_terms = 3;  // coefficients of the forcing: value, first and second derivative
 
 std::string refusal_of(const Model& model, const RunSpec& run) {
-  if (run.refine != Refine::root) return "events are interpolated, not roots of their guards";
-  if (run.step == StepControl::doubling) return "the lengths of steps follow their errors";
-  if (linear::has_massless(model)) return "parts without mass have no discrete derivative";
+  if (run.refine != Refine::root)
+    return "events are interpolated instead of located at roots of their guards";
+  if (run.step == StepControl::doubling) return "the step lengths depend on error estimates";
+  if (linear::has_massless(model)) return "discrete derivatives are not available for massless parts";
   for (const Contact& c : model.contacts)
     if (contact::friction_varies(c)) return std::string("there is ") + contact::friction_description(c);
   return {};
@@ -103,7 +104,7 @@ DiscreteRun::Node DiscreteRun::redone(const motion::Forcing& forcing, double t) 
   return end;
 }
 
-/// Derivative of a contact's motion at a node, along the moving node.
+/// Derivative of a contact's motion at a node, while the node itself moves.
 ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const motion::Forcing& forcing, const Node& at,
                                  const NodeDerivative& moved, const ForcingRatesSeries& series) const {
   const Contact& contact = model_.contacts[c];
@@ -118,7 +119,7 @@ ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const motion::For
   return m;
 }
 
-/// The contacts' right-hand sides; `known`: without contributions of the new accelerations and forces.
+/// Right-hand sides of the contacts' rows. known: derivatives without the contributions of the new accelerations and forces.
 void DiscreteRun::add_rows(std::size_t p, const motion::Forcing& forcing, const Ends& ends,
                            const NodeDerivative& known) {
   const ModelDerivative& d = states_[p].derivative;
@@ -171,7 +172,7 @@ DiscreteRun::NodeDerivative DiscreteRun::advance(std::size_t p, const motion::Fo
   return known;
 }
 
-/// Derivative of the time at the end of a step.
+/// Derivative of the end time of a step with respect to parameter p.
 double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& ends) {
   if (step.step.kind != engine::Step::Kind::event) {
     const auto jumps = breakpoints_at(model_, states_[p].derivative, ends.to.t, step.step.resolution);
@@ -195,7 +196,7 @@ double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& 
   return ends.moved.t - standing / rate;
 }
 
-/// Row between nodes: the step redone to that time, which does not move.
+/// Computes an output row between nodes: the step is redone up to the output time, which does not move.
 void DiscreteRun::row(const run::RunStep& step, double t) {
   const Node at = redone(step.forcing, t);
   TangentSample sample{t, step.forcing, contact_states_, point_of(at.point), {}, {}, {}, {}};
@@ -227,7 +228,7 @@ void DiscreteRun::step(const run::RunStep& step) {
   node_derivatives_ = std::move(next);
 }
 
-/// Velocities after a hit.
+/// Computes the derivatives of the velocities after an impact.
 void DiscreteRun::hit(std::size_t p, const run::RunInstant& now) {
   impulse_n_[p].clear();
   impulse_t_[p].clear();
@@ -247,7 +248,7 @@ void DiscreteRun::hit(std::size_t p, const run::RunInstant& now) {
   impulse_t_[p] = std::move(rates.tangent);
 }
 
-/// Updates anchors that are dropped, like TangentEvents::move_anchors.
+/// Updates the derivatives of anchors that are set at this instant, like TangentEvents::move_anchors.
 void DiscreteRun::hold(std::size_t p, const run::RunInstant& now) {
   const ForcingRatesSeries series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -328,14 +329,14 @@ void DiscreteRun::instant(const run::RunInstant& instant) {
   rows_at(instant);
 }
 
-/// An output row at the instant itself contains the values just after.
+/// Writes output rows at the instant itself; they contain the values just after the instant.
 void DiscreteRun::rows_at(const run::RunInstant& instant) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{
         grid_[next_], instant.forcing_after, contact_states_, point_of(node_.point), {}, {}, {}, {}};
     for (std::size_t p = 0; p < states_.size(); ++p) {
       const NodeDerivative& m = node_derivatives_[p];
-      const bool known = states_[p].valid && m.t == 0.0;  // at a moving instant a row has two sides
+      const bool known = states_[p].valid && m.t == 0.0;  // a moving row has no derivative
       sample.tangents.push_back(known ? SeriesPoint{m.u, m.v, m.a, m.forces, Vector::Zero(m.forces.size())}
                                       : SeriesPoint{});
       sample.driven.emplace_back();

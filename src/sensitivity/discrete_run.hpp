@@ -6,14 +6,13 @@
 //   M Da1 + C Dv1 + K Du1 + sum ( n DN1 + t DT1 )
 //     = DP(t1) - M_p a1 - C_p v1 - K_p u1 - sum ( n_p N1 + t_p T1 ),   rows of the contacts likewise
 //
-// D: along the nodes, which move. A regular step keeps its length, Dt1 = Dt0; a step that ends at a load's instant or
-// at the end of the run has a fixed end; a step redone to an event ends where DG = 0, a linear equation in Dt1. After
-// an event a0 follows from equilibrium: the same equations with h = 0. The steps are repeated, from the engine's
-// states.
+// D: derivative along the nodes of the time grid, which move. A regular step keeps its length, Dt1 = Dt0. A step that ends at
+// a jump of a load or at the end of the run has a fixed end. A step redone to an event ends where DG = 0, a linear equation
+// in Dt1. After an event a0 follows from equilibrium, by the same equations with h = 0. The steps are repeated here, starting
+// from the engine's states.
 //
-// The steps must have a constant length, and events must be at roots of guards. The model must have no
-// massless parts and no rate-dependent friction. TangentState::reason explains a violation. The results check
-// the derivatives of the motion: both agree to O(h^2).
+// Requirements: steps of constant length, events at roots of guards, no massless parts, no rate-dependent friction. If one is
+// violated, TangentState::reason names it. The results check the derivatives of the exact motion; both agree to O(h^2).
 #pragma once
 
 #include "engine/newmark/newmark_step.hpp"
@@ -23,11 +22,11 @@ namespace signorini::sensitivity {
 
 class DiscreteRun final : public run::RunListener {
  public:
-  /// Arguments as in TangentRun.
+  /// Arguments as in TangentRun; all except `run` must outlive the object.
   DiscreteRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
               const std::vector<double>& sizes, TangentListener& listener);
 
-  /// Empty: this listener needs no data from the engine.
+  /// Empty: the listener needs no additional data from the engine.
   [[nodiscard]] static run::ListenerNeeds needs() { return {}; }
   void begin(const run::RunInstant& start) override;
   void step(const run::RunStep& step) override;
@@ -36,21 +35,22 @@ class DiscreteRun final : public run::RunListener {
   [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
 
  private:
-  /// A node of the time grid and its derivative.
+  /// A node of the time grid.
   struct Node {
     double t = 0.0;
     motion::Point point;
   };
+  /// Derivatives of a node, including its time, with respect to one parameter.
   struct NodeDerivative {
     double t = 0.0;
     Vector u, v, a, forces;
     std::vector<double> anchors;
   };
-  /// A step with known ends, for one parameter.
+  /// The two ends of a step, with the derivatives at its beginning for one parameter.
   struct Ends {
     const Node &from, &to;
     const NodeDerivative& moved;
-    const ForcingRatesSeries& forcing;  ///< at the end of the step, with scale 1
+    const ForcingRatesSeries& forcing;  ///< at the end of the step, as a series with scale 1
   };
   struct Rest;
 
@@ -84,10 +84,10 @@ class DiscreteRun final : public run::RunListener {
   double t_end_;
   newmark::NewmarkStep step_;
   linear::SystemMatrix matrix_;
-  double factored_ = -1.0;  // step length of matrix_; -1: not factored
+  double factored_ = -1.0;  // step length h for which matrix_ is factored; -1: not factored
   contact::ContactStates contact_states_;
   Node node_;
-  std::vector<NodeDerivative> node_derivatives_;  // derivatives of node_, one per parameter
+  std::vector<NodeDerivative> node_derivatives_;  // derivatives of node_, one entry per parameter
   std::vector<std::vector<double>> impulse_n_, impulse_t_;
   Vector x_, work_;
 };

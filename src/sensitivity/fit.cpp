@@ -20,22 +20,21 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_iterations = 50;
-constexpr int max_restarts = 8;  // limit of restarts from the other side of a kink; chosen value
-// Convergence limits for relative changes of the keys and of the sum of squares: above the rounding of the derivatives,
-// far below the resolution of measurements.
+constexpr int max_restarts = 8;  // restarts from the other side of a kink; chosen value
+// Convergence limits for relative changes of the keys and of the sum of squares. They are above the rounding errors of the
+// derivatives and far below the resolution of measurements.
 constexpr double key_tolerance = 1e-9, gradient_tolerance = 1e-12, sum_tolerance = 0.0;
-// Relative to a key's sigma: a shorter step is insignificant. Chosen value.
+// Step length, relative to a key's sigma, below which a step is insignificant. Chosen value.
 constexpr double of_sigma = 0.1;
-// Relative to the longer of two slopes: size of their shortest convex combination below which they count as opposite.
-// Chosen value.
+// Two slopes are opposite if a convex combination of them is shorter than this, relative to the longer slope. Chosen value.
 constexpr double opposite = 1e-3;
-// Probability of such a chi squared below which the fit is rejected; one correct fit in a million is rejected.
+// The fit is rejected if the probability of its chi squared is lower; this rejects one correct fit in a million.
 constexpr double least_probability = 1e-6;
-// Without sigmas: largest norm of the residuals relative to the measured numbers. Chosen value: a wrong unit leaves
-// about 1.
+// Without sigmas: largest norm of the residuals, relative to the measured numbers, in an accepted fit. Chosen value; a wrong
+// unit gives about 1.
 constexpr double max_left = 0.5;
 
-/// During its lifetime GSL returns errors instead of aborting.
+/// During its lifetime GSL returns error codes instead of aborting the program.
 class GslErrorsReturned {
  public:
   GslErrorsReturned() : before_(gsl_set_error_handler_off()) {}
@@ -63,7 +62,7 @@ int gsl_derivatives(const gsl_vector* x, void* problem, gsl_matrix* J) {
 
 using Workspace = std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)>;
 
-/// State at the end of a descent.
+/// Result of one descent by the Levenberg-Marquardt method.
 struct FitPlace {
   std::vector<double> keys;
   double chi_squared = 0.0;
@@ -87,7 +86,7 @@ FitPlace descend(sensitivity::FitProblem& problem, const std::vector<double>& fr
   if (place.status == GSL_SUCCESS) {
     place.status = gsl_multifit_nlinear_driver(most_iterations, key_tolerance, gradient_tolerance,
                                                sum_tolerance, nullptr, nullptr, &info, w.get());
-    if (info == GSL_ENOPROG) place.status = GSL_ENOPROG;  // at the first step GSL reports EMAXITER instead
+    if (info == GSL_ENOPROG) place.status = GSL_ENOPROG;  // GSL reports EMAXITER at the first step
     place.keys = keys_of(gsl_multifit_nlinear_position(w.get()));
     place.iterations = static_cast<int>(gsl_multifit_nlinear_niter(w.get()));
   }
@@ -96,7 +95,7 @@ FitPlace descend(sensitivity::FitProblem& problem, const std::vector<double>& fr
   return place;
 }
 
-/// True if a convex combination of the two vectors is nearly zero.
+/// True if some convex combination of the two vectors is nearly zero.
 bool are_opposite(const std::vector<double>& a, const std::vector<double>& b) {
   double aa = 0.0, bb = 0.0, ab = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -145,9 +144,9 @@ class Fitter {
 
  private:
   static constexpr const char* beyond =
-      "; the sum of squares decreases beyond it, where the scene allows no value or the run lacks measured "
-      "events";
-  /// Linearises the run at these keys, or at the side from which they came.
+      "; the sum of squares decreases beyond the bound, but there the scene allows no value or the run lacks "
+      "measured events";
+  /// Linearises the residuals at these keys, or slightly beside them if two events coincide.
   bool linear_at(const std::vector<double>& keys) {
     if (!problem_.residuals(keys, *f_)) return false;
     if (!problem_.derivatives(keys, *J_)) return false;
@@ -160,7 +159,7 @@ class Fitter {
                ? 1.0
                : place_.chi_squared / static_cast<double>(rows - here_.rank);
   }
-  /// True if the linearised step from these keys ends at the result of the descent.
+  /// True if the linearised step from these keys ends at the result of the descent, within tolerances.
   [[nodiscard]] bool leads_to_place(const std::vector<double>& keys) const {
     for (std::size_t p = 0; p < keys.size(); ++p) {
       if (!here_.determined[p]) continue;
@@ -171,8 +170,8 @@ class Fitter {
     }
     return true;
   }
-  /// Checks both sides of every key, and descends where the sum of squares decreases away from the result.
-  /// Returns true if a lower place was found.
+  /// Examines both sides of every key, and descends from a side on which the sum of squares decreases away from the result.
+  /// Returns true if a lower sum was found.
   bool look_beside() {
     level_ = linear_at(place_.keys) && leads_to_place(place_.keys);
     falls_ = kink_ = false;
@@ -214,16 +213,16 @@ class Fitter {
   [[nodiscard]] std::string reason(bool known) const {
     if (!known) {
       const std::string& why = problem_.no_derivative();
-      return why.empty() ? "it was interrupted" : why;
+      return why.empty() ? "the fit was interrupted" : why;
     }
     if (settled())
-      return level_ ? "the sum of squares is least"
-                    : "the sum of squares has its minimum where two events meet: its slope jumps there";
+      return level_ ? "the sum of squares has its minimum"
+                    : "the sum of squares has its minimum where two events coincide, so that its slope jumps";
     if (place_.status == GSL_EMAXITER)
-      return fmt::format("it has not converged after {} steps", most_iterations);
+      return fmt::format("the fit has not converged after {} steps", most_iterations);
     if (place_.status == GSL_EFAILED) {
       const std::string& why = problem_.no_derivative();
-      return why.empty() ? "it was interrupted" : why;
+      return why.empty() ? "the fit was interrupted" : why;
     }
     return "no step reduces the sum of squares, but its slope is not zero";
   }
@@ -248,7 +247,7 @@ class Fitter {
                       loose, loose.find(',') == std::string::npos ? "it" : "they"));
   }
 
-  /// Checks whether the run explains the measurements.
+  /// Reports an issue if the residuals are too large to be explained by measurement errors.
   void explain(Fit& result) const {
     if (result.freedom <= 0) return;
     const char* advice = "check the units, the event numbers and the simplifications of the scene";
@@ -265,7 +264,7 @@ class Fitter {
     const double left = measured > 0.0 ? std::sqrt(result.chi_squared) / measured : 0.0;
     if (!(left <= max_left))
       result.issues.push_back(
-          fmt::format("the residual is {:.2g} of the measured numbers, which the run does not explain; {}",
+          fmt::format("the residual is {:.2g} times the measured numbers: the run does not explain them; {}",
                       left, advice));
   }
 
@@ -275,14 +274,14 @@ class Fitter {
   sensitivity::GslMatrix J_;
   sensitivity::LinearFit here_;
   FitPlace place_;
-  std::vector<std::vector<double>> slopes_;  // beside the result, in units of key sizes
+  std::vector<std::vector<double>> slopes_;  // slopes on the sides of the result, in units of key sizes
   int iterations_ = 0;
-  std::vector<std::pair<std::size_t, double>> walls_;  // keys, and their sides at which a run is not complete
-  // Keys at whose bound the sum of squares still decreases.
+  std::vector<std::pair<std::size_t, double>> walls_;  // keys and sides at which a run is incomplete
+  // true for keys at whose bound the sum of squares still decreases
   std::vector<bool> at_bound_;
-  bool level_ = false;  // the slope is zero at the result
-  bool kink_ = false;   // the slopes on both sides of the result differ
-  bool falls_ = false;  // the sum decreases, but no lower place was found
+  bool level_ = false;  // true: the slope is zero at the result
+  bool kink_ = false;   // true: the slopes on both sides of some key differ
+  bool falls_ = false;  // true: the sum decreases on some side, but no lower sum was found
 };
 
 }  // namespace
@@ -290,7 +289,8 @@ class Fitter {
 Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Measurements& measured,
         const std::function<bool()>& go_on) {
   if (measured.rows.size() < paths.size() || paths.empty())
-    throw UsageError(fmt::format("found {} measured numbers for {} keys, expected at least as many",
+    throw UsageError(fmt::format("found {} measured numbers for {} keys, expected at least as many "
+                                 "numbers as keys",
                                  measured.rows.size(), paths.size()));
   const GslErrorsReturned quiet;
   Fit result;
@@ -303,8 +303,8 @@ Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Me
   sensitivity::FitProblem problem(read, paths, measured, go_on);
   problem.start(start);
   if (problem.failure()) std::rethrow_exception(problem.failure());
-  if (problem.size().empty()) {  // before the first run
-    result.reason = "it was interrupted";
+  if (problem.size().empty()) {  // interrupted before the first run
+    result.reason = "the fit was interrupted";
     result.issues = {result.reason};
     result.residuals.assign(measured.rows.size(), EventRates::none);
     return result;
@@ -336,8 +336,8 @@ class MeasuredTable {
     for (const std::string& name : reader_.header()) names += (names.empty() ? "" : ",") + name;
     if (t_ == none)
       fail(1, fmt::format(
-                  "found the columns \"{}\", expected a column t beside event_index, or beside columns of "
-                  "history.csv",
+                  "found the columns \"{}\", expected a column t together with event_index, or with columns "
+                  "of history.csv",
                   base::excerpt(names)));
     Measurements result;
     result.has_sigma = sigma_ != none;
@@ -362,7 +362,7 @@ class MeasuredTable {
     throw Error(ExitCode::scene, fmt::format("{}:{}:{}: {}: {}", path_, line_, column + 1,
                                              base::excerpt(reader_.header()[column]), message));
   }
-  /// A repeated measurement would count twice.
+  /// Refuses measurements that occur twice, because they would be counted twice.
   void refuse_twice(const std::vector<Measurement>& rows) const {
     std::map<std::tuple<std::size_t, std::string, double>, long> lines;
     for (const Measurement& m : rows) {
@@ -398,7 +398,7 @@ class MeasuredTable {
   [[nodiscard]] double sigma() const {
     if (sigma_ == none) return 1.0;
     const double x = number_at(sigma_);
-    if (!(x > 0.0)) fail_at(sigma_, fmt::format("found {}, expected more than zero", x));
+    if (!(x > 0.0)) fail_at(sigma_, fmt::format("found {}, expected a number > 0", x));
     return x;
   }
   [[nodiscard]] Measurement event_row() const {

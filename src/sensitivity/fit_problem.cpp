@@ -52,15 +52,15 @@ void FitProblem::start(std::vector<double>& keys) {
   if (!run(keys)) return;
   size_.resize(keys.size());
   for (std::size_t p = 0; p < keys.size(); ++p) {
-    constexpr double steps_of_size = 512.0;  // Parameter::step is the key's size divided by this
+    constexpr double steps_of_size = 512.0;  // key's size / Parameter::step
     size_[p] = keys[p] != 0.0 ? std::abs(keys[p]) : steps_of_size * std::abs(last_.parameters[p].step);
   }
   std::size_t row = 0;
   if (const std::string why = missing_quantity(row); !why.empty()) refuse(row, "at the start " + why);
   const std::string why = missing_rate();
   if (why.empty()) return;
-  // Two events may coincide at the very start, as for equal contacts that begin with the same friction; beside it they
-  // do not.
+  // At the start two events may coincide, as for equal contacts that start with the same friction. With slightly different
+  // keys they do not coincide.
   for (std::size_t p = 0; p < keys.size(); ++p)
     for (const double side : {1.0, -1.0}) {
       std::vector<double> near = keys;
@@ -120,11 +120,11 @@ std::string FitProblem::missing_quantity(std::size_t& row) const {
         return fmt::format("the run, which ends at t = {}, has no {} at {}", last_.report.outcome.t, m.column,
                            m.t);
     } else if (m.event > last_.events.size()) {
-      return fmt::format("the run has {}, and no event {}", base::count_text(last_.events.size(), "event"),
+      return fmt::format("the run has {}, but no event {}", base::count_text(last_.events.size(), "event"),
                          m.event);
     } else if (!has(m)) {
       const std::string what = m.type.empty() ? "an event" : m.type;
-      return fmt::format("event {} of the run is {}, but the data have {}{}", m.event,
+      return fmt::format("event {} of the run is {}, but the measurements give {}{}", m.event,
                          name_of(last_.events[m.event - 1]), what,
                          m.contact.empty() ? "" : fmt::format(" of contact \"{}\"", m.contact));
     }
@@ -172,7 +172,7 @@ double FitProblem::rate_of(std::size_t i, std::size_t p) const {
   return row < last_.value_rates[p].size() ? last_.value_rates[p][row][column] : EventRates::none;
 }
 
-/// Runs with these keys, unless the last run had them.
+/// Runs with these keys, unless the last run already had them.
 bool FitProblem::run(const std::vector<double>& keys) {
   if (failure_) return false;
   if (keys == keys_) return true;
@@ -184,7 +184,7 @@ bool FitProblem::run(const std::vector<double>& keys) {
     for (const Measurement& m : measured_.rows)
       if (m.event == 0) static_cast<void>(place_of(m));
     scene_refused_ = false;
-  } catch (const Error&) {  // no exception may pass through GSL's frames
+  } catch (const Error&) {  // exceptions must not pass through frames of GSL
     if (runs_ == 0) failure_ = std::current_exception();
     scene_refused_ = true;
   }
@@ -206,14 +206,14 @@ Scene FitProblem::scene_at(const std::vector<double>& keys, const std::vector<Ov
 
 namespace {
 
-// Derivatives are accurate to 1e-9 or better, since the model's data are differenced with that accuracy
-// (model_derivative.hpp). If a change of a key by its own size changes the measured numbers by less than this
-// fraction, the change is rounding.
+// Derivatives are accurate to 1e-9 or better, because the differences of model data have that accuracy
+// (model_derivative.hpp). If changing a key by its own size changes the measured numbers by less than this fraction, the
+// change is rounding.
 constexpr double rounding_of_rates = 1e-9;
-// Relative to the largest singular value of J with columns of norm 1. For two keys with the same effect rounding leaves
-// about 1e-9; chosen in the middle between that and 1e-3, where measurements may still distinguish two keys.
+// Limit for singular values, relative to the largest one of J with columns of norm 1. Rounding leaves about 1e-9 for two keys
+// with the same effect. Chosen value, between that and 1e-3, where measurements may still distinguish two keys.
 constexpr double dependent = 1e-6;
-// Component of a key, relative to 1, in an undetermined combination. Chosen value: far above rounding / dependent.
+// Least component of a key in an undetermined combination of norm 1. Chosen value, far above rounding / dependent.
 constexpr double takes_part = 1e-2;
 
 }  // namespace

@@ -109,7 +109,7 @@ std::vector<MovingBreakpoint> breakpoints_at(const Model& model, const ModelDeri
 
 namespace {
 
-/// P_p of the loads of the static equilibrium.
+/// P_p of the loads that act in the static equilibrium.
 Vector static_load_rate(const Model& model, const ModelDerivative& derivative) {
   Vector p = Vector::Zero(model.size());
   for (std::size_t i = 0; i < model.loads.size(); ++i) {

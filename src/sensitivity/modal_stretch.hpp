@@ -1,7 +1,6 @@
-// modal_stretch.hpp: motion and tangents on one stretch (modal_tangents.hpp), in the modes of its contact
-// state.
+// modal_stretch.hpp: motion and tangents on one stretch (modal_tangents.hpp), computed in the modes of its contact state.
 //
-//   S double: all modes are real;   S Complex: some modes come in conjugate pairs
+//   S = double: all modes are real;   S = Complex: some modes are conjugate pairs
 #pragma once
 
 #include <algorithm>
@@ -12,9 +11,9 @@
 
 namespace signorini::sensitivity {
 
-/// Limit of alpha t for one part, as in engine/exact/modal/oscillators.hpp.
+/// Largest alpha t that one step covers, as in engine/exact/modal/oscillators.hpp.
 inline constexpr double max_part_decay = 4.0;
-/// Limit of the constant part p/l relative to a mode's amplitude. At the limit three digits are lost.
+/// Largest ratio of a mode's constant part p/l to its amplitude. At this limit three digits are lost.
 inline constexpr double max_static_ratio = 4096.0;
 class ModalStretch {
  public:
@@ -109,7 +108,7 @@ class ModalStretchOf final : public ModalStretch {
           modal::force_law(model_.contacts[c], states_[c], forcing_.applied_normal_force(c, begin_, 0)));
   }
 
-  /// The constant part p/l of each mode, unless it is far larger than the motion.
+  /// Chooses the constant part p/l of each mode; it is not split off if it is far larger than the motion.
   void choose_static_part() {
     const std::vector<S> z = modes_of<S>(now_.z);
     static_part_.assign(l_.size(), S(0.0));
@@ -141,11 +140,11 @@ class ModalStretchOf final : public ModalStretch {
       store_.pairs.clear();
       store_.bytes = 0;
     }
-    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // for the usual step
+    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // matrices of the usual step
     return store_.keep(key, std::move(made));
   }
 
-  /// f: terms that do not depend on the motion.
+  /// Sets the terms f that do not depend on the motion.
   void set_constant(std::size_t p, Followed& f) const {
     const TangentSource& source = sources_[p];
     Vector q = Vector::Zero(model_.size());
@@ -183,7 +182,7 @@ class ModalStretchOf final : public ModalStretch {
     t_ += time;
   }
 
-  /// y_l[k, l] of the motion without its constant part, and its rate; with their own rates.
+  /// y_l[k, l] of the motion without its constant part, of its rate, and the time derivatives of both.
   void fill_driven(OscillatorPairs<S>& pairs) {
     const std::size_t n = l_.size();
     std::vector<S> z = modes_of<S>(now_.z), r = modes_of<S>(now_.rate), a(n, S(0.0));
@@ -221,7 +220,7 @@ class ModalStretchOf final : public ModalStretch {
     if (has_damping_rates_) drive(r, a, work_.dragging, work_.dragging_rate);
   }
 
-  /// Free motion from one point with constant forces only.
+  /// Advances a motion from one point with constant forces only.
   void turn(const modal::ModalPoint& from, const modal::Amplitudes& force, const OscillatorPairs<S>& pairs,
             modal::ModalPoint& to) const {
     const std::size_t reals = from.z.real.size(), count = from.z.pair.size();
@@ -282,7 +281,7 @@ class ModalStretchOf final : public ModalStretch {
     modes_.basis().motions(modal, in);
   }
 
-  /// Values of the displayed degrees of freedom.
+  /// Values of the displayed degrees of freedom; all others are zero.
   void show(const modal::ModalPoint& at, const modal::Amplitudes* second, SeriesPoint& out) const {
     const auto one = [&](const modal::Amplitudes& from, Vector& to) {
       const Vector values = known_->shown * flat_modes(from);
@@ -383,7 +382,7 @@ class ModalStretchOf final : public ModalStretch {
   std::vector<TangentSource> sources_;
   modal::Oscillators oscillators_;
   std::vector<S> l_, p_, static_part_, soft_;
-  std::size_t rows_;  // number of modes without conjugates, which follow from the others
+  std::size_t rows_;  // number of modes, where a conjugate pair counts once
   std::vector<modal::ForceLaw> laws_;
   modal::Amplitudes force_;
   modal::ModalPoint now_, moved_;

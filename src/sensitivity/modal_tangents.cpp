@@ -9,7 +9,7 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr double nothing_left = 1e-13;  // rounding of C_p - alpha M_p, relative to C_p
+constexpr double nothing_left = 1e-13;  // rounding error of C_p - alpha M_p, relative to C_p
 
 bool has_constant_excitation(const ForcingRatesSeries& f) {
   const auto still = [&](const std::vector<double>& rows) {
@@ -21,7 +21,7 @@ bool has_constant_excitation(const ForcingRatesSeries& f) {
          still(f.surface);
 }
 
-/// Degrees of freedom of columns and contacts; all of them in a reduced model.
+/// Degrees of freedom of columns and of contacts; all degrees of freedom in a reduced model.
 std::vector<Eigen::Index> shown_dofs(const Model& model, const std::vector<const ModelDerivative*>& rates) {
   const std::vector<Eigen::Index> affected = contact_dofs(model, rates);
   std::set<Eigen::Index> dofs(affected.begin(), affected.end());

@@ -1,13 +1,13 @@
-// modal_tangents.hpp: motion and tangents on a stretch with constant forces, in the modes of its state.
+// modal_tangents.hpp: motion and tangents on a stretch with constant forces, in the modes of the stretch's contact state.
 //
 //   z'' + alpha z' + L z = p                                        the motion, engine/exact/modal
 //   w'' + alpha w' + L w = f - B z - G z'                           the tangent of one parameter
 //   B = Y Phi^T ( K_p + contacts' ) Phi X - Y Phi^T M_p Phi X L,    G = Y Phi^T ( C_p - alpha M_p ) Phi X
 //   w_k(t) = w0 c + w0' s + f h + sum_l ( B_kl y_l[k, l] + G_kl y_l'[k, l] )
 //
-// y_l[k, l]: oscillator_pairs.hpp. Contacts': n (N_gap,p n + N_gap n_p)^T + ..., products of few vectors. The cost of a
-// stretch does not depend on its length. Constant parts p_l / l_l of the motion are included in f if they are at most a
-// few thousand times the motion.
+// For y_l[k, l] see oscillator_pairs.hpp. contacts': n (N_gap,p n + N_gap n_p)^T + ..., products of few vectors. The cost of
+// a stretch does not depend on its length. A constant part p_l / l_l of the motion is included in f if it is at most a few
+// thousand times the motion.
 #pragma once
 
 #include <map>
@@ -20,15 +20,15 @@
 
 namespace signorini::sensitivity {
 
-/// Limit for the degrees of freedom n: above it n^2 operations per row cost more than the series. Chosen
-/// value.
+/// Largest number n of degrees of freedom; with more, n^2 operations per row cost more than the series. Chosen value.
 inline constexpr Eigen::Index max_modal_tangent_dofs = 600;
 
 /// Motion and tangents of all parameters at one time.
 struct MotionAndTangents {
   SeriesPoint motion;
-  Vector force_bends;                 ///< second derivatives of the contact forces
-  std::vector<SeriesPoint> tangents;  ///< one per parameter; with empty vectors if it is not followed
+  Vector force_bends;                 ///< second time derivatives of the contact forces
+  /// One entry per parameter; its vectors are empty if the tangent is not computed.
+  std::vector<SeriesPoint> tangents;
 };
 
 class ModalStretch;
@@ -36,22 +36,21 @@ struct TangentCache;
 
 class ModalTangents {
  public:
-  /// For models whose motion modes can follow (proportional_refusal). Model and derivatives must outlive the
-  /// object. usual: most frequent distance of requested times; data that depend on this distance alone are
-  /// kept.
+  /// For models whose motion can be computed in modes (proportional_refusal). Model and derivatives must outlive the object.
+  /// usual: most frequent distance of requested times, for which data are kept.
   ModalTangents(const Model& model, const std::vector<const ModelDerivative*>& derivatives, double usual);
   ~ModalTangents();
   ModalTangents(const ModalTangents&) = delete;
   ModalTangents& operator=(const ModalTangents&) = delete;
 
-  /// Starts a stretch after a decision. Returns false if modes cannot follow it. Modes, decision, forcing and
-  /// the starts must live until the next stretch.
+  /// Starts a stretch after a decision. Returns false if modes cannot represent the motion. Modes, decision, forcing and the
+  /// starts of the tangents must live until the next stretch.
   [[nodiscard]] bool start(modal::ModalSystem& modes, const decide::Decision& decision,
                            const motion::Forcing& forcing, std::vector<TangentSource> sources);
-  /// Values at t, not before the last t. whole: all degrees of freedom, with accelerations of tangents; otherwise only
-  /// those of columns and contacts.
+  /// Values at t, which must not be before the last t. whole: all degrees of freedom, with accelerations of tangents;
+  /// otherwise only the degrees of freedom of columns and contacts.
   [[nodiscard]] MotionAndTangents at(double t, bool whole);
-  /// Displayed values of the motion alone, without advancing.
+  /// Displayed values of the motion alone at t; the stretch is not advanced.
   [[nodiscard]] MotionAndTangents motion(double t) const;
 
  private:
@@ -63,22 +62,22 @@ class ModalTangents {
   std::unique_ptr<ModalStretch> stretch_;
 };
 
-// Data that ModalTangents keeps for recurring contact states.
+// Data that ModalTangents keeps for contact states that recur.
 //
 //   per state: B and G of every parameter (state_rates.hpp), displayed rows of the state's modes,
 //              data of the usual step
 
-/// Limit of the storage; when it is exceeded, all states are dropped. Chosen value.
+/// Largest size of the store in bytes; if it is exceeded, all states are dropped. Chosen value.
 inline constexpr std::size_t max_state_bytes = std::size_t{1} << 28;
 
 template <class S>
 struct StateStore {
   std::vector<ParameterModes<S>> parameters;
-  modal::RowMatrix shown;    // displayed degrees of freedom by flat amplitudes
-  OscillatorPairs<S> usual;  // for the usual step; empty: not computed yet
+  modal::RowMatrix shown;    // maps flat amplitudes to displayed degrees of freedom
+  OscillatorPairs<S> usual;  // for the usual step; empty: not yet computed
 };
 
-/// Work arrays of one step.
+/// Scratch arrays of one step.
 template <class S>
 struct StepWorkspace {
   OscillatorPairs<S> pairs;

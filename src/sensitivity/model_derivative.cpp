@@ -34,8 +34,8 @@ const Stencil& one_sided_points() {
 
 namespace {
 
-// Least number of coefficients of a piece, so that a zero coefficient has a place for its derivative: a cubic's
-// integral.
+// Least number of coefficients of a piece, so that each zero coefficient also has a place for its derivative. It is that of
+// the integral of a cubic.
 constexpr std::size_t min_coefficients = 5;
 
 HistoryRates numbers_of(const History& history) {
@@ -142,15 +142,15 @@ std::vector<double> sizes_of(ModelDerivative data) {
 
 namespace {
 
-constexpr double first_step = 1.0 / 512.0;  // h / size of the key
+constexpr double first_step = 1.0 / 512.0;  // step h / size of the key
 constexpr double shorter = 1.0 / 16.0;
 constexpr int max_attempts = 3;
-// Relative agreement of both stencils; chosen value: fourth order leaves 1e-10 at the first step for data like 1/p or
-// sqrt(p), and a kink inside the stencil leaves a tenth.
+// Largest relative difference of both stencils for smooth data. Chosen value: at the first step the fourth-order stencil has
+// an error of 1e-10 for data like 1/p or sqrt(p), while a kink within the stencil gives a difference of a tenth.
 constexpr double agreement = 1e-6;
 constexpr double rounding_of_data = 4096.0 * rounding::eps;
-// Relative to the largest of the data that come from solves: equilibria, and matrices with the lowest frequency in
-// them. Chosen value; the pipeline's own equilibrium is accurate to 1e-11.
+// Rounding error of data that come from solves (equilibria, and matrices that contain the lowest frequency), relative to the
+// largest of the data. Chosen value; the equilibrium of the pipeline scene is accurate to 1e-11.
 constexpr double rounding_of_solves = 1e-8;
 
 class Differences {
@@ -165,7 +165,7 @@ class Differences {
         base_(data_of(model)),
         shape_(shape_of(model)) {}
 
-  /// nullopt if the data are not smooth, or do not exist.
+  /// Derivative with the step h; nullopt: the data are not smooth, or do not exist.
   std::optional<ModelDerivative> at(double h) {
     step_ = h;
     moved_.clear();
@@ -195,7 +195,7 @@ class Differences {
     return std::nullopt;
   }
 
-  /// Reason why the scene is refused beside the value, if it is.
+  /// Reason why the scene is refused at keys near the value; nullopt: it is accepted.
   [[nodiscard]] const std::optional<std::string>& refusal() const { return refusal_; }
 
  private:
@@ -215,7 +215,7 @@ class Differences {
       check_ties(model);
       add_weight_load(model_, model);
       if (shape_of(model) != shape_ || !same_coordinates(model))
-        throw SceneError({}, path_, "the structure of the model changes with it near its value");
+        throw SceneError({}, path_, "the structure of the model changes near the value of this key");
       moved_.push_back({point, data_of(model), {}});
     }
     std::vector<ModelDerivative*> all{&base_};
@@ -224,7 +224,7 @@ class Differences {
     for (Moved& m : moved_) m.values = values_of(m.data);
   }
 
-  /// Motions that follow a body's motion by a different rule would have derivatives of their own, which are not
+  /// Refuses parameters that change the rule by which nodes follow a rigid body, because derivatives of that rule are not
   /// implemented.
   void check_ties(const Model& model) const {
     if (!model_.ties || !model.ties) return;
@@ -234,11 +234,12 @@ class Differences {
           "a support moves a rigid body: derivatives of the motions of its nodes are not available");
     if (SparseMatrix(model.ties->rows - model_.ties->rows).norm() != 0.0)
       throw SceneError({}, path_,
-                       "moves nodes of a rigid body relative to its centre: derivatives of their motions are "
-                       "not available");
+                       "the key moves nodes of a rigid body relative to its centre: derivatives of their "
+                       "motions are not available");
   }
 
-  /// True if the unknowns are the same: amplitudes of shapes that depend on the parameter are different ones.
+  /// True if the unknowns of both models are the same. Amplitudes of shapes that depend on the parameter are not the same
+  /// unknowns.
   [[nodiscard]] bool same_coordinates(const Model& model) const {
     if (model_.reduction) return model.reduction && model.reduction->shapes == model_.reduction->shapes;
     if (model_.basis) return model.basis && SparseMatrix(*model.basis - *model_.basis).norm() == 0.0;
@@ -249,7 +250,7 @@ class Differences {
     return *std::find_if(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; });
   }
 
-  /// Number of values to compare: those before u0 and v0 if these follow from the others.
+  /// Number of values to compare: all, or all before u0 and v0 if u0 and v0 follow from the other data.
   [[nodiscard]] std::size_t judged(std::size_t count) const {
     return start_follows_ ? count - 2 * static_cast<std::size_t>(model_.size()) : count;
   }
@@ -274,11 +275,11 @@ class Differences {
            is_straight(up.data.stiffness, base_.stiffness, down.data.stiffness);
   }
 
-  /// True if both stencils agree for every number, within rounding.
+  /// True if both weights of the stencil give the same derivative of every number, within rounding.
   [[nodiscard]] bool agree(const Stencil& stencil) const {
     const std::size_t count = moved_.front().values.size();
     const std::vector<double> least = sizes_of(base_);
-    const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 are last
+    const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 are the last values
     const double motion = std::max(base_.u0.cwiseAbs().maxCoeff(), base_.v0.cwiseAbs().maxCoeff());
     for (std::size_t i = 0; i < judged(count); ++i) {
       double better = 0.0, check = 0.0, size = least[i];
@@ -307,7 +308,7 @@ class Differences {
     return true;
   }
 
-  /// Sets entries that do not change to zero instead of their rounding.
+  /// Sets entries to zero that contain only rounding, because the data do not change.
   static SparseMatrix without_rounding(SparseMatrix a, const SparseMatrix& size, double step) {
     a.prune([&](Eigen::Index row, Eigen::Index column, double value) {
       return std::abs(value) > 4.0 * rounding::eps / std::abs(step) * std::abs(size.coeff(row, column));
@@ -330,7 +331,7 @@ class Differences {
     }
     std::size_t i = 0;
     visit_all(d, [&](double& x) {
-      // the weights have zero sums: for constant data only rounding remains
+      // the sum of the weights is zero, so constant data give only rounding
       const double size = std::abs(x), sum = sums[i++];
       x = std::abs(sum) > 16.0 * rounding::eps / std::abs(step_) * size ? sum : 0.0;
     });
@@ -354,7 +355,7 @@ class Differences {
   const Model& model_;
   const std::string& path_;
   double value_, step_ = 0.0;
-  bool start_follows_;  // u0 is found from the other data (forcing_rates.hpp)
+  bool start_follows_;  // true: u0 is computed from the other data (static_rate() in forcing_rates.hpp)
   ModelDerivative base_;
   std::vector<long> shape_;
   std::vector<Moved> moved_;
@@ -374,7 +375,7 @@ void add_weight_load(const Model& from, Model& model) {
 
 ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path, double value,
                            double size) {
-  std::string why = "the data of the model do not depend smoothly on it at its value";
+  std::string why = "the data of the model do not depend smoothly on this key at its value";
   const bool follows = model.static_start && !model.statics.frictional;
   for (const bool start_follows : {true, false}) {
     if (start_follows && !follows) continue;
@@ -389,7 +390,7 @@ ModelDerivative derivative(const SceneReader& read, const Model& model, const st
       d->u0 = std::move(*w);
       return *d;
     }
-    if (differences.refusal()) why = "it cannot be varied: " + *differences.refusal();
+    if (differences.refusal()) why = "the key cannot be varied: " + *differences.refusal();
   }
   throw UsageError(fmt::format("--parameter {}: {}", path, why));
 }

@@ -1,12 +1,12 @@
-// model_derivative.hpp: derivative of all model data by a key of the scene.
+// model_derivative.hpp: derivative of all model data with respect to a key of the scene.
 //
 //   x_p = ( 3/4 (x1 - x-1) - 3/20 (x2 - x-2) + 1/60 (x3 - x-3) ) / h      x_j: the data at p + j h
 //   linear data: (x1 - x-1) / 2h;   at the limit of a key's range: five points on one side
 //
-// Data are smooth functions of the keys, mostly linear ones: the truncation error is of order h^6 (h^5 at a limit),
-// rounding eps/h. With h = 2^-9 of the value both are below 1e-12. A fourth-order stencil through the same points
-// checks whether the data are smooth; if not, h is divided by 16, twice at most. Rows and guards of contacts are
-// differenced too, so that a law is implemented in one place (contact/law.hpp).
+// Data are smooth functions of the keys, most of them linear. The truncation error is of order h^6 (h^5 at a limit of the
+// range), the rounding error is eps/h; with h = 2^-9 of the value both are below 1e-12. A fourth-order stencil through the
+// same points checks whether the data are smooth. If they are not, h is divided by 16, at most twice. Rows and guards of
+// contacts are differenced too, so that a law needs no derivatives of its own (contact/law.hpp).
 #pragma once
 
 #include <vector>
@@ -16,13 +16,13 @@
 
 namespace signorini::sensitivity {
 
-// Finite-difference stencils.
+// Finite-difference stencils for first derivatives.
 //
 //   f' = sum_i w_i f(p + k_i h) / h          k_i: points, w_i: weights
 //
-// `check` are weights of lower order at the same points: where both results differ, the function is not smooth.
+// `check` contains weights of lower order for the same points. If both results differ, the function is not smooth.
 
-/// Points in units of the step, and weights divided by the step.
+/// Points in units of the step h; the sum of weights times values is divided by h.
 struct Stencil {
   std::vector<int> points;
   std::vector<double> weights, check;  ///< check: weights of lower order at the same points
@@ -30,16 +30,15 @@ struct Stencil {
 
 /// Central difference, exact for linear and quadratic functions.
 [[nodiscard]] const Stencil& two_points();
-/// Central stencil of sixth order, checked by one of fourth order.
+/// Central stencil of sixth order, with a check of fourth order.
 [[nodiscard]] const Stencil& six_points();
-/// Stencil of fifth order with points on the upper side, checked by one of fourth order; on the lower side h
-/// < 0.
+/// Stencil of fifth order with points on the upper side, with a check of fourth order; a step h < 0 gives the lower side.
 [[nodiscard]] const Stencil& one_sided_points();
 
-/// Derivatives of a history's numbers, piece by piece. Empty: no change.
+/// Derivatives of a history's numbers, piece by piece. Empty: the history does not depend on the key.
 struct HistoryRates {
   std::vector<double> starts;
-  std::vector<Piece> pieces;  ///< the numbers are derivatives
+  std::vector<Piece> pieces;  ///< each number of a piece is replaced by its derivative
   [[nodiscard]] bool none() const { return pieces.empty(); }
 };
 
@@ -53,11 +52,11 @@ inline constexpr std::array all_states = {State::open,
                                           State::static_limit_minus};
 [[nodiscard]] constexpr std::size_t index_of(State state) { return static_cast<std::size_t>(state); }
 
-/// Derivatives of one contact's data, with anchors at zero.
+/// Derivatives of the data of one contact; rows and guards are those with anchor zero.
 struct ContactRates {
   Combination normal, tangent, body_tangent;
   double gap = 0.0, tangential_stiffness = 0.0, initial_shear = 0.0, restitution = 0.0, shear_stiffness = 0.0;
-  Friction friction;  ///< derivatives of the contact's constants of friction
+  Friction friction;  ///< derivatives of the contact's friction constants
   HistoryRates normal_force, surface_motion;
   std::array<Rows, all_states.size()> rows;
   std::array<std::array<Form, ContactLaw::most_guards>, all_states.size()> guards;
@@ -68,9 +67,9 @@ struct LoadRates {
   HistoryRates history;
 };
 
-/// Derivatives in the units of `model`, over the unit of the key.
+/// Derivatives of model data: unit of the datum in the model / unit of the key.
 struct ModelDerivative {
-  SparseMatrix mass, damping, stiffness;  ///< without entries for constants
+  SparseMatrix mass, damping, stiffness;  ///< constant entries are left out
   std::vector<LoadRates> loads;
   std::vector<ContactRates> contacts;
   Vector u0, v0;
@@ -78,22 +77,21 @@ struct ModelDerivative {
   bool one_sided = false;
 };
 
-/// Copies the weight load of a model with gravity into one without, with value zero: a place for its
+/// If `from` has a weight load and `model` has none, adds a weight load of value zero to `model`, as a place for its
 /// derivative.
 void add_weight_load(const Model& from, Model& model);
 
-/// Derivative by the key at `path`. model: build_model(read({})), in the machine's units; value, size: of the
-/// key. Errors: SceneError and UsageError if the key cannot be varied, or if the data do not depend smoothly
-/// on it.
+/// Derivative with respect to the key at `path`. model: build_model(read({})), in internal units; value, size: of the key.
+/// Errors: SceneError and UsageError if the key cannot be varied, or if the data do not depend smoothly on it.
 [[nodiscard]] ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path,
                                          double value, double size);
 
-// All numbers of a model that a parameter may change, in a fixed order.
+// All numbers of a model that a parameter may change, visited in a fixed order.
 //
-//   data_of(model): the numbers themselves, in the place of their derivatives;   visit(d, f): f(x) of each
+//   data_of(model): the numbers themselves in place of derivatives;   visit(d, f): calls f(x) for each
 //
-// Two models whose shapes are equal have the same numbers in the same order, once align() has given their
-// combinations the same terms.
+// Two models with equal shape_of() have the same numbers in the same order, after align() has given their combinations the
+// same terms.
 
 template <class Visit>
 void visit_form(Form& f, const Visit& visit) {
@@ -146,17 +144,16 @@ void visit_all(ModelDerivative& d, const Visit& visit) {
   for (double& v : d.v0) visit(v);
 }
 
-/// Adds the terms of each model's combinations to those of all others, since some models have no terms for
-/// zeros.
+/// Gives the combinations of all models the same terms, because a model may omit terms that are zero.
 void align(const std::vector<ModelDerivative*>& all);
-/// The data themselves, in a ModelDerivative.
+/// The numbers of the model, stored in a ModelDerivative.
 [[nodiscard]] ModelDerivative data_of(const Model& model);
-/// Sizes and structure that must be equal for differences to be meaningful.
+/// Sizes and structure of a model; they must be equal for differences of models to be meaningful.
 [[nodiscard]] std::vector<long> shape_of(const Model& model);
-/// All numbers except the matrices; those of u0 and v0 are last.
+/// All numbers except those of the matrices; the numbers of u0 and v0 are last.
 [[nodiscard]] std::vector<double> values_of(ModelDerivative& data);
-/// Magnitude to which the rounding of each number is relative: its own, for a number of a form the form's
-/// largest.
+/// Magnitude to which the rounding error of each number is relative: its own magnitude, or for a coefficient of a combination
+/// the largest one of the combination.
 [[nodiscard]] std::vector<double> sizes_of(ModelDerivative data);
 
 }  // namespace signorini::sensitivity

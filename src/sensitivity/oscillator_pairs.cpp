@@ -7,12 +7,13 @@
 namespace signorini::sensitivity {
 namespace {
 
-// Limit of m t^2 up to which a pair is a series in it, and limit from which a mode oscillates. If one of two modes does
-// not oscillate and one is not slow, they differ by at least a quarter of the larger one: l t^2 <= 4.1 and > 6.
+// slow_square: largest m t^2 for which a pair is computed as a series in m t^2. turning_square: m t^2 above which a mode
+// oscillates. If one of two modes does not oscillate and one is not slow, their squares differ by at least a quarter of the
+// larger one, since l t^2 <= 4.1 and > 6.
 constexpr double slow_square = 6.0, turning_square = 0.09;
-constexpr int max_time_terms = 64;    // l t^2 <= 1 and alpha t <= 4: 40 are sufficient
+constexpr int max_time_terms = 64;    // 40 terms are sufficient for l t^2 <= 1 and alpha t <= 4
 constexpr int max_series_terms = 24;  // 6^24 / 48! = 4e-43
-// Limit for the series of sin(x)/x with seven terms: 0.36^14/15! = 5e-19.
+// Largest x for the series of sin(x)/x with seven terms, whose error is 0.36^14/15! = 5e-19.
 constexpr double small_angle = 0.25;
 
 double sine_of(double a) { return std::sin(a); }
@@ -145,7 +146,7 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
     }
 }
 
-/// l h = 1 - c; a series in time if l is small.
+/// From l h = 1 - c, or by a series in time if l t^2 is small.
 template <class S>
 S OscillatorPairs<S>::h_of(std::size_t k) const {
   const double square = t_ * t_;
@@ -163,7 +164,7 @@ S OscillatorPairs<S>::h_of(std::size_t k) const {
   return sum;
 }
 
-/// l_k H = -(C + h(l)) for the larger of both; a series in time if both are small.
+/// From l_k H = -(C + h(l)) with the larger of both modes as k, or by a series in time if both are small.
 template <class S>
 S OscillatorPairs<S>::h_pair(std::size_t k, std::size_t l) const {
   const double square = t_ * t_;

@@ -1,14 +1,14 @@
-// oscillator_pairs.hpp: response of one mode to the motion of another mode of a nearby frequency.
+// oscillator_pairs.hpp: response of one mode that is driven by the motion of another mode, also if their frequencies are
+// close.
 //
 //   y_l'' + alpha y_l' + l y_l = p:   y_l(t) = z c(l) + r s(l) + p h(l)       z, r: y_l and y_l' at 0
 //   w'' + alpha w' + k w = -y_l,  w(0) = w'(0) = 0:   w(t) = z C + r S + p H
-//   C = c[k, l] = (c(k) - c(l)) / (k - l),   S and H likewise
+//   C = c[k, l] = (c(k) - c(l)) / (k - l),   S and H with s and h
 //
-// c, s and h are entire functions of l, so C, S and H have no poles where k approaches l. With m = l -
-// alpha^2/4 and w^2 = m, they are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2; if m t^2 is small
-// for both modes, they are series in m t^2. Rates follow from c' = -l s, s' = c - alpha s, h' = s by (l s)[k,
-// l] = k S + s(l). The argument must satisfy alpha t <= 4. The type S is double or Complex. Units follow from
-// those of t and l.
+// c, s and h are entire functions of l, so C, S and H have no poles where k approaches l. With m = l - alpha^2/4 and w^2 = m
+// they are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2; if m t^2 is small for both modes, they are computed as
+// series in m t^2. Rates follow from c' = -l s, s' = c - alpha s, h' = s with (l s)[k, l] = k S + s(l). Required: alpha t <=
+// 4. S is double or Complex. Units follow from those of t and l.
 #pragma once
 
 #include <cstddef>
@@ -22,17 +22,17 @@ namespace signorini::sensitivity {
 template <class S>
 class OscillatorPairs {
  public:
-  /// Computes all pairs of the squared frequencies l, at this time.
+  /// Computes C and S for all pairs of the squared frequencies l, at time t.
   void fill(const std::vector<S>& l, double alpha, double t);
 
   [[nodiscard]] std::size_t size() const { return l_.size(); }
   [[nodiscard]] S c(std::size_t k) const { return c_[k]; }
   [[nodiscard]] S s(std::size_t k) const { return s_[k]; }
   [[nodiscard]] S h(std::size_t k) const { return h_[k]; }
-  /// Rows of size() numbers, symmetric.
+  /// Row k of C (S_row(): of S): size() numbers; both matrices are symmetric.
   [[nodiscard]] const S* C_row(std::size_t k) const { return big_c_.data() + k * l_.size(); }
   [[nodiscard]] const S* S_row(std::size_t k) const { return big_s_.data() + k * l_.size(); }
-  /// H[k, l] for all k.
+  /// Column l of H: H[k, l] for all k.
   [[nodiscard]] const std::vector<S>& H_column(std::size_t l);
 
  private:

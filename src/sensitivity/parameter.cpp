@@ -18,7 +18,7 @@ namespace {
   throw UsageError(fmt::format("--parameter {}: {}", path, message));
 }
 
-/// True for run.initial.NODE.ux, which is zero if omitted.
+/// True for a key run.initial.NODE.ux (or another component), whose value is zero if it is omitted.
 bool is_initial_value(const std::vector<std::string>& parts) {
   return parts.size() == 4 && parts[0] == "run" && parts[1] == "initial" &&
          scene::find_key("run.initial.*", parts[3]) != nullptr;
@@ -40,7 +40,7 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       return;
     }
     const auto number = node.value<double>();
-    if (!number || node.is_boolean()) fail_at(path, "expected the key of a number");
+    if (!number || node.is_boolean()) fail_at(path, "expected a key whose value is a number");
     found.insert(*number);
     return;
   }
@@ -52,8 +52,8 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       return;
     }
     if (!inner)
-      fail_at(path, fmt::format("\"{}\" is not in the scene. If it is a key without default, write it there "
-                                "with the value at which to differentiate",
+      fail_at(path, fmt::format("\"{}\" is not in the scene. If it is a key without default, add it to the "
+                                "scene with the value at which to differentiate",
                                 name));
     numbers_at(*inner, rest, next + 1, path, found);
   } else if (const auto* array = node.as_array()) {
@@ -111,7 +111,7 @@ double value_of(const Scene& scene, const std::string& path) {
 
 double typical_size(const SceneReader& read, const Scene& scene, const Model& model,
                     const std::string& path) {
-  constexpr double probe = 1.0 / 1024.0;  // any nonzero number
+  constexpr double probe = 1.0 / 1024.0;  // any small nonzero number
   std::vector<double> before;
   Scene copy = scene;
   scene::visit_quantities(copy, [&](double& x, const Unit&) { before.push_back(x); });
@@ -127,7 +127,7 @@ double typical_size(const SceneReader& read, const Scene& scene, const Model& mo
         ++i;
       });
       return size;
-    } catch (const Error&) {  // the key may only have one sign
+    } catch (const Error&) {  // the key may allow only one sign
     }
   }
   return 1.0;

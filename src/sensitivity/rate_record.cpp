@@ -12,7 +12,7 @@ struct PeakKind {
   const char* name;
   Unit of;
 };
-/// Same kinds as in summary.json: forces, and displacements of the body since the start.
+/// Quantities with peaks, as in summary.json: forces, and displacements of the body since the start.
 constexpr std::array<PeakKind, 4> peak_kinds = {
     PeakKind{"peak N", unit::force}, PeakKind{"peak T", unit::force}, PeakKind{"peak normal", unit::length},
     PeakKind{"peak tangential", unit::length}};
@@ -110,7 +110,7 @@ void RateRecord::add_row(const TangentSample& s) {
   }
 }
 
-/// Adds the energies as the last columns of a row.
+/// Writes the derivatives of the energies into the last columns of a row.
 void RateRecord::add_energies(const TangentSample& s, std::size_t p, std::vector<double>& row) const {
   const SeriesPoint& w = s.tangents[p];
   std::vector<ContactMotion> motions, rates;
@@ -138,8 +138,8 @@ void RateRecord::update_peak(std::size_t c, std::size_t which, double t, PeakCan
   peak = {std::abs(seen.value), seen.value, t, seen.turn, std::move(seen.rates), std::move(seen.t_rates)};
 }
 
-/// At an extreme the rate is zero, so the derivative of a peak's value is that at fixed time. An extreme that coincides
-/// with an instant is a kink; its derivatives are the instant's.
+/// At an extreme the rate is zero, so the derivative of the peak's value is its derivative at fixed time. An extreme that
+/// coincides with an instant is a kink, and is recorded by update_at_instant().
 void RateRecord::update_at_turning_point(const TangentSample& s, std::size_t c) {
   if (std::abs(s.t - instant_) <= resolution_) return;
   const Contact& contact = model_.contacts[c];
@@ -172,13 +172,13 @@ void RateRecord::update_at_turning_point(const TangentSample& s, std::size_t c) 
   }
 }
 
-/// Forces may jump at an instant, so both of its sides count.
+/// Records peaks on both sides of an instant, because forces may jump there.
 void RateRecord::update_at_instant(const InstantMotion& motion, const std::vector<TangentState>& states,
                                    std::size_t c) {
   const Contact& contact = model_.contacts[c];
   const double t = motion.instant.t;
   for (Peak& peak : peaks_[c])
-    if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution) peak = {};  // found again below
+    if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution) peak = {};  // offered again below
   const auto offer = [&](std::size_t which, double value, auto&& rate_of) {
     if (!(std::abs(value) > peaks_[c][which].size)) return;
     PeakCandidate seen{value, false, {}, {}};
@@ -215,7 +215,7 @@ void RateRecord::at_instant(const InstantMotion& motion, const std::vector<Tange
   if (landings_) landings_->instant(motion, states);
 }
 
-/// Losses of the run until its end, for each contact and in total.
+/// Adds the losses of the whole run, for each contact and in total.
 void RateRecord::add_losses() {
   const Audit& audit = result_.report.audit;
   const auto add = [&](const char* name, int contact, double value, auto&& rate_of) {

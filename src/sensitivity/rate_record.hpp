@@ -1,7 +1,7 @@
-// rate_record.hpp: records events, rows and results of contacts with their derivatives, in the scene's units.
+// rate_record.hpp: records events, rows and contact results together with their derivatives, in the scene's units.
 //
-//   peak of q:        at an extreme its derivative is q_p, and that of its time -(q'_p)/q''
-//                     at an instant these are Dq and dt/dp
+//   peak of q:        at an extreme: derivative q_p, derivative of its time -(q'_p)/q''
+//                     at an instant: derivative Dq, derivative of its time dt/dp
 //   residual value:   the value at the last output time
 #pragma once
 
@@ -15,7 +15,7 @@ namespace signorini::sensitivity {
 
 class RateRecord final : public TangentListener, public run::ForwardingRecorder {
  public:
-  /// computed: in the machine's units; recorder: may be null. All arguments must outlive the object.
+  /// computed: the model in internal units; recorder: may be nullptr. All arguments must outlive the object.
   RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,
              Sensitivities& result, bool losses);
 
@@ -28,15 +28,15 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
 
-  /// Adds peaks and residual values to the result, whose report must be set; if losses are followed, also
-  /// losses and landings.
+  /// Adds peaks and residual values to the result, and with `losses` also losses and landings. The report of the result must
+  /// already be set.
   void finish();
 
  private:
-  /// Peak of one quantity of a contact.
+  /// Peak of one quantity of a contact, with its derivatives.
   struct Peak {
     double size = 0.0, value = 0.0, t = 0.0;
-    bool turn = false;  // an extreme between instants
+    bool turn = false;  // true: an extreme between instants
     std::vector<double> rates, t_rates;
   };
   struct PeakCandidate {
@@ -57,10 +57,11 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
   const Model& model_;
   const std::vector<ModelDerivative>& derivatives_;
   Sensitivities& result_;
-  const std::vector<TangentState>* states_ = nullptr;                             // after the last instant
-  double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;  // the last instant
+  const std::vector<TangentState>* states_ = nullptr;  // states after the last instant
+  // Time and resolution of the last instant.
+  double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;
   std::vector<std::array<Peak, 4>> peaks_;
-  std::optional<LandingRecord> landings_;  // only with losses
+  std::optional<LandingRecord> landings_;  // used only with losses
 };
 
 }  // namespace signorini::sensitivity

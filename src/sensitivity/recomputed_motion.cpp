@@ -9,7 +9,7 @@
 namespace signorini::sensitivity {
 namespace {
 
-// Newton iterations for an event time; three suffice unless a guard nearly grazes.
+// Limit for Newton iterations for an event time; three are enough unless the guard nearly grazes.
 constexpr int max_corrections = 8;
 
 bool same_states(const contact::ContactStates& a, const contact::ContactStates& b) {
@@ -48,7 +48,7 @@ engine::Stepper& RecomputedMotion::engine(bool in_modes) {
 }
 
 SeriesPoint RecomputedMotion::at(double t) {
-  // A separate engine, because the main one may go beyond the extremes on the way.
+  // A separate engine is used, because the main one may already have advanced beyond the extremes on the way.
   if (!event_search_)
     event_search_ = std::make_unique<exact::ExactEngine>(model_, structure_, systems_, t_end_);
   engine::Stepper& engine = *event_search_;
@@ -64,8 +64,7 @@ SeriesPoint RecomputedMotion::at(double t) {
 std::optional<double> RecomputedMotion::time_of(const run::RunInstant& instant, const MotionAt& at) const {
   if (instant.breakpoint) return instant.t;
   if (instant.triggered
-          .empty()) {  // the end of the run, or a change of states found by the engine at the end of
-                       // a step
+          .empty()) {  // end of the run, or a change of states at the end of a step
     if (same_states(instant.states_before, instant.after.states)) return instant.t;
     return std::nullopt;
   }
@@ -85,7 +84,7 @@ std::optional<double> RecomputedMotion::time_of(const run::RunInstant& instant, 
     if (!(rate < 0.0)) return std::nullopt;
     const double off = -guard->value(m) / rate;
     if (!(t + off > now_.jet.t)) return std::nullopt;
-    // below the time resolution of instants, or below the rounding of the guard
+    // Newton's method has converged: below the time resolution of instants, or below the rounding error of the guard
     if (std::abs(off) <= std::max(instant.resolution, -4.0 * noise / rate)) return t + off;
     if (!(std::abs(off) < std::abs(last))) return std::nullopt;
     t += off;

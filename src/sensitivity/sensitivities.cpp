@@ -1,4 +1,4 @@
-// sensitivities(): the model and its derivatives, then one run with its tangents.
+// sensitivities(): builds the model and its derivatives, then makes one run with the tangents.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace signorini {
 namespace {
 
-/// Refuses keys that control the computation, not the motion.
+/// Refuses keys that control the computation and have no effect on the motion.
 void check_path(const std::string& path) {
   for (const std::string_view table : {"run.", "reduction.", "schema", "title", "units"})
     if (path.starts_with(table) && !path.starts_with("run.initial"))
@@ -35,7 +35,7 @@ void check_options(const RunSpec& run, const SensitivityOptions& options) {
     throw UsageError("discrete derivatives: losses are available for the continuous motion only");
 }
 
-/// Adds a place for the derivative by gravity; zero gravity makes no load.
+/// Adds a weight load of value zero as a place for derivatives with respect to gravity, because zero gravity makes no load.
 void make_room_for_weight(const SceneReader& read, const Scene& scene, const std::vector<std::string>& paths,
                           Model& model) {
   if (scene.gravity != std::array{0.0, 0.0}) return;
@@ -45,12 +45,12 @@ void make_room_for_weight(const SceneReader& read, const Scene& scene, const std
       try {
         sensitivity::add_weight_load(model::build_without_warnings(read({sensitivity::set_to(path, g)})),
                                      model);
-      } catch (const Error&) {  // derivative() reports it
+      } catch (const Error&) {  // derivative() reports the error
       }
     }
 }
 
-/// The run without a companion, which has no part in derivatives.
+/// Settings without a companion run, which does not contribute to derivatives.
 RunSpec without_companion(RunSpec run) {
   run.certify = Certify::no;
   return run;

@@ -13,17 +13,16 @@ namespace signorini::sensitivity {
 namespace {
 
 constexpr std::size_t most_bytes_of_modes = std::size_t{1}
-                                            << 28;  // storage of modes; when it is exceeded, all are dropped.
-                                                    // Chosen value.
-// Limit of alpha t in one step, as in Oscillators::advance.
+                                            << 28;  // largest store of modes in bytes; chosen value
+// Largest alpha t that one step covers, as in Oscillators::advance.
 constexpr double longest_decay_at_once = 4.0;
 
-/// Matrices with many columns, one for displacements and one for their rates, in flat amplitudes.
+/// Many motions at once, one per column, in flat amplitudes: displacements and their rates.
 struct ModalBundle {
   Eigen::MatrixXd z, rate;
 };
 
-/// Displacement and rate of each mode after some time, for a motion with these initial values in every mode.
+/// Displacement and rate of each mode after `time`, for a motion with these initial values and this force in every mode.
 modal::ModalPoint mode_response(const modal::Oscillators& oscillators, const modal::Amplitudes& zero,
                                 double z, double rate, double force, double time) {
   const auto all = [&](double value) {
@@ -37,7 +36,7 @@ modal::ModalPoint mode_response(const modal::Oscillators& oscillators, const mod
   return to;
 }
 
-/// out += factor x, mode by mode.
+/// out += factor x, where each mode has its own factor.
 void add_modewise(const modal::Amplitudes& factor, const Eigen::MatrixXd& x, Eigen::MatrixXd& out) {
   const auto reals = static_cast<Eigen::Index>(factor.real.size());
   const auto pairs = static_cast<Eigen::Index>(factor.pair.size());
@@ -180,7 +179,7 @@ void StateFlow::advance(const contact::ContactStates& contact_states, double tim
   evaluate(contact_states, modes.out * all, modes.seen * second, states);
 }
 
-/// Writes the contact quantities of the tangents.
+/// Computes the contact quantities of the tangents from their motion.
 void StateFlow::evaluate(const contact::ContactStates& contact_states, const Eigen::MatrixXd& moved,
                          const Eigen::MatrixXd& seen, std::vector<TangentState>& states) const {
   const Eigen::Index columns = seen.cols();

@@ -1,11 +1,11 @@
-// state_flow.hpp: tangents by the initial state over a stretch, in the modes of its contact state.
+// state_flow.hpp: tangents with respect to the initial state over a stretch, in the modes of its contact state.
 //
 //   w'' + alpha w' + L w = f = Y Phi^T sum_k t_k kt_k p_k           p_k: tangents of anchors, constant on a stretch
 //   w(t) = c w0 + s w0' + h f,   w'(t) = c' w0 + s' w0' + h' f      mode by mode, in closed form (oscillators.hpp)
 //   W = Phi X w,   w = Y Phi^T M W                                  W: n x columns
 //
-// Loads do not appear, because they act equally on all neighbouring motions. So for any excitation a stretch
-// costs four matrix products, independent of its length. Modes of a contact state are kept.
+// Loads do not appear, because they act equally on all neighbouring motions. So a stretch costs four matrix products for any
+// excitation and any length. The modes of contact states are kept.
 #pragma once
 
 #include <map>
@@ -18,23 +18,23 @@ namespace signorini::sensitivity {
 
 class StateFlow {
  public:
-  /// modes_uncouple(model) must be true. The flow keeps a copy of the model, whose loads and initial state
-  /// are not used.
+  /// modes_uncouple(model) must be true. The object keeps a copy of the model; loads and initial state of the copy are not
+  /// used.
   explicit StateFlow(const Model& model);
 
-  /// True if all data that the flow depends on are equal: matrices, forms and stiffnesses of contacts.
+  /// True if all data on which the flow depends are equal: matrices, and forms and stiffnesses of contacts.
   [[nodiscard]] bool matches(const Model& model) const;
-  /// True if the modes of this contact state are accurate enough.
+  /// True if the modes of this contact state are accurate enough to be used.
   [[nodiscard]] bool has_accurate_modes(const contact::ContactStates& contact_states);
-  /// Advances all active tangents by `time`: displacements, velocities; accelerations of degrees of freedom with
-  /// contacts; contact forces and their rates.
+  /// Advances all valid tangents by `time`: displacements, velocities, accelerations at degrees of freedom with contacts,
+  /// contact forces and their rates.
   void advance(const contact::ContactStates& contact_states, double time, std::vector<TangentState>& states);
 
  private:
-  /// Rows are flat amplitudes: real modes, real and imaginary parts of pairs.
+  /// Rows of matrices are flat amplitudes: real modes, then real parts and imaginary parts of pairs.
   struct Modes {
     std::shared_ptr<const modal::StateModes> state;
-    /// seen: rows of `out` at the degrees of freedom of contacts.
+    /// in: to flat amplitudes; out: to degrees of freedom; seen: rows of `out` at degrees of freedom with contacts.
     Eigen::MatrixXd in, out, seen, from_tangent;
     modal::Oscillators oscillators;
     bool accurate = false;
@@ -52,7 +52,8 @@ class StateFlow {
   std::size_t bytes_ = 0;
 };
 
-/// True if damping alpha M, alpha >= 0, leaves the modes of each contact state uncoupled (modal_system.hpp).
+/// True if damping is alpha M with alpha >= 0 and contacts have constant stiffness, so that modes are uncoupled in each
+/// state.
 [[nodiscard]] bool modes_uncouple(const Model& model);
 
 }  // namespace signorini::sensitivity

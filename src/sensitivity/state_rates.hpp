@@ -1,9 +1,10 @@
-// state_rates.hpp: derivatives of a state's modal equations by a parameter, B and G of modal_tangents.hpp.
+// state_rates.hpp: derivatives of the modal equations of a contact state: matrices B and G of modal_tangents.hpp.
 //
 //   B = Y Phi^T ( K_p + contacts' ) Phi X - Y Phi^T M_p Phi X L,    G = Y Phi^T ( C_p - alpha M_p ) Phi X
 //   contacts' = sum of n (N_gap,p n + N_gap n_p)^T + n_p N_gap n^T + ..., outer products of forms
 //
-// Column k of a product belongs to mode k: its shape, multiplied by the open matrix, projected on the modes.
+// Column k of a product belongs to mode k: the mode shape is multiplied by the unconstrained matrix and projected on the
+// modes.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +18,11 @@
 
 namespace signorini::sensitivity {
 
-// Lists all modes of a state, and square tables of them.
+// Lists of all modes of a state, and square matrices over these modes.
 //
-//   S double: real modes only;   S Complex: real modes, modes of pairs, and their conjugates
+//   S = double: real modes only;   S = Complex: real modes, modes of pairs, and their conjugates
 
-/// Real amplitudes, then real and imaginary parts of pairs.
+/// Flat amplitudes: real amplitudes, then real parts and imaginary parts of pairs.
 inline Vector flat_modes(const modal::Amplitudes& a) {
   const auto n = static_cast<Eigen::Index>(a.real.size()), pairs = static_cast<Eigen::Index>(a.pair.size());
   Vector x(n + 2 * pairs);
@@ -35,7 +36,7 @@ inline Vector flat_modes(const modal::Amplitudes& a) {
 
 inline modal::Complex conjugate(modal::Complex a) { return {a.re, -a.im}; }
 
-/// Converts a number to the given type.
+/// Converts a number to type T; for T = double the real part is taken.
 template <class T>
 T of_kind(double a) {
   return T(a);
@@ -48,7 +49,7 @@ T of_kind(modal::Complex a) {
     return a;
 }
 
-/// Lists all modes: real ones, pairs, and their conjugates.
+/// Lists the values of all modes: real modes, modes of pairs, and for Complex also the conjugates of pairs.
 inline void list_modes(const modal::Amplitudes& a, std::vector<double>& out) { out = a.real; }
 inline void list_modes(const modal::Amplitudes& a, std::vector<modal::Complex>& out) {
   out.assign(a.real.begin(), a.real.end());
@@ -69,9 +70,9 @@ inline void add_modes(const std::vector<modal::Complex>& x, modal::Amplitudes& a
   for (std::size_t k = 0; k < a.pair.size(); ++k) a.pair[k] += x[a.real.size() + k];
 }
 template <class S>
-using Square = std::vector<S>;  // rows of N numbers
+using Square = std::vector<S>;  // N x N, row after row
 
-/// out += factor a b^T
+/// out += factor a b^T, for out: n x n.
 template <class S>
 void add_outer(const std::vector<S>& a, const std::vector<S>& b, double factor, Square<S>& out) {
   if (factor == 0.0) return;
@@ -83,7 +84,7 @@ void add_outer(const std::vector<S>& a, const std::vector<S>& b, double factor, 
   }
 }
 
-/// sum_l x_l y_l, in four independent sums.
+/// sum_l x_l y_l, computed as four independent sums.
 template <class S>
 S inner(const S* x, const S* y, std::size_t n) {
   S sum[4] = {S(0.0), S(0.0), S(0.0), S(0.0)};
@@ -94,25 +95,25 @@ S inner(const S* x, const S* y, std::size_t n) {
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/// out += factor b x
+/// out += factor b x, for b: n x n.
 template <class S>
 void add_product(const Square<S>& b, const std::vector<S>& x, double factor, std::vector<S>& out) {
   const std::size_t n = x.size();
   for (std::size_t k = 0; k < n; ++k) out[k] += inner(b.data() + k * n, x.data(), n) * factor;
 }
 
-/// Derivatives of the matrices by one parameter in open modes; empty if a matrix does not change.
+/// Derivatives of the matrices with respect to one parameter, in unconstrained modes; empty if a matrix does not change.
 struct OpenRates {
   Eigen::MatrixXd mass, damping, stiffness;  ///< damping: C_p - alpha M_p
 };
 
-/// B and G of one parameter in a contact state, the same for all stretches.
+/// B and G of one parameter in a contact state; they are the same for all stretches in this state.
 template <class S>
 struct ParameterModes {
-  Square<S> b, g;  ///< g: empty if it is zero
+  Square<S> b, g;  ///< g: empty if G is zero
 };
 
-/// A state of the contacts and its modes, at the beginning of a stretch.
+/// The contact states at the beginning of a stretch, and their modes.
 struct StateAt {
   const Model& model;
   const modal::ModalSystem& modes;
@@ -129,10 +130,10 @@ inline bool any_term(const Combination& c) {
 template <class S>
 class StateRates {
  public:
-  /// All arguments must outlive the object; l: eigenvalues of the listed modes.
+  /// All arguments must outlive the object. l: eigenvalues of the listed modes.
   StateRates(const StateAt& at, const std::vector<S>& l) : at_(at), spectrum_(at.state.spectrum), l_(l) {}
 
-  /// Mode shapes at the given degrees of freedom (rows); columns: flat modes (flat_modes).
+  /// Mode shapes at the given degrees of freedom. Rows: degrees of freedom; columns: flat amplitudes (flat_modes()).
   [[nodiscard]] modal::RowMatrix shown(const std::vector<Eigen::Index>& dofs) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
     modal::RowMatrix out(static_cast<Eigen::Index>(dofs.size()),
@@ -170,7 +171,7 @@ class StateRates {
     return q;
   }
 
-  /// Column k of X, that of a mode or a conjugate: its real part and, for pairs, its imaginary part.
+  /// Column k of X, which belongs to a mode or a conjugate: its real part and, for pairs, its imaginary part.
   [[nodiscard]] std::vector<Vector> shape(std::size_t k) const {
     const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
     modal::Amplitudes unit = spectrum_.zero();
@@ -194,7 +195,7 @@ class StateRates {
       for (std::size_t i = 0; i < x.size(); ++i) out[i * x.size() + k] += x[i] * turned;
     }
   }
-  static double quarter_turn(double) { return 0.0; }  // never used: real modes have one part
+  static double quarter_turn(double) { return 0.0; }  // never used, because real modes have one part only
   static modal::Complex quarter_turn(modal::Complex a) { return {-a.im, a.re}; }
 
   void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {
@@ -212,8 +213,8 @@ class StateRates {
     }
   }
 
-  /// A linear form in modal coordinates. from: amplitudes that a unit force along the form excites; row: its
-  /// coefficients in the modes.
+  /// A linear form in modal coordinates. from: amplitudes that a unit force along the form excites; row: coefficients of the
+  /// form in the modes.
   struct ModalForm {
     std::vector<S> from, row;
   };

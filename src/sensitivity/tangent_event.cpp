@@ -55,12 +55,13 @@ ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& d
 
 namespace {
 
-// Relative difference up to which two derivatives count as equal: far above rounding, far below actual differences.
-// Chosen value; tests of symmetric frames in tests/unit/sensitivity depend on it.
+// Relative difference up to which two derivatives are equal. It is far above rounding errors and far below actual
+// differences. Chosen value; tests of symmetric frames in tests/unit/sensitivity depend on it.
 constexpr double same = 1e-7;
-// Relative difference up to which velocities and accelerations do not jump.
+// Largest relative difference of velocities and accelerations that is not a jump.
 constexpr double same_motion = 1e-9;
-// A guard must reach zero with g'^2 > 2 n |g''| n_g, otherwise its time is not a smooth function: n roundings n_g.
+// A guard grazes zero unless g'^2 > 2 n |g''| n_g, with n = grazes and the noise n_g of the guard; its time is then not
+// smooth.
 constexpr double grazes = 1e3;
 
 double greatest(const Vector& x, const Model& model) {
@@ -72,7 +73,7 @@ double greatest(const Vector& x, const Model& model) {
   return size;
 }
 
-/// True if the difference exceeds a fraction of the vectors, and of `least`.
+/// True if the difference of a and b exceeds the fraction `part` of the vectors and of `least`.
 bool differ(const Vector& a, const Vector& b, const Model& model, double part, double least) {
   return greatest(b - a, model) > part * std::max({greatest(a, model), greatest(b, model), least});
 }
@@ -83,7 +84,7 @@ double scale_of(const Form& form, const Scales& scales) {
   return scales.velocity;
 }
 
-/// Motion with all components one.
+/// Motion with all components equal to one.
 ContactMotion unit_motion() {
   ContactMotion m;
   m.N = m.T = m.gap = m.ut = m.vn = m.vt = m.an = m.at = m.applied_normal_force =
@@ -104,8 +105,8 @@ struct TangentEvents::PassState {
   const TangentBefore& before;
   TangentSeries& series;
   TangentAfter after;
-  std::vector<std::optional<double>> own;  // dt/dp by a contact's own guard
-  std::vector<ContactMotion> p_before;     // derivatives at fixed time, one per contact
+  std::vector<std::optional<double>> own;  // dt/dp by the contact's own triggered guard
+  std::vector<ContactMotion> p_before;     // derivatives at fixed time, one entry per contact
 
   [[nodiscard]] double dt_of(std::size_t c) const { return own[c].value_or(after.dt); }
   void stop(std::string why) {
@@ -113,7 +114,7 @@ struct TangentEvents::PassState {
   }
 };
 
-/// dt/dp from the guard of a contact, if that guard itself reached zero.
+/// dt/dp from the guard of contact c; nullopt: the guard did not reach zero itself.
 std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) const {
   const run::RunInstant& now = course.m.instant;
   const Contact& contact = model_.contacts[c];
@@ -129,12 +130,13 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
   const auto guard = std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) {
     return g.kind != Guard::none && g == crossing.form;
   });
-  if (guard == forms.end()) return std::nullopt;  // a guard of an intermediate state
+  if (guard == forms.end()) return std::nullopt;  // the guard belongs to an intermediate state
   const bool fired = std::any_of(now.triggered.begin(), now.triggered.end(),
                                  [&](const decide::TriggeredGuard& f) { return f.contact == c; });
   const double value = crossing.form.value(course.m.motion_before[c]);
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
-  if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // changed by another
+  // Another contact changed it.
+  if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;
   const double rate =
       fired ? crossing.derivatives[0]
             : crossing.form.parameter_derivative(course.m.motion_before[c], course.m.rate_before[c]);
@@ -152,7 +154,7 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
   return -moved / rate;
 }
 
-/// True if velocities and accelerations of degrees of freedom with mass do not jump.
+/// True if velocities and accelerations of degrees of freedom with mass do not jump at the instant.
 bool TangentEvents::is_smooth(const PassState& course) const {
   const std::vector<linear::DofKind>& kinds = course.m.instant.after.system->kinds();
   const double rate = model_.scales.velocity / model_.scales.displacement;
@@ -162,7 +164,8 @@ bool TangentEvents::is_smooth(const PassState& course) const {
                  rate);
 }
 
-/// True for an anchor whose position depends on the time of the instant: ut - T/kt changes there.
+/// True if the position of the contact's new anchor depends on the time of the instant, because ut - T/kt changes at the
+/// instant.
 bool TangentEvents::drops_anchor(const PassState& course, std::size_t c) const {
   const State before = course.m.instant.states_before[c].state,
               after = course.m.instant.after.states[c].state;
@@ -188,14 +191,14 @@ void TangentEvents::find_times(PassState& course) const {
   course.after.dt = times.front();
   if (*most - *least <= same * std::max(std::abs(*least), std::abs(*most)) + least_) return;
   if (is_smooth(course)) {
-    course.after.dt = 0.0;  // no jumps: each contact has its own time, the motion has none
+    course.after.dt = 0.0;  // without jumps the motion does not depend on these times
     return;
   }
   course.stop(
       "simultaneous events separate when the key changes, and the later motion depends on their order");
 }
 
-/// Computes the tangent of the state just after.
+/// Computes the tangent of the state just after the instant.
 void TangentEvents::move_state(PassState& course) const {
   const InstantMotion& m = course.m;
   const run::RunInstant& now = m.instant;
@@ -224,8 +227,8 @@ void TangentEvents::move_state(PassState& course) const {
   course.after.start.v = Dv - dt * m.after.a;
 }
 
-/// An anchor is at its position at the end of the slip: p = ut - T/kt, with T just before, or with the kinetic friction
-/// force at a change from slip to stick.
+/// Computes the derivatives of new anchors. An anchor is the slip position at the end of the slip: p = ut - T/kt. T is its
+/// value just before, or the kinetic friction force if the contact slipped before it sticks.
 void TangentEvents::move_anchors(PassState& course) const {
   const InstantMotion& m = course.m;
   course.after.start.anchors = course.before.start.anchors;
@@ -256,13 +259,13 @@ void TangentEvents::move_anchors(PassState& course) const {
   }
 }
 
-/// True if a rate is zero to the rounding of its terms, or of a typical size.
+/// True if a rate is zero up to the rounding error of its terms, or relative to a typical size.
 bool TangentEvents::vanishes(double rate, double terms, double scale) const {
   return std::abs(rate) <= 10.0 * same * terms + same_motion * scale / size_;
 }
 
-/// Checks that the constraints of the contact states also hold for other values of the parameter; otherwise
-/// the derivative is only one-sided.
+/// Checks that the constraints of the contact states are also satisfied for other values of the parameter; otherwise the
+/// derivative exists on one side only.
 void TangentEvents::check_resting_guards(PassState& course) const {
   const InstantMotion& m = course.m;
   const TangentAfter& after = course.after;
@@ -283,13 +286,14 @@ void TangentEvents::check_resting_guards(PassState& course) const {
                       scales.velocity);
     if (!held)
       return course.stop(
-          fmt::format("contact '{}' stays in its state here for this value of the key only: derivatives from "
+          fmt::format("contact '{}' keeps its state only for this value of the key: derivatives from "
                       "both sides differ",
                       contact.name));
   }
 }
 
-/// A guard that is zero afterwards, but not for other values of the parameter, is reached on one side only: a kink.
+/// Checks for kinks: a guard that is zero afterwards, but not for other values of the parameter, is triggered on one side
+/// only.
 void TangentEvents::check_kinks(PassState& course) const {
   const InstantMotion& m = course.m;
   const decide::Decision& decision = m.instant.after;
@@ -297,7 +301,7 @@ void TangentEvents::check_kinks(PassState& course) const {
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const decide::GuardStart& guard = decision.guards[slot];
     if (guard.kind == Guard::none || !guard.at_zero) continue;
-    const Form& form = decision.form(slot);  // laws with products are refused (contact_rates.hpp)
+    const Form& form = decision.form(slot);  // guards with products are refused (contact_rates.hpp)
     if (form.an != 0.0) continue;
     const std::size_t c = decision.layout.contact_of_guard(slot);
     const Contact& contact = model_.contacts[c];
@@ -316,13 +320,13 @@ void TangentEvents::check_kinks(PassState& course) const {
     terms.vt = std::abs(p.vt) + contact.tangent.magnitude(wv);
     const double size = form_rate.magnitude(m.motion_after[c]) + form.magnitude(terms) +
                         std::abs(dt) * form.magnitude(m.rate_after[c]);
-    // a gap that opens from rest: also its rate
+    // if a gap opens from rest, its rate must be zero, too
     const bool opens_slowly = guard.kind == Guard::closing && guard.leading_order != 1;
     if (vanishes(value, size, form.magnitude(unit_motion()) * scale_of(form, model_.scales)) &&
         (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))
       continue;
     return course.stop(
-        fmt::format("the {} of contact '{}' is zero here for this value of the key only: derivatives from "
+        fmt::format("the {} of contact '{}' is zero only for this value of the key: derivatives from "
                     "both sides differ",
                     contact::to_string(guard.kind), contact.name));
   }

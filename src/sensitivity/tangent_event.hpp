@@ -1,16 +1,15 @@
 // tangent_event.hpp: tangent motion across an instant, for one parameter.
 //
-//   dt/dp = - (G_p + grad G . w)/G'       of the guard that reached zero;  tau_p of a breakpoint;  0 at the start
+//   dt/dp = - (G_p + grad G . w)/G'       for the triggered guard;  tau_p for a breakpoint;  0 at the start
 //   w+ = w- + (u'- - u'+) dt/dp,   w'+ = Dv+ - u''+ dt/dp
 //   p_p = D(ut - T/kt)                    for a new anchor
 //
-// There is no derivative if the one-sided derivatives differ. This is so if two guards reach zero at one
-// instant and separate when the parameter changes, or if a guard grazes. It is also so if a guard is zero
-// afterwards and would be reached for other values of the parameter.
+// There is no derivative if the one-sided derivatives differ. They differ if two guards reach zero at one instant and
+// separate when the parameter changes, if a guard grazes zero, or if a guard is zero afterwards and would be triggered for
+// other values of the parameter.
 //
-// For a guard that grazes, dt/dp is unbounded. But if u'- = u'+ and u''- = u''+, and no new anchor depends on
-// the time, then w does not depend on dt/dp. Derivatives of states alone (orbits) can cross such a graze with
-// dt/dp = 0.
+// If a guard grazes zero, dt/dp is unbounded. But if u'- = u'+ and u''- = u''+, and no new anchor depends on the time, w does
+// not depend on dt/dp. Derivatives of states alone (orbits) can cross such a graze with dt/dp = 0.
 #pragma once
 
 #include <optional>
@@ -23,39 +22,38 @@
 
 namespace signorini::sensitivity {
 
-// Derivative of the velocities after an impact.
+// Derivatives of the velocities after an impact.
 //
 //   M (Dv+ - Dv-) - sum ( n DPn + t DPt ) = sum ( n_p Pn + t_p Pt ) - M_p (v+ - v-)      contacts with Pn > 0
 //   n . Dv+ + n_p . v+ = -e (n . Dv- + n_p . v-) - e_p min(vn-, 0)       e = 0 if the contact comes to rest
 //   sticks: t . Dv+ + t_p . v+ = Ds',      slides along s: DPt + s f DPn = -s f_p Pn
 //
-// D: along the moving instant. Touching contacts without impulse are left out: to first order their impulse
-// stays zero.
+// D: derivative along the moving instant. Touching contacts without an impulse are left out, because to first order their
+// impulse stays zero.
 
 struct ImpactRates {
   bool known = false;
   Vector v;                             ///< Dv+
-  std::vector<double> normal, tangent;  ///< DPn, DPt, one per contact
+  std::vector<double> normal, tangent;  ///< DPn and DPt, one entry per contact
 };
 
-/// Derivatives of one impact. v_before, Dv_before: just before it; states: before it; surface: Ds' of every
-/// contact.
+/// Derivatives of one impact. states, v_before, Dv_before: values just before the impact; surface: Ds' of every contact.
 [[nodiscard]] ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& derivative,
                                        contact::ContactStates states, const decide::Decision& after,
                                        const Vector& v_before, const Vector& Dv_before,
                                        const std::vector<double>& surface);
 
-/// The motion just before an instant, and just after it.
+/// The motion just before and just after an instant.
 struct InstantMotion {
   const run::RunInstant& instant;
   const SeriesPoint &before, &after;
-  const motion::Series& series_after;  ///< around the instant, with scale 1
-  std::vector<ContactMotion> motion_before, rate_before, motion_after, rate_after;  ///< one per contact
+  const motion::Series& series_after;  ///< Taylor series about the instant, with scale 1
+  std::vector<ContactMotion> motion_before, rate_before, motion_after, rate_after;  ///< one entry per contact
 };
 
 /// Tangent of one parameter just before an instant.
 struct TangentBefore {
-  Tangent start;  ///< with the anchors before
+  Tangent start;  ///< with the derivatives of the anchors before the instant
   SeriesPoint point;
   std::vector<DrivenRates> driven;
 };
@@ -66,15 +64,16 @@ struct TangentAfter {
   SeriesPoint point;
   std::vector<DrivenRates> driven;
   double dt = 0.0;                           ///< dt/dp of the instant
-  std::vector<EventRates> rates;             ///< one per contact, machine units
-  std::vector<double> impulse_n, impulse_t;  ///< derivatives, one per contact; empty: no impact
-  /// Reason why there is no derivative after the instant; empty: there is one.
+  std::vector<EventRates> rates;             ///< one entry per contact, in internal units
+  /// Derivatives of the impulses, one entry per contact; empty: no impact.
+  std::vector<double> impulse_n, impulse_t;
+  /// Reason why no derivative exists after the instant; empty: the derivative exists.
   std::string reason;
 };
 
 class TangentEvents {
  public:
-  /// All arguments must outlive the object. size: size of the parameter, for zero tests.
+  /// All arguments must outlive the object. size: size of the parameter, to which tests for zero are relative.
   TangentEvents(const Model& model, motion::StateSystems& systems, const ModelDerivative& derivative,
                 double size, double t_end)
       : model_(model),
@@ -85,7 +84,7 @@ class TangentEvents {
 
   [[nodiscard]] TangentAfter pass(const InstantMotion& motion, const TangentBefore& before,
                                   TangentSeries& series) const;
-  /// From this call on grazes without jumps are crossed; the times of their events have no derivative.
+  /// After this call, grazes without jumps are crossed; the times of such events have no derivative.
   void cross_smooth_grazes() { crosses_grazes_ = true; }
 
  private:
@@ -104,8 +103,8 @@ class TangentEvents {
   const Model& model_;
   motion::StateSystems& systems_;
   const ModelDerivative& derivative_;
-  double size_;   // size of the parameter
-  double least_;  // limit of rates of times that count as zero
+  double size_;   // size of the parameter, to which tests for zero are relative
+  double least_;  // rates of times below this limit are treated as zero
   bool crosses_grazes_ = false;
 };
 

@@ -10,12 +10,12 @@
 namespace signorini::sensitivity {
 namespace {
 
-// Fewer unknowns use the series, which is as fast there (run/choose_engine.hpp).
+// Least number of degrees of freedom for tangents in modes; with fewer, series are as fast (run/choose_engine.hpp).
 constexpr Eigen::Index min_modal = 16;
 constexpr int max_turn_steps = 6;
-constexpr std::size_t forcing_terms = 6;  // for a constant, all but the first are zero
+constexpr std::size_t forcing_terms = 6;  // coefficients after the first are zero for constants
 
-/// Series around an instant, with scale 1, from derivatives.
+/// Taylor series about an instant, with scale 1, from the derivatives of a jet.
 motion::Series series_of(const motion::Jet& jet, const motion::Forcing& forcing) {
   motion::Series s;
   s.t = jet.t;
@@ -32,7 +32,7 @@ motion::Series series_of(const motion::Jet& jet, const motion::Forcing& forcing)
   return s;
 }
 
-/// Relative error of a modal stretch: two products with the mode shapes, sums of n terms each.
+/// Relative error of a stretch in modes: two products with the mode shapes, which are sums of n terms.
 double error_in_modes(const Model& model) { return 2.0 * static_cast<double>(model.size()) * rounding::eps; }
 
 std::vector<const ModelDerivative*> pointers_to(const std::vector<ModelDerivative>& derivatives) {
@@ -94,14 +94,14 @@ void TangentRun::begin(const run::RunInstant& start) {
     for (const MovingBreakpoint& b : breakpoints_at(model_, d, 0.0, 0.0))
       if (b.rate != 0.0) {
         state.valid = false;
-        state.reason = "a load that begins at t = 0 begins later for values on one side only";
+        state.reason = "a load starts at t = 0, but starts later for values of the key on one side";
       }
   }
   recomputed_motion_.begin(start.after);
   pass(start);
 }
 
-/// Starts the stretch that begins here in modes, if they can follow it.
+/// Starts the stretch that begins here in modes. Returns false if its tangents cannot be computed in modes.
 bool TangentRun::starts_in_modes(const run::RunStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
   modal::ModalSystem* modes = share_->modes != nullptr ? share_->modes : recomputed_motion_.modes();
@@ -116,7 +116,7 @@ bool TangentRun::starts_in_modes(const run::RunStep& step) {
   return modal_->start(*modes, from, step.forcing, std::move(sources));
 }
 
-/// True if flow_ crosses the stretch in closed form: tangents by the state alone.
+/// True if flow_ can cross the stretch in closed form; only for tangents with respect to the initial state alone.
 bool TangentRun::crosses(const run::RunStep& step) {
   if (flow_ == nullptr || !closed_form_flow_ || !flow_->has_accurate_modes(step.decision.states))
     return false;
@@ -125,7 +125,7 @@ bool TangentRun::crosses(const run::RunStep& step) {
   return true;
 }
 
-/// Crosses the stretch up to t in closed form.
+/// Crosses the stretch up to t in closed form, if that is the method of the stretch.
 void TangentRun::cross(double t) {
   if (stretch_method_ != StretchMethod::closed_form || !(t > begin_)) return;
   flow_->advance(crossed_, t - begin_, states_);
@@ -137,7 +137,7 @@ TangentRun::StretchMethod TangentRun::choose_stretch_method(const run::RunStep& 
   if (crosses(step)) return StretchMethod::closed_form;
   const bool knew = !engine_without_series_;
   engine_without_series_ = share_->modes == nullptr && step.facts.expansion.series == nullptr;
-  // The followed motion is not up to date after stretches that used the engine's own series.
+  // The recomputed motion is not up to date after stretches that used the engine's own series.
   if (engine_without_series_ && knew) recomputed_motion_.begin(step.decision);
   if (engine_without_series_) recomputed_motion_.start(step.forcing);
   const bool modes = starts_in_modes(step);
@@ -169,7 +169,7 @@ void TangentRun::observe(const run::RunStep& step) {
     observe_modes(step);
 }
 
-/// Follows the stretch that has ended at t.
+/// Recomputes the stretch that has ended at t, with its tangents.
 void TangentRun::follow(double t) {
   if (!is_followed() || t <= recomputed_motion_.t()) return;
   engine::Stepper& engine = recomputed_motion_.engine(stretch_method_ == StretchMethod::recomputed_modes);
@@ -207,7 +207,7 @@ void TangentRun::arrive(double t) {
   }
 }
 
-/// State just before an instant of an engine that was followed: its own u and v, with the forces of the contact state.
+/// State just before an instant, if the stretch was recomputed: the engine's u and v, with forces consistent with them.
 SeriesPoint TangentRun::just_before(const run::RunInstant& instant) {
   const motion::StateSystemPtr system = systems_.system_of(instant.states_before);
   if (!system) return end_;
@@ -229,7 +229,7 @@ std::vector<RequestedPlace> TangentRun::wanted(const run::RunStep& step, std::sp
   return list;
 }
 
-/// Newton's method on the rate, starting at the turning point found by the engine, which resolves slow modes only.
+/// Newton's method on the rate, starting at the turning point from the engine, which resolves slow modes only.
 double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const run::RunStep& step) const {
   double at = t;
   for (int i = 0; i < max_turn_steps; ++i) {
@@ -245,7 +245,7 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const r
   return at;
 }
 
-/// Places in a step at which a quantity has a local extreme that exceeds all its earlier values.
+/// Times in a step at which a quantity has a local extreme that exceeds all its earlier values.
 std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
   std::vector<double> turns;
   for (const double t : step.facts.turning_points) {
@@ -275,7 +275,7 @@ void TangentRun::observe_modes(const run::RunStep& step) {
                          std::move(at.tangents),
                          {},
                          {}};
-    for (const TangentState& state : states_) {  // driven by constants only
+    for (const TangentState& state : states_) {  // forcing is constant on the stretch
       sample.driven.push_back(state.now.driven);
       sample.anchors.push_back(state.now.start.anchors);
     }
@@ -321,7 +321,7 @@ void TangentRun::instant(const run::RunInstant& instant) {
   stretch_method_ = StretchMethod::unknown;
 }
 
-/// Instant of an engine without series: at the time and in the state of the followed motion.
+/// Passes an instant of an engine without series, at the time and in the state of the recomputed motion.
 void TangentRun::follow_instant(const run::RunInstant& instant) {
   std::optional<double> t;
   if (is_followed())
@@ -391,7 +391,7 @@ void TangentRun::pass(const run::RunInstant& instant) {
   end_ = after;
 }
 
-/// An output row at the instant itself contains the values just after.
+/// Writes output rows at the instant itself; they contain the values just after the instant.
 void TangentRun::rows_at(const run::RunInstant& instant, const SeriesPoint& after) {
   for (; next_ < grid_.size() && grid_[next_] <= instant.t; ++next_) {
     TangentSample sample{grid_[next_], instant.forcing_after, instant.after.states, after, {}, {}, {}, {}};

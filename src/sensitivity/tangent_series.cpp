@@ -8,12 +8,13 @@
 namespace signorini::sensitivity {
 namespace {
 
-// Relative to the tangent at the beginning: a larger term costs digits of the sum. Chosen value: three digits.
+// Largest term of a series, relative to the tangent at the beginning; larger terms cost digits of the sum. Chosen value:
+// three digits may be lost.
 constexpr double max_cancelling = 1e3;
-// Relative to the tangent: limit of the last terms of a series; ten thousand steps accumulate as their square root.
+// Limit of the last terms of a series, relative to the tangent. Errors of ten thousand steps accumulate as their square root.
 // Chosen value.
 constexpr double truncation_error = 1e-14;
-constexpr int first_terms = 3;  // terms that determine the size of the series
+constexpr int first_terms = 3;  // number of terms that determine the size of the series
 
 std::size_t index_in(const motion::Series& series, std::size_t contact, int order) {
   return contact * series.forcing.count + static_cast<std::size_t>(order);
@@ -86,7 +87,8 @@ std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::Matrix
 void recentre(const motion::Series& series, const motion::Forcing& forcing, double x, double part,
               motion::Series& out) {
   // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
-  const Eigen::Index columns = series.u.cols(), known = series.levels + 1;  // forces beyond are arbitrary
+  // Later force coefficients are undefined.
+  const Eigen::Index columns = series.u.cols(), known = series.levels + 1;
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(columns, columns);
   double power = 1.0;
   for (Eigen::Index j = 0; j < columns; ++j, power *= part) {
@@ -145,7 +147,7 @@ void TangentSeries::begin(const motion::StateSystem& system, const motion::Serie
       u_(i, 1) = scale_ * start.v[i];
 }
 
-/// The largest entry, rotations and displacements relative to the scales of the scene.
+/// The largest entry of x; rotations and displacements are relative to the scales of the scene.
 double TangentSeries::size_of(const Eigen::Ref<const Vector>& x) const {
   double size = 0.0;
   for (std::size_t i = 0; i < scales_.size(); ++i)
@@ -165,18 +167,18 @@ bool TangentSeries::expand(const motion::StateSystem& system, const motion::Seri
       const double size = size_of(u_.col(checked)) * power;
       if (!std::isfinite(size)) return false;
       (checked < first_terms ? first : greatest) = std::max(checked < first_terms ? first : greatest, size);
-      // Coefficient k is the result of k/2 solves, with a rounding of about eight half-units each.
+      // Coefficient k results from k/2 solves, each with a rounding error of about eight half-units.
       rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
     last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
     if (last <= truncation_error * std::max(first, greatest) + zero_limit_) break;
     if (levels_ == max_tangent_levels) return false;
   }
-  // Omitted terms count in velocities as often as their degree.
+  // In velocities an omitted term is multiplied by its degree.
   const double size = first > 0.0 ? first : greatest;
   error_ = size > 0.0 ? (rounding::eps * rounded + static_cast<double>(levels_) * last) / size : 0.0;
   if (greatest <= max_cancelling * (first + zero_limit_)) return true;
-  return greatest <= max_cancelling * size_of(at(x).u);  // it may start from zero
+  return greatest <= max_cancelling * size_of(at(x).u);  // the tangent may start from zero
 }
 
 void TangentSeries::expand_to(const motion::StateSystem& system, const motion::Series& motion,
@@ -185,7 +187,7 @@ void TangentSeries::expand_to(const motion::StateSystem& system, const motion::S
   for (int k = 0; k <= levels; ++k) level(k);
 }
 
-/// x += contributions of the parameter to the equations of motion at order k.
+/// Adds the source terms of the parameter in the equations of motion at order k.
 void TangentSeries::add_sources(int k) {
   if (forcing_.loaded)
     for (std::size_t i = 0; i < known_u_.size(); ++i) x_[i] += forcing_.load(static_cast<Eigen::Index>(i), k);
@@ -206,7 +208,7 @@ void TangentSeries::add_sources(int k) {
   }
 }
 
-/// Right-hand sides of the contacts' rows at order k.
+/// Computes the right-hand sides of the contacts' rows at order k.
 void TangentSeries::add_rows(int k) {
   const linear::Unknowns& at = system_->unknowns();
   const motion::Series& s = *motion_;
@@ -259,7 +261,7 @@ void TangentSeries::add_rows(int k) {
   }
 }
 
-/// Friction that depends on the slip rate; terms omitted in the motion are zero.
+/// Adds friction that depends on the slip rate; omitted terms of the motion are zero.
 void TangentSeries::add_friction(int k) {
   const double to_velocity = (k + 1) / scale_;
   for (auto& [contact, friction] : friction_) {

@@ -10,10 +10,10 @@ namespace {
 
 constexpr int max_halvings = 30;
 constexpr int min_tangent_levels = 12;
-constexpr double bolder = 1.5;   // length of the next part / last part that converged
-constexpr int turn_places = 24;  // per step of six radians: a quarter radian each
-// A product of two motions oscillates twice as fast: a step of six radians needs two sets of ten Gauss points, with a
-// relative error of 6^21 (10!)^4 / (21 (20!)^3) = 1e-14.
+constexpr double bolder = 1.5;   // length of the next part / length of the last part that converged
+constexpr int turn_places = 24;  // places per step of six radians, a quarter radian apart
+// A product of two motions oscillates twice as fast as the motions, so a step of six radians needs two sets of ten Gauss
+// points. The relative error is then 6^21 (10!)^4 / (21 (20!)^3) = 1e-14.
 constexpr std::size_t work_parts = 2;
 
 }  // namespace
@@ -54,7 +54,7 @@ SeriesTangents::SeriesTangents(const Model& model, motion::StateSystems& systems
                                const std::vector<const ModelDerivative*>& data, bool losses)
     : model_(model), systems_(systems), touched_(contact_dofs(model, data)), losses_(losses) {}
 
-/// The system of the contact states with friction at the slip rates at the beginning of a series.
+/// System of the contact states with friction at the slip rates at the beginning of a series.
 motion::StateSystemPtr SeriesTangents::system_at(const motion::StateSystem& system,
                                                  const motion::Series& series) const {
   std::vector<Form> rows;
@@ -65,7 +65,7 @@ motion::StateSystemPtr SeriesTangents::system_at(const motion::StateSystem& syst
   return systems_.with_friction(system, rows);
 }
 
-/// Works over [from, to] of the step; the tangent's own series begins at `begin`.
+/// Adds the works over [from, to] of the step. begin: position in the step at which the tangent's series begins.
 void SeriesTangents::integrate(TangentState& state, const run::RunStep& step, double begin, double from,
                                double to) const {
   const engine::Expansion& e = step.facts.expansion;
@@ -99,7 +99,7 @@ void SeriesTangents::integrate(TangentState& state, const run::RunStep& step, do
   }
 }
 
-/// One tangent to the end of the step, part by part.
+/// Advances one tangent to the end of the step, part by part.
 void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
                              const std::vector<RequestedPlace>& wanted, std::vector<TangentSample>& samples,
                              std::size_t p) const {
@@ -125,7 +125,7 @@ void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
       if (++halvings > max_halvings) {
         state.valid = false;
         state.valid_until = motion.t;
-        state.reason = "its series does not converge";
+        state.reason = "the Taylor series of the tangent does not converge";
         return;
       }
       length *= 0.5;
@@ -137,7 +137,7 @@ void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
       state.reach = std::max(state.reach, length * e.series->scale);
     if (length > 0.0) state.error += state.series.error();
     const double to = length == rest ? e.x : from + length;
-    double done = from;  // end of the part with known works
+    double done = from;  // end of the part for which works are already added
     for (; next < wanted.size() && wanted[next].x <= to; ++next) {
       const double x = wanted[next].x - from;
       samples[next].tangents[p] = state.series.at(x);

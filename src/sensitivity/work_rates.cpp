@@ -9,7 +9,7 @@
 namespace signorini::sensitivity {
 namespace {
 
-/// Derivative of the form p' of a contact that slips in direction s; the guard of that state is s p'.
+/// Derivative of the coefficients of p' for a contact that slips in direction s. The guard of that state is s p'.
 Form slip_form_rate(const Contact& contact, const ContactRates& rates, const ContactState& state, int s) {
   const auto forms = contact::guards(contact, state);
   for (std::size_t i = 0; i < forms.size(); ++i)
@@ -71,7 +71,7 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     if (!contact.obeys_coulomb()) continue;
     if (!is_open(state.state))
       damped += damping_rate(rates) * m.vn * m.vn + 2.0 * contact.normal_damping * m.vn * p.vn;
-    else if (state.state == State::inside)  // its dashpot dissipates the energy of its spring, kn g^2/2
+    else if (state.state == State::inside)  // its dashpot dissipates the spring energy kn g^2/2
       damped -=
           stiffness_rate(rates) * m.gap * m.vn + contact.normal_stiffness * (p.gap * m.vn + m.gap * p.vn);
   }
@@ -101,7 +101,7 @@ double WorkTangent::kinetic(const Vector& v, const Vector& Dv) const {
   return energy;
 }
 
-/// shear: energy of its shear element, which belongs to the structure.
+/// Derivative of a contact's stored energy. shear: receives that of its shear element, whose energy is part of the structure.
 double WorkTangent::contact_energy(std::size_t c, const StoredMotion& at, double& shear) const {
   const Contact& contact = model_.contacts[c];
   const ContactRates& rates = derivative_.contacts[c];
@@ -139,7 +139,7 @@ Energy WorkTangent::stored(const StoredMotion& at) const {
   return e;
 }
 
-/// Values on both sides of an instant, along it.
+/// Values on both sides of an instant, and their derivatives along the instant.
 struct LossRates::Sides {
   const InstantMotion& motion;
   const TangentBefore& before;
@@ -166,7 +166,7 @@ void LossRates::add_impact(const Sides& s, WorkRates& works) const {
       energy.kinetic(s.motion.before.v, s.Dv_before) - energy.kinetic(s.motion.after.v, s.Dv_after) + driven;
 }
 
-/// Derivative of the energy that a contact's shear loses as its force drops, as in the audit; nullopt: no loss.
+/// Derivative of the energy that a contact's shear spring loses if its force drops, as in the audit; nullopt: no loss.
 std::optional<double> LossRates::friction_drop_loss(const Sides& s, std::size_t c) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &b = s.motion.motion_before[c], &a = s.motion.motion_after[c];
@@ -180,7 +180,7 @@ std::optional<double> LossRates::friction_drop_loss(const Sides& s, std::size_t 
          (b.T * b.T - a.T * a.T) * derivative_.contacts[c].tangential_stiffness / (2.0 * kt * kt);
 }
 
-/// Derivative of P . (u+ - u-) on parts without mass, which jump under continuous loads.
+/// Derivative of P . (u+ - u-) on massless parts, which jump under continuous loads.
 double LossRates::driven_by(const Sides& s) const {
   const run::RunInstant& now = s.motion.instant;
   ForcingRatesSeries rates;
@@ -252,7 +252,7 @@ WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, c
   Sides s{m, before, after, {}, {}, {}, {}, {}, {}};
   s.Du_before = before.point.u + after.dt * m.before.v;
   s.Dv_before = before.point.v + after.dt * m.before.a;
-  s.Du_after = after.point.u + after.dt * m.after.v;  // includes parts without mass, which have moved
+  s.Du_after = after.point.u + after.dt * m.after.v;  // includes massless parts, which have moved
   s.Dv_after = after.point.v + after.dt * m.after.a;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];

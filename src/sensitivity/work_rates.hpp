@@ -1,12 +1,12 @@
-// work_rates.hpp: derivatives of works and losses since t = 0 by a parameter.
+// work_rates.hpp: derivatives, with respect to a parameter, of works and losses since t = 0.
 //
-//   W_p+ = W_p + int d/dp ( power at fixed time ) dt         between instants, Gauss's rule over a series
+//   W_p+ = W_p + int d/dp ( power at fixed time ) dt         between instants, by Gauss's rule
 //   W_p+ = W_p- + (power- - power+) dt/dp + DL               across an instant with a loss L
 //   power: P . v,  v^T C v + cn g'^2,  T p',  -T s',  -N     motion/point.hpp
 //   E_p = v^T M w' + v^T M_p v / 2 + u^T K w + ...           stored energy, at one time
 //
-// L: loss by impacts, drops of friction, and jumps of loads on parts without mass (run/audit.hpp). D: along the moving
-// instant. Units: the machine's, over that of the key.
+// L: loss by impacts, drops of friction, and jumps of loads on massless parts (run/audit.hpp). D: derivative along the moving
+// instant. Units: internal unit of the quantity / unit of the key.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace signorini::sensitivity {
 
-/// Derivatives of works and losses by one parameter.
+/// Derivatives of works and losses with respect to one parameter.
 struct WorkRates {
   motion::WorkIntegrals works;
   double impact = 0.0;
@@ -27,17 +27,17 @@ struct WorkRates {
   [[nodiscard]] double surface() const;
 };
 
-/// All quantities at one position between instants.
+/// All quantities at one time between instants.
 struct TangentPlace {
   double t = 0.0;
   const motion::Forcing& forcing;
   const contact::ContactStates& states;
   SeriesPoint motion, tangent;
-  std::vector<DrivenRates> driven;  ///< one per contact
+  std::vector<DrivenRates> driven;  ///< one entry per contact
   Vector load;                      ///< P_p
 };
 
-/// u and v with their derivatives, and those of all contacts: at fixed time, or along an instant.
+/// u, v and all contact motions with their derivatives, which are taken at fixed time or along an instant.
 struct StoredMotion {
   const contact::ContactStates& states;
   const Vector &u, &v, &Du, &Dv;
@@ -52,13 +52,13 @@ class WorkTangent {
 
   [[nodiscard]] const WorkRates& now() const { return now_; }
   [[nodiscard]] WorkRates& now() { return now_; }
-  /// Adds factor times the derivatives of all powers.
+  /// Adds `factor` times the derivatives of all powers.
   void add(const TangentPlace& place, double factor);
-  /// Adds dt times the powers; for the powers of a contact dt_of has the time.
+  /// Adds dt times the powers of loads and damping, and dt_of[c] times the powers of contact c.
   void shift(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
              const SeriesPoint& motion, const std::vector<ContactMotion>& m, double dt,
              const std::vector<double>& dt_of);
-  /// Derivatives of kinetic, elastic and contact energy; all others are zero.
+  /// Derivatives of kinetic, elastic and contact energy; the other members of the result are zero.
   [[nodiscard]] Energy stored(const StoredMotion& at) const;
   [[nodiscard]] double kinetic(const Vector& v, const Vector& Dv) const;
 
@@ -70,24 +70,25 @@ class WorkTangent {
   WorkRates now_;
 };
 
-/// kn_p and cn_p, from the rows of a closed contact.
+/// Derivative kn_p of the normal stiffness, from the derivatives of the rows of a closed contact.
 [[nodiscard]] double stiffness_rate(const ContactRates& rates);
+/// Derivative cn_p of the normal dashpot constant, from the derivatives of the rows of a closed contact.
 [[nodiscard]] double damping_rate(const ContactRates& rates);
-/// Derivative of the sliding point's position ut - T/kt.
+/// Derivative of the slip position ut - T/kt.
 [[nodiscard]] double slip_derivative(const Contact& contact, const ContactRates& rates,
                                      const ContactMotion& m, const ContactMotion& D);
 
-// Energy lost at an instant, and its derivative by a parameter.
+// Energy lost at an instant, and its derivative with respect to a parameter.
 //
 //   impact     L = v-^T M v-/2 - v+^T M v+/2 + sum Pt s'
-//   friction   L = (T-^2 - T+^2)/2kt                at a drop of a force
-//   parts without mass, which respond immediately (run/audit.hpp):
+//   friction   L = (T-^2 - T+^2)/2kt                if the force drops
+//   massless parts, which respond instantaneously (run/audit.hpp):
 //   friction   L = T+ (slip+ - slip-)               at a jump of a load; L = released energy at a drop of friction;
-//                                                   several contacts: each its own and an equal part of the rest
+//                                                   several contacts share the rest equally
 //   loads      W += sum of L - released energy      at a jump of a load
 //              W += P . (u+ - u-)                   otherwise; this energy is also released
 //
-// DL and all other derivatives are along the moving instant.
+// DL and all other derivatives are taken along the moving instant.
 
 class LossRates {
  public:
@@ -95,8 +96,8 @@ class LossRates {
   LossRates(const Model& model, const ModelDerivative& derivative, bool massless)
       : model_(model), derivative_(derivative), massless_(massless) {}
 
-  /// Crosses an instant; `works` changes from the derivatives at fixed time before it to those after it. Returns the
-  /// derivatives along the instant, all losses included.
+  /// Passes an instant: changes `works` from the derivatives at fixed time before the instant to those after it. Returns the
+  /// derivatives along the instant, including all losses.
   WorkRates pass(const InstantMotion& motion, const TangentBefore& before, const TangentAfter& after,
                  WorkTangent& works) const;
 

@@ -232,7 +232,7 @@ TEST_CASE("fit: events are those that were measured, and other columns of their 
   CHECK_THROWS_WITH_AS(
       static_cast<void>(fit(oscillator(), {"springs.1.stiffness"}, data)),
       doctest::Contains("event 2 of the run is reversal of contact \"plate\" at t = 0.628318531, "
-                        "but the data have separation"),
+                        "but the measurements give separation"),
       UsageError);
   Measurements late = turns_of(1.0, 1e-4);
   late.rows[8].value *= 1000.0;
@@ -296,7 +296,7 @@ TEST_CASE("tables that are no measurements, and measurements that the run has no
   refused("event_index,t\n1,0.5\n0,0.6\n",
           ":3:1: event_index: found 0, expected a row of events.csv, from 1");
   refused("event_index,t\n1,soon\n", ":2:2: t: found \"soon\", expected a finite number");
-  refused("t,d0.u,sigma\n1,0.5,-1\n", ":2:3: sigma: found -1, expected more than zero");
+  refused("t,d0.u,sigma\n1,0.5,-1\n", ":2:3: sigma: found -1, expected a number > 0");
   refused("t,d0.u\n", ":2: found no measurement, expected at least one row");
   refused("t,d0.u\n1,0.5\n2\n", ":3: found 1 cells, expected 2 as in the header");
   refused("t,d0.u\n1,0.5,3\n", ":2: found 3 cells, expected 2 as in the header");

@@ -176,8 +176,8 @@ TEST_CASE("what a law of one's own may not be is told with its state") {
   CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[2].normal.form.N = 0.0; }),
             "'slides': expected N"));
   CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].guards.resize(4); }), "found 4 guards"));
-  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].tangent.form.at = 1.0; }), "forms are on"));
-  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].kind = State::inside; }), "expected a kind"));
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].tangent.form.at = 1.0; }), "expected forms"));
+  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].kind = State::inside; }), "expected the kind"));
   CHECK(has(message([](UserContactLaw& l, Scene&) { l.states.clear(); }), "found 0 states"));
   CHECK(has(message([](UserContactLaw&, Scene& s) { s.contacts[0].friction.static_ = 0.4; }),
             "beside a user-defined law"));

@@ -136,7 +136,7 @@ TEST_CASE(
   const Result light = run_text(scene("[[1.0, 0.0], [0.0, 0.0]]", "d1"), "ida");
   CHECK(light.report.outcome.kind == Outcome::Kind::stopped);
   CHECK(light.report.outcome.reason.find("linearly dependent") != std::string::npos);
-  CHECK(light.report.outcome.reason.find("contact 'c' sticks rigidly to a point without mass; give it a "
+  CHECK(light.report.outcome.reason.find("contact 'c' sticks rigidly to a massless point; give the contact a "
                                          "tangential_stiffness, or the point a mass") != std::string::npos);
   CHECK(light.report.outcome.refusal.contacts == std::vector<std::size_t>{0, 1});
 }

@@ -217,7 +217,7 @@ TEST_CASE("cli manifest: all that read a run refuse a damaged file") {
   refuses(shell, plot, "belt-run/geometric.csv: found a file that manifest.json does not list");
   fs::remove(shell / "belt-run/geometric.csv");
   damage(shell, "belt-run/manifest.json", "{\"files\"", plot,
-         "belt-run/manifest.json: is no manifest of a run");
+         "belt-run/manifest.json: is not a manifest of a run");
   fs::remove(shell / "belt-run/manifest.json");
   for (const Command& command : {plot, report, witness, cases, paraview}) {
     const Ending ending = shell.run(command);

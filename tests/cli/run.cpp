@@ -221,7 +221,7 @@ TEST_CASE("cli run: --force replaces runs, and neither the scene nor a folder of
   shell.write("mine/history.csv", "my own\n");
   const Ending mine = shell.run({"run", "belt.toml", "-o", "mine", "--force"});
   CHECK(mine.code == 6);
-  CHECK(mine.err.find("holds no run (no summary.json)") != std::string::npos);
+  CHECK(mine.err.find("contains no run (no summary.json)") != std::string::npos);
   CHECK(shell.read("mine/history.csv") == "my own\n");
 }
 

@@ -83,7 +83,7 @@ const std::vector<PairRefusal>& all_refusals() {
        "Seams, rigid contacts, `initial = \"frictional\"` and `sensitivity` refuse it."},
       {"friction, by normal force", "sensitivity", "sensitivities cannot differentiate", "docs/scene.md",
        "Seams, rigid contacts, `initial = \"frictional\"` and `sensitivity` refuse it."},
-      {"friction, rising with the slip rate", "sensitivity", "beside a tangential_stiffness",
+      {"friction, rising with the slip rate", "sensitivity", "together with a tangential_stiffness",
        "docs/command-line.md",
        "friction that rises with the rate beside a `tangential_stiffness` or at a rigid contact"},
       {"law yielding", "sensitivity", "a contact law with memory", "docs/command-line.md",

@@ -13,7 +13,7 @@ namespace {
 
 bool has_sine(const Piece& p) { return p.amplitude != 0.0; }
 
-/// Degree of the polynomial part, -1 if it is zero.
+/// Degree of the polynomial part of a piece; -1 if the polynomial is zero.
 int degree(const Piece& p) {
   for (std::size_t j = p.coefficients.size(); j > 0; --j)
     if (p.coefficients[j - 1] != 0.0) return static_cast<int>(j) - 1;
@@ -24,7 +24,7 @@ bool is_constant_piece(const Piece& p) {
   return !p.function && degree(p) <= 0 && (!has_sine(p) || p.omega == 0.0);
 }
 
-/// The derivative of this order of sum_r b_r F^(r)(s (t - t0)).
+/// Derivative of the given order of sum_r b_r F^(r)(s (t - t0)) with respect to t.
 double of_function(const Piece& p, double t, int order) {
   double sum = 0.0, factor = 1.0;
   for (std::size_t r = 0; r < p.rates.size(); ++r)
@@ -34,9 +34,10 @@ double of_function(const Piece& p, double t, int order) {
   return factor * sum;
 }
 
-/// An antiderivative. With a sine: int a sin(w s + phi) ds = (a/w) sin(w s + phi - pi/2).
+/// Antiderivative of a piece. For the sine: int a sin(w s + phi) ds = (a/w) sin(w s + phi - pi/2).
 Piece antiderivative(const Piece& p) {
-  if (p.function) throw std::invalid_argument("History: a user-defined function has no integral here");
+  if (p.function)
+    throw std::invalid_argument("History: a user-defined function has no integral in closed form");
   Piece q;
   q.origin = p.origin;
   q.coefficients.assign(p.coefficients.size() + 1, 0.0);
@@ -54,7 +55,7 @@ Piece antiderivative(const Piece& p) {
   return q;
 }
 
-/// c0 p + c1 p' + c2 p''.
+/// The piece c0 p + c1 p' + c2 p''.
 Piece with_rates_of(const Piece& p, double c0, double c1, double c2) {
   Piece q = p;
   const std::size_t n = p.coefficients.size();
@@ -173,7 +174,7 @@ namespace signorini {
 History::History(std::vector<double> starts, std::vector<Piece> pieces)
     : starts_(std::move(starts)), pieces_(std::move(pieces)) {
   if (pieces_.size() != starts_.size() + 1)
-    throw std::invalid_argument("History: one piece more than starts is needed");
+    throw std::invalid_argument("History: the number of pieces must be the number of starts plus one");
   for (std::size_t i = 0; i < starts_.size(); ++i)
     if (!std::isfinite(starts_[i]) || (i > 0 && starts_[i] <= starts_[i - 1]))
       throw std::invalid_argument("History: starts must be finite and ascend strictly");
@@ -201,7 +202,7 @@ std::vector<Breakpoint> History::breakpoints() const {
     const double t = starts_[i];
     const Piece &left = pieces_[i], &right = pieces_[i + 1];
     const double change = std::abs(right.value(t) - left.value(t));
-    // No breakpoint between equal constants (a load of amplitude zero, two equal steps).
+    // Between equal constants there is no breakpoint (a load of amplitude zero, two equal steps).
     if (change == 0.0 && is_constant_piece(left) && is_constant_piece(right)) continue;
     result.push_back({t, change > history::roundoff(left, t) + history::roundoff(right, t)});
   }
@@ -279,7 +280,7 @@ History History::repeated(double from, double period, int rounds) const {
     pieces.push_back(std::move(piece));
   };
   for (std::size_t i = 0; i < starts_.size() && starts_[i] < from; ++i) add(starts_[i], pieces_[i + 1], 0.0);
-  // A shape that lasts the whole period ends where it restarts, in spite of the rounding of that sum.
+  // A shape that lasts the whole period ends where the next round starts; the margin covers the rounding of from + period.
   const double end = from + period - rounding::many_operations * (std::abs(from) + rounds * period);
   for (int round = 0; round < rounds; ++round) {
     const double dt = round * period;
@@ -304,16 +305,16 @@ bool History::has_closed_form() const {
   return std::none_of(pieces_.begin(), pieces_.end(), [](const Piece& p) { return bool(p.function); });
 }
 
-// Bounds for magnitude() and find_negative_time(), from a Taylor expansion about m:
+// Bounds for magnitude() and find_negative_time(), from a Taylor expansion of the piece about m:
 //
 //   f(t) >= f(m) - sum_{0<k<K} |f^(k)(m)| r^k / k! - |a| (w r)^K / K!     for |t - m| <= r,  K > degree
 //
-// The bound holds for all t in the interval, so an interval with a positive bound is finished; others are halved. Only
-// user-defined functions are sampled.
+// The bound is valid for all t with |t - m| <= r, so an interval with a positive bound is finished; other intervals are
+// halved. Only user-defined functions are sampled.
 
 namespace {
 
-// Number per piece; chosen value: finer than the details of practical loads.
+// Number of samples per piece. Chosen value, finer than the details of practical loads.
 constexpr int samples_of_functions = 4096;
 
 /// Calls visit(piece, from, to) for the part of every piece within [0, t_end].
@@ -336,7 +337,7 @@ bool is_constant_and_sine(const Piece& p) {
 
 bool negative(const Piece& p, double t) { return p.value(t) < -history::roundoff(p, t); }
 
-/// The first trough of the sine at or after `from`.
+/// Time of the first minimum of the sine at or after `from`.
 double trough(const Piece& p, double from) {
   const double w = std::abs(p.omega);
   const double phase = p.omega > 0.0 ? p.phase : std::numbers::pi - p.phase;
@@ -345,7 +346,7 @@ double trough(const Piece& p, double from) {
   return first + period * std::ceil((from - first) / period);
 }
 
-/// Lower bound of the piece within r of m.
+/// Lower bound of the piece for all times within r of m.
 double lower_bound(const Piece& p, double m, double r) {
   constexpr int sine_terms = 6;
   const int terms = std::max(static_cast<int>(p.coefficients.size()), oscillates(p) ? sine_terms : 1);
@@ -358,13 +359,13 @@ double lower_bound(const Piece& p, double m, double r) {
   return bound;
 }
 
-/// A time in [from, to] at which the piece is negative, or -1.
+/// A time in [from, to] at which the piece is negative; -1: there is none.
 double search(const Piece& p, double from, double to) {
   const double m = 0.5 * (from + to);
   if (negative(p, m)) return m;
   const double r = std::max(m - from, to - m);
   if (lower_bound(p, m, r) >= -history::roundoff(p, m)) return -1.0;
-  // no numbers between the ends
+  // there are no further doubles between the ends
   if (r <= rounding::few_operations * std::max(std::abs(from), std::abs(to))) return -1.0;
   const double left = search(p, from, m);
   return left >= 0.0 ? left : search(p, m, to);
@@ -386,7 +387,7 @@ double negative_in(const Piece& p, double from, double to) {
   return from < to ? search(p, from, to) : -1.0;
 }
 
-/// Magnitude of one piece.
+/// Upper estimate of |f| for one piece on [from, to].
 double magnitude_between(const Piece& p, double from, double to) {
   double largest = 0.0;
   Piece polynomial = p;
@@ -417,7 +418,7 @@ double magnitude(const History& f, double t_end) {
 }
 
 double max_impulse(const History& f, double t_end, double width) {
-  // Ends of parts, integral up to each end, and the bound of |f| in each part.
+  // Ends of the parts; integral of |f| up to each end; bound of |f| in each part.
   std::vector<double> ends{0.0}, until{0.0}, size;
   each_part(f, t_end + width, [&](const Piece& p, double from, double to) {
     // User-defined functions are not evaluated after the end of the run.
@@ -433,7 +434,7 @@ double max_impulse(const History& f, double t_end, double width) {
     const auto part = static_cast<std::size_t>(next - ends.begin()) - 1;
     return until[part] + size[part] * (t - ends[part]);
   };
-  double greatest = 0.0;  // the interval begins or ends with a part
+  double greatest = 0.0;  // the worst interval begins or ends at an end of a part
   for (const double t : ends)
     greatest = std::max({greatest, integral(t + width) - integral(t), integral(t) - integral(t - width)});
   return greatest;

@@ -6,7 +6,7 @@ namespace signorini::history {
 
 std::size_t end_of_instant(const History& f, std::size_t from, double t_end) {
   const std::vector<double>& starts = f.starts();
-  // Starts before the run are not merged.
+  // Starts before the beginning of the run are not merged.
   if (starts[from] < 0.0) return from + 1;
   const double first = starts[from] <= rounding::time_resolution * t_end ? 0.0 : starts[from];
   std::size_t to = from + 1;

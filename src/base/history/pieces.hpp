@@ -1,44 +1,43 @@
-// pieces.hpp: rounding error and magnitude of a history.
+// pieces.hpp: rounding errors, bounds and time resolution of a history.
 //
 //   |computed f(t) - f(t)| <= 64 eps ( sum_j |c_j s^j| + |a| (1 + |w s + phi|) + (|t| + |t0|) |f'|~ )
 //   s = t - t0
 //
-// |f'|~ is the derivative with all terms taken positive: times themselves are rounded, so f has at least the error |f'|
-// eps |t|.
+// |f'|~ is the derivative with all terms taken as positive. Times are rounded, too, so f has at least the error |f'| eps |t|.
 #pragma once
 
 #include "signorini/history.hpp"
 
 namespace signorini::history {
 
-/// Bound of the rounding error of evaluating the piece at t; units of f.
+/// Bound of the rounding error when the piece is evaluated at t; units of f.
 [[nodiscard]] double roundoff(const Piece& piece, double t);
-/// Same for its first derivative.
+/// Bound of the rounding error of the first derivative at t; units of f per time.
 [[nodiscard]] double roundoff_of_rate(const Piece& piece, double t);
 
-/// Upper estimate of max |f| on [0, t_end]: exact for constants, lines, steps and pulses, sampled otherwise. Units of
-/// f.
+/// Upper estimate of max |f| on [0, t_end]: exact for constants, straight lines, steps and pulses, otherwise sampled. Units
+/// of f.
 [[nodiscard]] double magnitude(const History& f, double t_end);
 
-/// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]; each piece
-/// counts with its largest |f|. Units of f times time.
+/// Upper estimate of the largest integral of |f| over an interval of this width that begins in [0, t_end]. Each piece
+/// contributes with its largest |f|. Units of f times time.
 [[nodiscard]] double max_impulse(const History& f, double t_end, double width);
 
-/// A time in [0, t_end] at which f is negative beyond rounding, or -1 if there is none: proved with the minima of sines
-/// and with bounds of polynomials, not sampled (except user-defined functions). A piece counts up to and including the
-/// start of the next one.
+/// A time in [0, t_end] at which f is negative by more than rounding, or -1 if there is none. The result is proved with
+/// minima of sines and bounds of polynomials; only user-defined functions are sampled. A piece is examined up to and
+/// including the start of the next piece.
 [[nodiscard]] double find_negative_time(const History& f, double t_end);
 
-// Merges starts of pieces that the time resolution of a run cannot separate.
+// Merges starts of pieces that are closer than the time resolution of a run.
 //
-//   starts s_i, s_j of pieces with 0 <= s_j - s_i <= 100 eps (s_i + t_end)  ->  one at the last of them
-//   starts in [0, 100 eps t_end]                                            ->  one at 0
+//   starts s_i, s_j of pieces with 0 <= s_j - s_i <= 100 eps (s_i + t_end)  ->  one start, at the last of them
+//   starts in [0, 100 eps t_end]                                            ->  one start, at 0
 //
-// Shorter pieces are skipped, because each engine would treat their unresolved steps differently.
+// Pieces shorter than the time resolution are dropped, because each engine would treat their steps differently.
 
-/// End of the group of starts that are one instant: those with the indices [from, result).
+/// Index after the last start of the group that begins at index `from` and is treated as one instant.
 [[nodiscard]] std::size_t end_of_instant(const History& f, std::size_t from, double t_end);
-/// The history with merged starts.
+/// Copy of the history with merged starts.
 [[nodiscard]] History resolved(const History& f, double t_end);
 
 }  // namespace signorini::history

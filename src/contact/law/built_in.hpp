@@ -1,4 +1,4 @@
-// built_in.hpp: the built-in laws that a scene can name, one object each.
+// built_in.hpp: the built-in laws that a scene can name; there is one object for each law.
 #pragma once
 
 #include "signorini/contact_law.hpp"

@@ -20,7 +20,7 @@ const ContactLaw& built_in(Law law) {
 
 }  // namespace
 
-/// The pointer does not own the law: built-in laws live as long as the program.
+/// The pointer does not own the law, because built-in laws live as long as the program.
 ContactLawPtr::ContactLawPtr(Law law) : law_(std::shared_ptr<const ContactLaw>(), &built_in(law)) {}
 
 std::shared_ptr<const ContactLaw> ContactLaw::with_constants(const VisitConstant& /*visit*/) const {

@@ -10,7 +10,7 @@
 namespace signorini {
 namespace {
 
-/// Distance of T from the limit of friction on one side.
+/// Distance of T from the friction limit in direction `side` (+1 or -1), as a form.
 Form friction_margin(const Contact& contact, double side) {
   Form form;
   form.T = -side;
@@ -41,11 +41,11 @@ Form tangent_row(const Contact& contact, const ContactState& state) {
   return row;
 }
 
-/// Closing: the contact enters the friction cone at its apex, so only the directions are compared.
+/// State after closing. The contact enters the friction cone at its apex, so only directions of the motion are compared.
 ContactState close(const Contact& contact, const MotionJet& jet) {
   ContactState next{contact::state_at_rest(contact), jet.motion[0].ut};
   if (!contact.has_friction()) return next;
-  // N jumps and T does not, or the shear element is still moving: the guards that the caller checks decide.
+  // If N jumps but T does not, or if the shear element still moves, the guards that the caller checks next decide about slip.
   if (contact.normal_damping > 0.0 || contact.shear) return next;
   for (std::size_t m = 1; m < jet.motion.size(); ++m) {
     const ContactMotion& d = jet.motion[m];
@@ -53,7 +53,7 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
     const bool tangent_moves = std::abs(d.ut) > jet.noise[m].ut;
     if (!normal_moves && !tangent_moves) continue;
     const double pull = *contact.tangential_stiffness * std::abs(d.ut);
-    // At the apex, friction that depends on N has the coefficient of light loads.
+    // At the apex N is zero, so friction that depends on N has its coefficient for light loads.
     if (pull > contact.friction.static_ * contact.normal_stiffness * std::abs(d.gap))
       next.state = contact::slip_state(d.ut);
     break;
@@ -110,7 +110,7 @@ ContactLaw::Guards CoulombLaw::guards(const Contact& contact, const ContactState
     result[1].kind = Guard::sliding;
     result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
     if (contact.shear &&
-        contact.friction.is_rate_strengthening()) {  // the limit determines the rate and is more accurate
+        contact.friction.is_rate_strengthening()) {  // same sign as s p', but more accurate
       result[1].form = {};
       result[1].form.N = contact::static_friction(contact);
       result[1].form.T = s;
@@ -148,7 +148,7 @@ ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& 
 
 std::vector<ContactState> CoulombLaw::candidates(const Contact& contact, const ContactState& now,
                                                  const ContactMotion& before) const {
-  // A contact that stuck keeps its anchor; a contact that slipped sticks at its current position.
+  // A contact that was sticking keeps its anchor; any other contact would stick at its present position.
   const double anchor = now.state == State::stick ? now.anchor : contact::slip_of(contact, before);
   std::vector<ContactState> result;
   if (!capabilities.normal_force_given)

@@ -1,14 +1,13 @@
-// coulomb_law.hpp: Coulomb friction combined with any law along the normal; base class of the built-in laws.
+// coulomb_law.hpp: Coulomb friction combined with any normal law; base class of the built-in laws.
 //
 //   tangent row   open, closed  T = 0
-//                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 of a separate sliding point
+//                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 with a separate sliding point
 //                 slip s        T + s fk N = 0,    T - s F = 0 where friction depends on N
 //                 limit s       T + s fs N = 0,  at the static limit without slip
 //   guards        stick         fs |N| -+ T
 //                 slip s        s p',  p' = ut' - T'/kt
 //
-// A law along the normal provides its row, its guards and the rate of N (compliant_law.cpp, rigid_law.cpp,
-// slider_law.cpp).
+// A normal law provides its row, its guards and the rate of N (compliant_law.cpp, rigid_law.cpp, slider_law.cpp).
 #pragma once
 
 #include "contact/law.hpp"
@@ -38,16 +37,16 @@ class CoulombLaw : public ContactLaw {
 
  protected:
   CoulombLaw(Law named, const LawCapabilities& of) : ContactLaw(of), law_(named) {}
-  /// Normal row of a closed contact; an open one has N = 0.
+  /// Normal row of a closed contact. The row of an open contact is N = 0 for all laws with a gap.
   [[nodiscard]] virtual Form closed_normal_row(const Contact& contact) const = 0;
-  /// Guards of g and N: g > 0 if open, -N > 0 if closed.
+  /// Sets the guards of the normal direction: g > 0 if open, -N > 0 if closed.
   virtual void set_normal_guards(const Contact& contact, const ContactState& state, Guards& result) const;
-  /// Adds N' times `factor` to `form`, the slip rate of a contact with an anchor spring.
+  /// Adds `factor` times N' to `form`, which is the slip rate of a contact with an anchor spring.
   virtual void add_normal_rate(const Contact& contact, double factor, Form& form) const = 0;
-  /// Energy stored along the normal.
+  /// Energy stored by the normal force.
   [[nodiscard]] virtual double normal_energy(const Contact& contact, State state,
                                              const ContactMotion& m) const;
-  /// Adds the violations of (6) by gap and N.
+  /// Adds the violations of condition (6).
   virtual void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
                                      Violations& v) const;
 

@@ -1,4 +1,5 @@
-// A constraint along the normal:  g'' = 0 while closed. Closing with g' < 0 is an impact (decide/impact.hpp).
+// Constraint along the normal: g'' = 0 while closed. If the contact closes with g' < 0, there is an impact
+// (decide/impact.hpp).
 #include <cmath>
 
 #include "contact/law.hpp"

@@ -1,4 +1,4 @@
-// A given compression:  N = -q(t) in every state. There is no gap; the contact is open while q = 0.
+// Given compression: N = -q(t) in every state. There is no gap; the contact is open while q = 0.
 #include "contact/law/built_in.hpp"
 #include "contact/law/coulomb_law.hpp"
 

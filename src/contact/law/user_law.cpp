@@ -74,7 +74,7 @@ class UserLaw final : public ContactLaw {
     return m.vt;
   }
 
-  /// Friction is the whole work done on the contact, stored or dissipated.
+  /// `friction` is the whole work done on the contact, stored or dissipated.
   [[nodiscard]] ContactWork work(const Contact& /*contact*/, State /*state*/, double N, double T,
                                  const ContactIncrement& path) const override {
     ContactWork work;
@@ -87,7 +87,7 @@ class UserLaw final : public ContactLaw {
                                      const ContactMotion& /*m*/) const override {
     return 0.0;
   }
-  /// The conditions of a user-defined law are its guards.
+  /// A user-defined law has no conditions besides its guards, so nothing is checked here.
   [[nodiscard]] Violations violations(const Contact& /*contact*/, State /*state*/,
                                       const ContactMotion& /*m*/) const override {
     return {};
@@ -120,7 +120,7 @@ class UserLaw final : public ContactLaw {
     return {user_law_state(i, data_->states[i].kind), memory};
   }
 
-  /// Products of a guard; they live as long as the law.
+  /// Products of a guard as a pointer that keeps the data of the law alive.
   [[nodiscard]] std::shared_ptr<const std::vector<FormProduct>> products_of(const UserLawGuard& guard) const {
     if (guard.products.empty()) return nullptr;
     return {data_, &guard.products};
@@ -129,7 +129,7 @@ class UserLaw final : public ContactLaw {
   std::shared_ptr<const UserContactLaw> data_;
 };
 
-/// Visits the coefficients of a form whose value has the unit `of`.
+/// Visits the coefficients of a form whose value has the unit `of`; the unit of a coefficient is `of` / unit of its term.
 void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& visit) {
   const auto per = [&](double& coefficient, const Unit& unit) {
     visit(coefficient, Unit{of.force - unit.force, of.length - unit.length, of.time - unit.time});
@@ -153,7 +153,7 @@ Unit unit_of(const FormProduct& product) {
   return {a.force + b.force, a.length + b.length, a.time + b.time};
 }
 
-/// True if the form depends on the motion, from which its unit follows.
+/// True if the form depends on the motion; otherwise its unit cannot be determined.
 bool has_unit(const Form& f) {
   return f.N != 0.0 || f.T != 0.0 || f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0;
 }
@@ -166,7 +166,7 @@ std::string validation_error(const UserLawState& state, std::size_t states) {
     return refuse(
         fmt::format("found {} guards, expected at most {}", state.guards.size(), ContactLaw::most_guards));
   if (is_user_law_state(state.kind) || state.kind == State::inside)
-    return refuse("expected a kind: open, closed, stick or slip");
+    return refuse("expected the kind open, closed, stick or slip");
   std::vector<Form> forms = {state.normal.form, state.tangent.form};
   if (forms[0].N == 0.0 || forms[1].T == 0.0)
     return refuse("expected N in its normal row and T in its tangent row");
@@ -176,10 +176,10 @@ std::string validation_error(const UserLawState& state, std::size_t states) {
     for (const FormProduct& p : guard.products) {
       forms.insert(forms.end(), {p.a, p.b});
       if (!has_unit(p.a) || !has_unit(p.b))
-        return refuse("each factor of a product depends on N, T, g, ut or their rates");
+        return refuse("expected that each factor of a product depends on N, T, g, ut or their rates");
       const Unit one = unit_of(guard.products.front()), other = unit_of(p);
       if (one.force != other.force || one.length != other.length || one.time != other.time)
-        return refuse("the products of a guard have one unit");
+        return refuse("expected the same unit for all products of a guard");
     }
     if (guard.next >= states)
       return refuse(fmt::format("found next state {}, expected 0 to {}", guard.next, states - 1));
@@ -187,7 +187,7 @@ std::string validation_error(const UserLawState& state, std::size_t states) {
   for (const Form& f : forms)
     if (f.an != 0.0 || f.at != 0.0 || f.applied_normal_force != 0.0 || f.applied_normal_force_rate != 0.0 ||
         f.limit != 0.0 || f.limit_rate != 0.0)
-      return refuse("forms are on N, T, g, ut and their rates");
+      return refuse("expected forms that depend only on N, T, g, ut and their rates");
   return {};
 }
 

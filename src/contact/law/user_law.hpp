@@ -1,4 +1,4 @@
-// user_law.hpp: a user-defined law made of data (signorini/user_contact_law.hpp), behind the interface of all laws.
+// user_law.hpp: makes a ContactLaw from the data of a user-defined law (signorini/user_contact_law.hpp).
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace signorini {
 
-/// Message about the first error in the data of a law; empty: the data are valid.
+/// Message about the first error in the data of a law; empty: there is no error.
 [[nodiscard]] std::string validation_error(const UserContactLaw& law);
-/// True if the law acts along the tangent; otherwise its tangent rows are T = 0 and nothing depends on ut.
+/// True if the law acts along the tangent. False: its tangent rows are T = 0, and no row and no guard depends on ut or T.
 [[nodiscard]] bool acts_along_tangent(const UserContactLaw& law);
-/// Copy of the law after `visit` was called for each of its constants, with its unit. The law itself stays
-/// unchanged, because several scenes may share it.
+/// Copy of the law after `visit` was called for each constant, with the unit of the constant. `law` is copied because several
+/// scenes may share it.
 [[nodiscard]] std::shared_ptr<const UserContactLaw> visit_law_constants(
     UserContactLaw law, const ContactLaw::VisitConstant& visit);
 

@@ -18,7 +18,7 @@ UserContactLaw yielding_pad(double normal_stiffness, double yield_force) {
   UserContactLaw law{"yielding", {}};
   law.states = {{"off", State::open, {{.N = 1.0}}, no_friction, {{above_dent, elastic}}},
                 {"elastic", State::closed, spring, no_friction, {{presses, off}, {yields, crushed}}},
-                // The kind is slip, so that files and pictures distinguish it from elastic.
+                // The kind is slip, so that files and pictures can distinguish `crushed` from `elastic`.
                 {"crushed", State::slip_minus, yields, no_friction, {{sinks, elastic, dent}}}};
   return law;
 }
@@ -36,7 +36,7 @@ const DataLaw& yielding_law() {
         if (std::isnormal(deflection)) return std::nullopt;
         return std::pair{
             std::string_view("yield_force"),
-            fmt::format("found {}, with normal_stiffness a deflection of {} at yield, expected a "
+            fmt::format("found {}, which gives a deflection of {} at yield with normal_stiffness, expected a "
                         "number > 0",
                         base::format_number(constants[0]), base::format_number(deflection))};
       }};

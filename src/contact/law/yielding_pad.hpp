@@ -5,8 +5,8 @@
 //   crushed   N = -Y           while g' < 0;   then p <- g + Y / kn, and N is continuous
 //   T = 0 in all states
 //
-// p <= 0 is the dent, a length; 0 at the start. kn: force/length, Y: force, both > 0. The work dissipated in the pad by
-// the time it separates is Y times the growth of the dent.
+// p <= 0 is the dent, a length, 0 at the start. kn: force/length, Y: force, both > 0. After a separation the work dissipated
+// in the pad is Y times the growth of the dent.
 #pragma once
 
 #include "contact/law/data_laws.hpp"
@@ -15,7 +15,7 @@ namespace signorini {
 
 [[nodiscard]] UserContactLaw yielding_pad(double normal_stiffness, double yield_force);
 
-/// The yielding law of scenes, with its constant yield_force.
+/// The law that scenes name "yielding", with its constant yield_force.
 [[nodiscard]] const DataLaw& yielding_law();
 
 }  // namespace signorini

@@ -106,7 +106,7 @@ TEST_CASE("run files: what is no manifest is refused") {
         R"({"signorini": "1", "outcome": "done", "files": [)"}) {
     CAPTURE(text);
     run.write(base::manifest_file, text);
-    CHECK(run.refuses("manifest.json: is no manifest of a run: "));
+    CHECK(run.refuses("manifest.json: is not a manifest of a run: "));
     CHECK(base::unchecked_reason(run.path).empty());
   }
 }

@@ -176,7 +176,7 @@ TEST_SUITE("unit/study/check/check") {
 
     Scene light = matrices({{1, 0}, {0, 0}}, {{0, 0}, {0, 0}}, {{4, -1}, {-1, 4}});
     light.contacts = {slider("pad", Direction{"", {}, {{"d1", 1.0}}, {}}, 1.0, 0.3)};
-    CHECK(contains(why_not(light), "'pad' sticks rigidly to a point without mass"));
+    CHECK(contains(why_not(light), "'pad' sticks rigidly to a massless point"));
   }
 
   TEST_CASE("nodes without anything and sections without members are pointed out") {

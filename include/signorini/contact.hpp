@@ -92,8 +92,8 @@ struct Contact {
   double initial_shear = 0.0;
   /// Sign of the slip at t = 0; needed because T below the static limit does not determine the sign.
   int initial_slip = 0;
-  std::size_t initial_law_state = 0;  ///< user law: initial state
-  double initial_memory = 0.0;        ///< user law: initial memory p
+  std::size_t initial_law_state = 0;                   ///< user law: initial state
+  double initial_memory = 0.0;                         ///< user law: initial memory p
   std::uint32_t unused_forces = 0, unused_guards = 0;  ///< see ForceLayout::Counts
 
   [[nodiscard]] bool has_friction() const { return friction.any(); }

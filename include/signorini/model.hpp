@@ -93,7 +93,7 @@ struct StageEnd {
 
 /// Result of the static start (initial = "static" or "frictional").
 struct StaticStart {
-  std::vector<double> reactions;          ///< -N of each contact, >= 0
+  std::vector<double> reactions;  ///< -N of each contact, >= 0
   /// Motions without stiffness: "horizontal motion held at contact 'first'".
   std::vector<std::string> free_motions;
   bool frictional = false;
@@ -162,7 +162,7 @@ struct Reduction {
   int massless_shapes = 0, massive_shapes = 0;  ///< shapes for the static compliance of the left-out modes
   /// Highest frequency of the kept modes, rad per time; 0: rigid-body motions only.
   double highest_kept = 0.0;
-  double first_truncated = 0.0;                 ///< lowest frequency above the cutoff, rad per time; 0: none
+  double first_truncated = 0.0;         ///< lowest frequency above the cutoff, rad per time; 0: none
   double highest_massive = 0.0;         ///< highest frequency of the massive shapes, rad per time; 0: none
   std::vector<ComplianceShare> shares;  ///< shares of contacts, then of loads
   /// Largest amplitude, at named nodes, of the left-out modes after jumps of the loads; length.

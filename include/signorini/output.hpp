@@ -55,7 +55,7 @@ struct Output {
     double begin = 0.0, end = 0.0;  ///< stations on the piece, from 0 to 1
     Fibre fibre = Fibre::both;      ///< fibre of a stress
   };
-  std::vector<Segment> segments = {};      ///< if not empty, all other terms are ignored
+  std::vector<Segment> segments = {};  ///< if not empty, all other terms are ignored
   /// Contributions to a spring's force: "preload", "stiffness", "damper".
   std::vector<std::string> contains = {};
 };

@@ -254,7 +254,7 @@ struct Violation {
   int contact = -1;   ///< -1: the structure
   std::string law;    ///< "momentum", "restitution", ...
   double value = 0.0, limit = 0.0;
-  Unit unit = {};            ///< unit of value and limit
+  Unit unit = {};  ///< unit of value and limit
   /// True: no recorded quantity and no tolerance explains the violation; the run ends.
   bool unexplained = false;
 };

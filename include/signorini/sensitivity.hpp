@@ -79,8 +79,8 @@ struct Response {
   /// "peak N", "peak T", "peak normal", "peak tangential", "rest tangential", "rest slip", "lost by friction"; for the
   /// run: "lost by damping", "lost by impacts", "work of loads", "work of surfaces", "lost by friction"
   std::string name;
-  int contact = -1;  ///< index of the contact; -1: the whole run
-  double value = 0.0, t = 0.0;  ///< t: time of the peak
+  int contact = -1;                    ///< index of the contact; -1: the whole run
+  double value = 0.0, t = 0.0;         ///< t: time of the peak
   std::vector<double> rates, t_rates;  ///< one entry per parameter; t_rates: derivatives of the peak's time
 };
 
@@ -138,7 +138,7 @@ struct Sensitivities {
 struct SequenceChange {
   std::size_t parameter = 0, first = 0, second = 0;  ///< indices into `events`, with ascending times
   double change = 0.0;  ///< change of the parameter at which the times of both events coincide
-  bool vanish = false;                               ///< true: both events are on one contact
+  bool vanish = false;  ///< true: both events are on one contact
 };
 
 /// The smallest change of each parameter, upwards and downwards, at which two neighbouring events coincide. There is no entry

@@ -38,17 +38,17 @@ struct UserLawForm {
 };
 
 struct UserLawGuard {
-  UserLawForm positive;                    ///< positive while the state is valid
-  std::size_t next = 0;                    ///< state after the guard has reached zero
+  UserLawForm positive;             ///< positive while the state is valid
+  std::size_t next = 0;             ///< state after the guard has reached zero
   std::optional<Form> memory = {};  ///< new value of p at the zero of the guard; absent: p is unchanged
   /// Terms added to `positive`, for example F^2 - T^2 = (F - T)(F + T).
   std::vector<FormProduct> products = {};
 };
 
 struct UserLawState {
-  std::string name;          ///< name for messages
-  State kind = State::open;  ///< kind in files and events: open, closed, stick, slip_plus or slip_minus
-  UserLawForm normal, tangent;            ///< forms that are zero in this state
+  std::string name;             ///< name for messages
+  State kind = State::open;     ///< kind in files and events: open, closed, stick, slip_plus or slip_minus
+  UserLawForm normal, tangent;  ///< forms that are zero in this state
   std::vector<UserLawGuard> guards = {};  ///< at most three
 };
 

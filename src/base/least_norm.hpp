@@ -25,8 +25,8 @@ namespace signorini::base {
 struct ConvexSet {
   enum class Kind : unsigned char { cone, disc, ray } kind = Kind::cone;
   Eigen::Index size = 1;  ///< number of entries; cone: 1 + tangents (the first entry is n); disc: tangents
-  double friction = 0.0;      ///< cone: f >= 0
-  double radius = 0.0;        ///< disc: F >= 0
+  double friction = 0.0;  ///< cone: f >= 0
+  double radius = 0.0;    ///< disc: F >= 0
   Eigen::VectorXd direction;  ///< ray: e
 };
 

@@ -208,7 +208,7 @@ void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
 
 /// If contact f stops while massless parts move instantaneously along their path, restarts the path at the stop, so that the
 /// contact stays there. Done only once per contact, because the path changes afterwards.
-void ContactStateSolver::stop_there(const FailedGuard& f, SolverState& solver_state) const {
+void ContactStateSolver::restart_path_at_stop(const FailedGuard& f, SolverState& solver_state) const {
   std::vector<std::size_t>& before = solver_state.slid_contacts;
   if (!stops_on_path(model_.contacts[f.contact], f, solver_state.states[f.contact].state,
                      {solver_state.instant.u, solver_state.decision.u},
@@ -266,7 +266,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
       if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
-      stop_there(f, solver_state);
+      restart_path_at_stop(f, solver_state);
       ContactState& state = solver_state.states[c];
       state = contact::next_state(contact, state, f.guard, solver_state.jets[c]);
       if (touched(c))  // tried as sticking first; its friction limit decides about slip
@@ -311,7 +311,7 @@ void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverSta
 }
 
 /// Records the crossings of gaps that closed, up to rounding, at the same time as the gap that triggered the instant.
-void ContactStateSolver::note_hits(SolverState& solver_state) const {
+void ContactStateSolver::record_closed_gaps(SolverState& solver_state) const {
   Decision& d = solver_state.decision;
   if (d.rounds > 1) return;
   for (std::size_t c = 0; c < d.impulses.size(); ++c)
@@ -330,7 +330,7 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
     Refusal why =
         rigid_solver_.decide(solver_state.instant, solver_state.after, solver_state.jets, solver_state.failed,
                              jointly, solver_state.impact_result, d, solver_state.states);
-    note_hits(solver_state);
+    record_closed_gaps(solver_state);
     if (why) {
       if (!solver_state.failed.empty())
         why.reason += " (after " + names_of(model_, solver_state.failed) + ")";
@@ -411,7 +411,7 @@ bool ContactStateSolver::meets_static_limit(const SolverState& solver_state, std
 }
 
 /// True if the values of all guards of contact c are positive by more than rounding.
-bool ContactStateSolver::clearly_holds(const SolverState& solver_state, std::size_t c) {
+bool ContactStateSolver::has_clear_guards(const SolverState& solver_state, std::size_t c) {
   return solver_state.open && !std::binary_search(solver_state.open->begin(), solver_state.open->end(), c);
 }
 
@@ -461,7 +461,7 @@ void ContactStateSolver::finish(SolverState& solver_state) {
     d.after.push_back(now);
     d.jumped[c] = std::abs(now.N - d.before[c].N) > solver_state.noise_before[c].N + jet.noise[0].N ||
                   std::abs(now.T - d.before[c].T) > solver_state.noise_before[c].T + jet.noise[0].T;
-    const bool clear = clearly_holds(solver_state, c);
+    const bool clear = has_clear_guards(solver_state, c);
     const GuardsOfState& guards = guards_.of(c, solver_state.states[c]);
     for (std::size_t i = 0; i < d.layout.guards(c); ++i) {
       const GuardForm& guard = guards[i];

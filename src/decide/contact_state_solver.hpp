@@ -52,10 +52,10 @@ class ContactStateSolver {
                               SolverState& solver_state);
   [[nodiscard]] Refusal begin(const motion::Forcing& before, SolverState& solver_state);
   void check_guards(SolverState& solver_state, bool before);
-  void stop_there(const FailedGuard& f, SolverState& solver_state) const;
+  void restart_path_at_stop(const FailedGuard& f, SolverState& solver_state) const;
   [[nodiscard]] std::vector<Block> react(SolverState& solver_state) const;
   void stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const;
-  void note_hits(SolverState& solver_state) const;
+  void record_closed_gaps(SolverState& solver_state) const;
   [[nodiscard]] Refusal propose(SolverState& solver_state);
   [[nodiscard]] Refusal try_next(SolverState& solver_state);
   [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& solver_state) const;
@@ -64,7 +64,7 @@ class ContactStateSolver {
                                            const GuardStart& guard);
   [[nodiscard]] bool meets_static_limit(const SolverState& solver_state, std::size_t c,
                                         const GuardStart& guard) const;
-  [[nodiscard]] static bool clearly_holds(const SolverState& solver_state, std::size_t c);
+  [[nodiscard]] static bool has_clear_guards(const SolverState& solver_state, std::size_t c);
   void check_guard_start(SolverState& solver_state, std::size_t contact, const GuardForm& guard,
                          GuardStart& start) const;
   void finish(SolverState& solver_state);

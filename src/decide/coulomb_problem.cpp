@@ -24,7 +24,7 @@ constexpr double misses = rounding::elimination;
 constexpr double same_solution = 1e-9;
 // Upper limit for that fraction, whatever the condition number. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a margin
 // of 1e-10; in Painleve's paradox responses differ by the size of the problem.
-constexpr double most_alike = 1e-3;
+constexpr double max_same_solution = 1e-3;
 
 /// The problem in units in which the diagonal of W is one.
 struct Scaled {
@@ -54,7 +54,7 @@ Scaled scaled(const CoulombProblem& p) {
 /// Number of covering vectors tried with Lemke's method. If W is semidefinite, each one leads to a solution in exact
 /// arithmetic. With rounding, and with many contacts on few motions, the method may end in a ray. Chosen value: 4 of 150
 /// seams need a second vector (tests/unit/base/lcp.cpp).
-constexpr int most_ways = 12;
+constexpr int max_covering_vectors = 12;
 
 /// Covering vector d: all ones for way = 0; otherwise irregular numbers from 1 to 2, from multiples of the golden section.
 VectorXd cover_of(Index size, int way) {
@@ -319,7 +319,7 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
       const VectorXd& other = found[k].response;
       const double size = s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other).cwiseAbs().maxCoeff();
       const double amplified = misses * std::max(condition, conditions[k]);
-      const double same = std::max(same_solution, std::min(amplified, most_alike));
+      const double same = std::max(same_solution, std::min(amplified, max_same_solution));
       known = inverse.cwiseProduct(solution.response - other).cwiseAbs().maxCoeff() <= same * size;
     }
     if (known) continue;
@@ -333,11 +333,11 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
 std::optional<CoulombSolution> solve(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   std::vector<bool> kinetic(p.items.size(), false);
-  for (int way = 0; way < most_ways;) {  // ends: each round marks one more item or changes d
+  for (int way = 0; way < max_covering_vectors;) {  // ends: each round marks one more item or changes d
     const auto x = by_lemke(p, s, kinetic, way);
     if (!x || !fulfils(p, s, *x, kinetic)) {
       // With few contacts, all states are enumerated, which distinguishes Painleve's paradox from a failure by rounding.
-      way = p.items.size() > max_enumerated ? way + 1 : most_ways;
+      way = p.items.size() > max_enumerated ? way + 1 : max_covering_vectors;
       continue;
     }
     if (!mark_slipping(p, s, *x, kinetic)) return finished(p, s, *x, kinetic);

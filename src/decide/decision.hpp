@@ -37,7 +37,7 @@ struct Crossing {
   GuardForm form;
   /// g', g'', ... just before the instant, in the old states.
   std::array<double, MotionJet::orders - 1> derivatives{};
-  double noise = 0.0;                                       ///< rounding error of the guard's value
+  double noise = 0.0;  ///< rounding error of the guard's value
 };
 
 /// A contact that sticks from an instant on although rounding leaves open whether it slips.
@@ -56,23 +56,23 @@ struct Decision {
   motion::Jet jet;
   std::vector<ContactMotion> before, after;  ///< one entry per contact
   std::vector<motion::BodySlide> slides_before, slides_after;
-  ForceLayout layout;                         ///< layout of forces and guards
-  std::vector<GuardStart> guards;             ///< one entry for each slot of `layout`
+  ForceLayout layout;              ///< layout of forces and guards
+  std::vector<GuardStart> guards;  ///< one entry for each slot of `layout`
   /// Guards in the new states, one entry per contact; unused entries have the kind Guard::none.
   GuardForms forms;
   std::map<std::size_t, Crossing> crossings;  ///< crossings of visited contacts, by contact
   /// True for contacts that changed state during the decision, one entry per contact.
   std::vector<bool> visited;
-  std::vector<bool> jumped;   ///< true for contacts whose N or T jumps, one entry per contact
+  std::vector<bool> jumped;  ///< true for contacts whose N or T jumps, one entry per contact
   std::vector<std::size_t>
       released;  ///< contacts from which massless parts separated instantaneously (massless_jump.hpp)
   std::vector<Impulse> impulses;  ///< one entry per contact if rigid contacts were hit; otherwise empty
   /// The single impulses of which `impulses` are the sums, in the order of the impacts.
   std::vector<SingleImpact> single_impacts;
-  std::vector<double> departures;            ///< see ImpactResult::departures
-  double impact_loss = 0.0;                  ///< energy that the impacts dissipate
-  double impact_surface_work = 0.0;          ///< work of moving surfaces in the impacts
-  bool impact_gains = false;                 ///< an impact gained energy (Newton's law with friction)
+  std::vector<double> departures;    ///< see ImpactResult::departures
+  double impact_loss = 0.0;          ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;  ///< work of moving surfaces in the impacts
+  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
   /// True if rounding left the decision open: the states with the smallest violation were taken, or a contact stays at rest
   /// at its friction limit.
   bool undecided = false;

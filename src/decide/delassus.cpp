@@ -102,8 +102,8 @@ bool holds(const Contact& contact, const ContactState& state) {
 
 /// Matrix A of forces_are_unique(): rows of W for normals of closed contacts and tangents of sticking contacts; the column of
 /// a slipping contact's normal includes its friction.
-Eigen::MatrixXd held_part(const Model& model, const contact::ContactStates& states,
-                          const std::vector<std::size_t>& contacts, const Delassus& d) {
+Eigen::MatrixXd constrained_block(const Model& model, const contact::ContactStates& states,
+                                  const std::vector<std::size_t>& contacts, const Delassus& d) {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd effect = d.W;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -164,7 +164,7 @@ bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStat
   Delassus d = delassus(model, *system, contacts);
   if (const motion::StateSystemPtr held = systems.system_of(states))
     add_shares(model.layout, held->factorised().shared, contacts, d);
-  Eigen::MatrixXd a = held_part(model, states, contacts, d);
+  Eigen::MatrixXd a = constrained_block(model, states, contacts, d);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
   for (Eigen::Index i = 0; i < a.rows(); ++i)

@@ -166,11 +166,11 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
     const CoulombItem& item = problem.items[i];
     const Eigen::Index n = problem.normal(i), t = problem.tangent(i);
-    result.reason +=
-        fmt::format("; '{}': without contact forces g'' = {:.6g}, ut'' = {:.6g}; one unit of -N adds "
-                    "{:.6g} to g''",
-                    model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
-                    problem.b[t] * acceleration, problem.W(n, n) * per_force);
+    result.reason += fmt::format(
+        "; '{}': without contact forces g'' = {:.6g}, ut'' = {:.6g}; one unit of -N adds "
+        "{:.6g} to g''",
+        model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration, problem.b[t] * acceleration,
+        problem.W(n, n) * per_force);
     const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, t);
     if (item.kind == Kind::sliding)
       result.reason += fmt::format(", and {:.6g} together with friction in {}", sliding * per_force,

@@ -12,11 +12,11 @@ namespace {
 constexpr double same_value = 1e-12;  // relative difference up to which two pieces of a history meet smoothly
 
 /// Magnitude of the terms of a form of x, to which its rounding error is relative. For every translation the largest
-/// translation is used, but at least `own`; for every rotation the largest rotation, but at least `own_turning`. Final values
+/// translation is used, but at least `own`; for every rotation the largest rotation, but at least `min_rotation`. Final values
 /// in a file have this accuracy.
-double left_size(const Model& model, const Combination& form, const Vector& x, double own,
-                 double own_turning) {
-  double greatest[2] = {own, own_turning}, sum = 0.0;
+double rounding_scale(const Model& model, const Combination& form, const Vector& x, double own,
+                      double min_rotation) {
+  double greatest[2] = {own, min_rotation}, sum = 0.0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     double& most = greatest[model.dofs[static_cast<std::size_t>(i)].rotation ? 1 : 0];
     most = std::max(most, std::abs(x[i]));
@@ -39,9 +39,10 @@ std::vector<TriggeredGuard> guards_zero_at_start(const Model& model, const Vecto
     if (was_open == is_now) continue;
     const double kn = contact.normal_stiffness, cn = contact.normal_damping, gap = contact.gap_at(u);
     const Scales& scales = model.scales;
-    const double gap_terms =
-        std::abs(contact.gap) + left_size(model, contact.normal, u, scales.displacement, scales.rotation);
-    const double rate_terms = left_size(model, contact.normal, v, scales.velocity, scales.angular_velocity);
+    const double gap_terms = std::abs(contact.gap) +
+                             rounding_scale(model, contact.normal, u, scales.displacement, scales.rotation);
+    const double rate_terms =
+        rounding_scale(model, contact.normal, v, scales.velocity, scales.angular_velocity);
     // The contact closes at g = 0, and opens at N = kn g + cn g' = 0.
     const double off = was_open ? kn * gap + cn * contact::gap_rate(contact, v) : kn * gap;
     const double zero = rounding::many_operations * kn * gap_terms +

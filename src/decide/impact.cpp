@@ -178,8 +178,7 @@ Impact ImpactSolver::solve(const motion::Forcing& forcing, double t, const conta
     impact.refusal = {Refusal::Kind::impact,
                       "the impact has no solution: Lemke's method for its complementarity problem ends "
                       "in a ray",
-                      touching,
-                      condition_number(hit.problem)};
+                      touching, condition_number(hit.problem)};
     const double shown = model::in_scene_units(model_, 1.0, unit::velocity);
     for (std::size_t i = 0; i < touching.size(); ++i) {
       const Eigen::Index n = normal_place(hit.d.layout, i);

@@ -16,10 +16,10 @@ namespace {
 
 /// Fraction of the scale of velocities. Motions that differ by more are not separated by rounding alone, because no engine
 /// loses half of its digits: sqrt(eps).
-constexpr double half_of_digits = 0x1p-26;
+constexpr double sqrt_eps = 0x1p-26;
 /// Limit for successive impacts at one instant. Unless e is almost one, capture_velocity ends a sequence of rebounds long
 /// before.
-constexpr int most_turns = 1000;
+constexpr int max_impacts_at_instant = 1000;
 
 double norm_of(const Combination& form) {
   double squared = 0.0;
@@ -186,8 +186,8 @@ bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::
 }
 
 /// Updates the slip directions after other velocities were set to zero. True: at least one more contact is at rest.
-bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcing& forcing,
-                                    const TouchingContacts& met, ImpactResult& found) const {
+bool RigidContactSolver::update_slip_directions(const Instant& instant, const motion::Forcing& forcing,
+                                                const TouchingContacts& met, ImpactResult& found) const {
   bool rests = false;
   for (Participant& participant : found.participants) {
     const std::size_t c = participant.contact;
@@ -207,13 +207,13 @@ bool RigidContactSolver::slide_anew(const Instant& instant, const motion::Forcin
 /// da in displacements. At the last touch g and g' were known exactly. In the time s since then, dv has changed g, da has
 /// changed g', and du has changed both through the stiffness of the structure: by du min(1, (w s)^2/2) and du w min(1, w s),
 /// w being the highest frequency. This upper bound is useless for stiff structures after long times, so it is limited:
-/// velocities that differ by half_of_digits of their scale are always different.
+/// velocities that differ by sqrt_eps of their scale are always different.
 RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double da,
                                                            const Instant& instant) const {
   if (instant.last_touch.empty()) return {};
   const double t = instant.t, s = t - instant.last_touch[c], w = model_.omega_max, du = 0.5 * t * t * da;
   const double angle = std::min(1.0, w * s);
-  const double most = half_of_digits * model_.scales.velocity;
+  const double most = sqrt_eps * model_.scales.velocity;
   return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
 }
 
@@ -253,7 +253,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
         std::any_of(failed.begin(), failed.end(), [&](const FailedGuard& f) { return f.contact == c; });
     const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known;
     const bool split = !touches && (pull_before || std::abs(m.gap) <= known + carried.gap) &&
-                       lands_alike(a, instant, jets, failed, block);
+                       closes_with_others(a, instant, jets, failed, block);
     const bool comes = is_zero(m.gap, known, m.vn);
     const bool above = !touches && !split && !comes;
     if (above && !pull_before) continue;
@@ -277,11 +277,12 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
 }
 
 /// True if the contact is at rest, or moves like another contact of the block that closes now, up to rounding.
-bool RigidContactSolver::lands_alike(const Approach& a, const Instant& instant,
-                                     const std::vector<MotionJet>& jets,
-                                     const std::vector<FailedGuard>& failed, const Block& block) const {
+bool RigidContactSolver::closes_with_others(const Approach& a, const Instant& instant,
+                                            const std::vector<MotionJet>& jets,
+                                            const std::vector<FailedGuard>& failed,
+                                            const Block& block) const {
   if (std::abs(a.rate) <= a.rest) return true;
-  const double alike = a.hit + half_of_digits * model_.scales.velocity;
+  const double alike = a.hit + sqrt_eps * model_.scales.velocity;
   return std::any_of(block.begin(), block.end(), [&](std::size_t c) {
     const bool falls =
         instant.has_triggered(c, Guard::closing) ||
@@ -297,7 +298,7 @@ Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcin
                                           ImpactResult& found, Decision& decision,
                                           contact::ContactStates& states) {
   std::vector<Approach> all = met.approaches;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < max_impacts_at_instant; ++turn) {
     const Block struck = next_impact(all);
     if (struck.empty()) return {};
     if (Refusal why = apply_impact(instant, forcing, struck, block, found, decision, states)) return why;
@@ -316,7 +317,7 @@ Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcin
   return {Refusal::Kind::endless,
           fmt::format("{} successive impacts at one instant do not end; a greater capture_velocity ends "
                       "rebounds sooner",
-                      most_turns),
+                      max_impacts_at_instant),
           met.contacts};
 }
 
@@ -389,8 +390,9 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
 
 /// Feet of one body: sets participants to rest if other resting participants constrain their motion, although rounding is
 /// left in their slip rate.
-void RigidContactSolver::rest_together(const Instant& instant, const motion::Forcing& forcing,
-                                       const contact::ContactStates& states, ImpactResult& found) const {
+void RigidContactSolver::stop_constrained_participants(const Instant& instant, const motion::Forcing& forcing,
+                                                       const contact::ContactStates& states,
+                                                       ImpactResult& found) const {
   contact::ContactStates held = states;
   for (const Participant& participant : found.participants)
     held[participant.contact].state = !model_.contacts[participant.contact].has_friction() ? State::closed
@@ -547,10 +549,10 @@ Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forc
   std::size_t placed = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
     add_staying(instant, forcing, all[b], free, decision, found);
-    rest_together(instant, forcing, states, found);
+    stop_constrained_participants(instant, forcing, states, found);
     // ends: one more contact rests.
     while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))
-      if (!slide_anew(instant, forcing, all[b], found)) break;
+      if (!update_slip_directions(instant, forcing, all[b], found)) break;
     add_sliders(instant, forcing, all[b], blocks[b], states, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }

@@ -38,9 +38,9 @@ struct ImpactResult {
   bool unresolved = false;            ///< see Decision::unresolved
   double max_rest_speed = 0.0;        ///< largest g' that was treated as rest; length/time
   std::vector<bool> decided;          ///< true: the contact has been a participant
-  std::vector<bool> kinetic;  ///< true: slip has begun, so the static coefficient no longer applies
-  std::vector<bool> bears_limit;   ///< true: other contacts hold the contact at its static limit
-  std::vector<bool> stays, rests;  ///< true: g' (stays) or ut' (rests) is treated as zero
+  std::vector<bool> kinetic;          ///< true: slip has begun, so the static coefficient no longer applies
+  std::vector<bool> bears_limit;      ///< true: other contacts hold the contact at its static limit
+  std::vector<bool> stays, rests;     ///< true: g' (stays) or ut' (rests) is treated as zero
   /// g' / speed below which the contact stays; NaN: not computed.
   std::vector<double> departures;
   Eigen::VectorXd capture_impulses;  ///< see Decision::capture_impulses; empty: none so far
@@ -84,9 +84,9 @@ class RigidContactSolver {
   [[nodiscard]] TouchingContacts find_touching(const Instant& instant, const std::vector<MotionJet>& jets,
                                                const std::vector<FailedGuard>& failed, const Block& block,
                                                const contact::ContactStates& states) const;
-  [[nodiscard]] bool lands_alike(const Approach& approach, const Instant& instant,
-                                 const std::vector<MotionJet>& jets, const std::vector<FailedGuard>& failed,
-                                 const Block& block) const;
+  [[nodiscard]] bool closes_with_others(const Approach& approach, const Instant& instant,
+                                        const std::vector<MotionJet>& jets,
+                                        const std::vector<FailedGuard>& failed, const Block& block) const;
   [[nodiscard]] Refusal apply_impact(Instant& instant, const motion::Forcing& forcing, const Block& struck,
                                      const Block& block, ImpactResult& found, Decision& decision,
                                      contact::ContactStates& states);
@@ -95,8 +95,8 @@ class RigidContactSolver {
                                       Decision& decision, contact::ContactStates& states);
   void add_staying(const Instant& instant, const motion::Forcing& forcing, const TouchingContacts& met,
                    const std::vector<MotionJet>& free, const Decision& decision, ImpactResult& found) const;
-  void rest_together(const Instant& instant, const motion::Forcing& forcing,
-                     const contact::ContactStates& states, ImpactResult& found) const;
+  void stop_constrained_participants(const Instant& instant, const motion::Forcing& forcing,
+                                     const contact::ContactStates& states, ImpactResult& found) const;
   [[nodiscard]] std::vector<std::size_t> sharing(const Instant& instant, const motion::Forcing& forcing,
                                                  const contact::ContactStates& states,
                                                  const Decision& decision) const;
@@ -110,8 +110,8 @@ class RigidContactSolver {
   [[nodiscard]] bool set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
                                             const motion::StateSystem& free, const TouchingContacts& met,
                                             ImpactResult& found) const;
-  [[nodiscard]] bool slide_anew(const Instant& instant, const motion::Forcing& forcing,
-                                const TouchingContacts& met, ImpactResult& found) const;
+  [[nodiscard]] bool update_slip_directions(const Instant& instant, const motion::Forcing& forcing,
+                                            const TouchingContacts& met, ImpactResult& found) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const motion::Forcing& forcing,
                                          const Instant& instant) const;
   [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,

@@ -28,7 +28,7 @@ struct SolverState {
   ImpactResult impact_result;
   std::vector<std::size_t> undecided;  // blocks that rounding leaves undecided: their states are kept
   bool noise_increased = false;
-  Vector initial_u = {};                        // at the start: the given u, before massless parts move
+  Vector initial_u = {};               // at the start: the given u, before massless parts move
   std::vector<MotionJet> so_far = {};  // motion up to the instant; empty if Instant::resting_limits is empty
   std::optional<PathTouch> touched = {};        // first contact on the path in this round
   std::vector<std::size_t> slid_contacts = {};  // contacts that have slid instantaneously and stopped
@@ -36,7 +36,7 @@ struct SolverState {
   std::optional<std::vector<std::size_t>> open = {};
   const motion::Forcing* forcing = nullptr;  // forcing of the last evaluation
   double noise_factor = 0.0;                 // Instant::noise_factor of the last evaluation
-  Eigen::VectorXd held = {};  // impulses that made v satisfy the constraints of `states`
+  Eigen::VectorXd held = {};                 // impulses that made v satisfy the constraints of `states`
 
   /// Displacements from which massless parts start their instantaneous motion.
   [[nodiscard]] const Vector& jump_origin() const { return instant.start ? initial_u : instant.u; }

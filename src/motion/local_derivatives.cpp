@@ -165,7 +165,7 @@ bool LocalDerivatives::compute_locally(const StateSystemPtr& system, const Forci
                                        MotionJet& motion) {
   Neighbourhood* near = neighbourhoods_->around(contact, *system);
   if (near == nullptr) {
-    possible_ = !neighbourhoods_->has_given_up();
+    possible_ = !neighbourhoods_->found_none();
     return false;
   }
   const StateSystemPtr own = near->systems.system_of(near->local_states(system->states()));

@@ -22,7 +22,7 @@ class LocalSeries {
   explicit LocalSeries(StateSystems& systems);
 
   /// True if local series can be computed; false after M^-1 was found not to decay anywhere.
-  [[nodiscard]] bool possible() const { return !neighbourhoods_.has_given_up(); }
+  [[nodiscard]] bool possible() const { return !neighbourhoods_.found_none(); }
 
   /// Writes the coefficients of the earlier motion about the instant: levels + 3 for a degree of freedom, levels + 1 for a
   /// force.

@@ -11,7 +11,7 @@ namespace signorini::motion {
 namespace {
 
 /// Fraction of the largest entry of a column of M^-1 below which entries are rounding.
-constexpr double of_nothing = rounding::eps / 16.0;
+constexpr double negligible_fraction = rounding::eps / 16.0;
 /// Contacts within the distance radius / sharing of each other share a neighbourhood. A neighbourhood must not have more than
 /// 1 / least_gain of all degrees of freedom. Chosen values.
 constexpr int sharing = 4, least_gain = 4;
@@ -85,7 +85,7 @@ int Neighbourhoods::reach(std::size_t contact, const StateSystem& system,
     double most = 0.0;
     for (std::size_t i = 0; i < distance.size(); ++i) most = std::max(most, weighted(i));
     for (std::size_t i = 0; i < distance.size(); ++i)
-      if (weighted(i) > of_nothing * most) farthest = std::max(farthest, distance[i]);
+      if (weighted(i) > negligible_fraction * most) farthest = std::max(farthest, distance[i]);
   }
   return farthest;
 }

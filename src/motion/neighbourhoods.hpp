@@ -73,7 +73,7 @@ class Neighbourhoods {
   /// contact state, with a factorisation of M.
   [[nodiscard]] Neighbourhood* around(std::size_t contact, const StateSystem& system);
   /// True if several searches have failed and no neighbourhood was found.
-  [[nodiscard]] bool has_given_up() const { return made_.empty() && failures_ >= max_failures; }
+  [[nodiscard]] bool found_none() const { return made_.empty() && failures_ >= max_failures; }
   [[nodiscard]] std::size_t size() const { return made_.size(); }
 
  private:
@@ -86,7 +86,7 @@ class Neighbourhoods {
   const Model& model_;
   const linear::SystemMatrices& structure_;
   const int spread_;
-  std::vector<std::vector<int>> neighbours_;  // by dof: dofs that M, C, K or a contact couples
+  std::vector<std::vector<int>> neighbours_;           // by dof: dofs that M, C, K or a contact couples
   std::vector<std::vector<std::size_t>> contacts_at_;  // by degree of freedom
   std::vector<double> root_of_mass_;                   // by degree of freedom
   std::vector<std::unique_ptr<Neighbourhood>> made_;

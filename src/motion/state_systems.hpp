@@ -48,10 +48,10 @@ struct FactorisedStates {
   std::vector<linear::PrescribedDof> prescribed;
   /// Forces of contacts that constrain the same motion redundantly.
   std::vector<linear::SharedForces> shared;
-  std::vector<std::size_t> rate_dependent;   ///< contacts that slip with a varying friction coefficient
-  bool massless = false;                     ///< true: some degrees of freedom have no mass
-  bool regular = false;                      ///< false: rows are linearly dependent, so there is no inverse
-  linear::TriangularFactors sparse;          ///< sparse factors; empty if `inverse` or `by_mass` is used
+  std::vector<std::size_t> rate_dependent;  ///< contacts that slip with a varying friction coefficient
+  bool massless = false;                    ///< true: some degrees of freedom have no mass
+  bool regular = false;                     ///< false: rows are linearly dependent, so there is no inverse
+  linear::TriangularFactors sparse;         ///< sparse factors; empty if `inverse` or `by_mass` is used
   /// Solver by the factors of M; used if forces follow from displacements and velocities alone.
   std::optional<linear::MassSolver> by_mass;
   /// Matrices by columns: the inverse A^-1, and the responses of the unknowns to a unit of u or v of each degree of freedom:

@@ -25,14 +25,14 @@ constexpr int max_restarts = 8;  // restarts from the other side of a kink; chos
 // derivatives and far below the resolution of measurements.
 constexpr double key_tolerance = 1e-9, gradient_tolerance = 1e-12, sum_tolerance = 0.0;
 // Step length, relative to a key's sigma, below which a step is insignificant. Chosen value.
-constexpr double of_sigma = 0.1;
+constexpr double insignificant_step = 0.1;
 // Two slopes are opposite if a convex combination of them is shorter than this, relative to the longer slope. Chosen value.
 constexpr double opposite = 1e-3;
 // The fit is rejected if the probability of its chi squared is lower; this rejects one correct fit in a million.
 constexpr double least_probability = 1e-6;
 // Without sigmas: largest norm of the residuals, relative to the measured numbers, in an accepted fit. Chosen value; a wrong
 // unit gives about 1.
-constexpr double max_left = 0.5;
+constexpr double max_relative_residual = 0.5;
 
 /// During its lifetime GSL returns error codes instead of aborting the program.
 class GslErrorsReturned {
@@ -121,7 +121,7 @@ class Fitter {
     place_ = descend(problem_, start);
     iterations_ = place_.iterations;
     int restarts = 0;
-    while (look_beside() && ++restarts < max_restarts) {
+    while (examine_both_sides() && ++restarts < max_restarts) {
     }
   }
 
@@ -131,7 +131,7 @@ class Fitter {
     result.chi_squared = place_.chi_squared;
     result.freedom = static_cast<long>(problem_.rows()) - static_cast<long>(here_.rank);
     at_bound_.assign(result.keys.size(), false);
-    for (const auto& [p, side] : walls_)
+    for (const auto& [p, side] : incomplete_sides_)
       at_bound_[p] = at_bound_[p] || (known && side * here_.slope[p] < 0.0);
     std::string bounds;
     for (std::size_t p = 0; p < result.keys.size() && !settled(); ++p)
@@ -165,24 +165,24 @@ class Fitter {
       if (!here_.determined[p]) continue;
       const double sigma = std::sqrt(factor() * here_.covariance[p][p]);
       const double near =
-          std::max(sensitivity::FitProblem::kink_offset * problem_.size()[p], of_sigma * sigma);
+          std::max(sensitivity::FitProblem::kink_offset * problem_.size()[p], insignificant_step * sigma);
       if (!(std::abs(keys[p] + here_.step[p] - place_.keys[p]) <= near)) return false;
     }
     return true;
   }
   /// Examines both sides of every key, and descends from a side on which the sum of squares decreases away from the result.
   /// Returns true if a lower sum was found.
-  bool look_beside() {
+  bool examine_both_sides() {
     level_ = linear_at(place_.keys) && leads_to_place(place_.keys);
     falls_ = kink_ = false;
     slopes_.clear();
-    walls_.clear();
+    incomplete_sides_.clear();
     for (std::size_t p = 0; p < problem_.keys(); ++p)
       for (const double side : {1.0, -1.0}) {
         std::vector<double> keys = place_.keys;
         keys[p] += side * sensitivity::FitProblem::kink_offset * problem_.size()[p];
         if (!problem_.complete(keys)) {
-          walls_.emplace_back(p, side);
+          incomplete_sides_.emplace_back(p, side);
           continue;
         }
         if (!linear_at(keys)) continue;
@@ -262,7 +262,7 @@ class Fitter {
     }
     const double measured = problem_.measured_norm();
     const double left = measured > 0.0 ? std::sqrt(result.chi_squared) / measured : 0.0;
-    if (!(left <= max_left))
+    if (!(left <= max_relative_residual))
       result.issues.push_back(
           fmt::format("the residual is {:.2g} times the measured numbers: the run does not explain them; {}",
                       left, advice));
@@ -276,7 +276,8 @@ class Fitter {
   FitPlace place_;
   std::vector<std::vector<double>> slopes_;  // slopes on the sides of the result, in units of key sizes
   int iterations_ = 0;
-  std::vector<std::pair<std::size_t, double>> walls_;  // keys and sides at which a run is incomplete
+  std::vector<std::pair<std::size_t, double>>
+      incomplete_sides_;  // keys and sides at which a run is incomplete
   // true for keys at whose bound the sum of squares still decreases
   std::vector<bool> at_bound_;
   bool level_ = false;  // true: the slope is zero at the result
@@ -289,9 +290,10 @@ class Fitter {
 Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Measurements& measured,
         const std::function<bool()>& go_on) {
   if (measured.rows.size() < paths.size() || paths.empty())
-    throw UsageError(fmt::format("found {} measured numbers for {} keys, expected at least as many "
-                                 "numbers as keys",
-                                 measured.rows.size(), paths.size()));
+    throw UsageError(
+        fmt::format("found {} measured numbers for {} keys, expected at least as many "
+                    "numbers as keys",
+                    measured.rows.size(), paths.size()));
   const GslErrorsReturned quiet;
   Fit result;
   const Scene scene = read({});

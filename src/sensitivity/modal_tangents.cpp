@@ -9,7 +9,7 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr double nothing_left = 1e-13;  // rounding error of C_p - alpha M_p, relative to C_p
+constexpr double negligible_damping = 1e-13;  // rounding error of C_p - alpha M_p, relative to C_p
 
 bool has_constant_excitation(const ForcingRatesSeries& f) {
   const auto still = [&](const std::vector<double>& rows) {
@@ -58,7 +58,7 @@ bool ModalTangents::start(modal::ModalSystem& modes, const decide::Decision& dec
       if (d->stiffness.nonZeros() > 0) open.stiffness = in_modes(d->stiffness);
       if (d->mass.nonZeros() > 0) open.mass = in_modes(d->mass);
       const SparseMatrix drag = d->damping - modes.alpha() * d->mass;
-      if (drag.norm() > nothing_left * (d->damping.norm() + modes.alpha() * d->mass.norm()))
+      if (drag.norm() > negligible_damping * (d->damping.norm() + modes.alpha() * d->mass.norm()))
         open.damping = in_modes(drag);
     }
   }

@@ -26,7 +26,7 @@ inline constexpr Eigen::Index max_modal_tangent_dofs = 600;
 /// Motion and tangents of all parameters at one time.
 struct MotionAndTangents {
   SeriesPoint motion;
-  Vector force_bends;                 ///< second time derivatives of the contact forces
+  Vector force_bends;  ///< second time derivatives of the contact forces
   /// One entry per parameter; its vectors are empty if the tangent is not computed.
   std::vector<SeriesPoint> tangents;
 };

@@ -63,8 +63,7 @@ SeriesPoint RecomputedMotion::at(double t) {
 
 std::optional<double> RecomputedMotion::time_of(const run::RunInstant& instant, const MotionAt& at) const {
   if (instant.breakpoint) return instant.t;
-  if (instant.triggered
-          .empty()) {  // end of the run, or a change of states at the end of a step
+  if (instant.triggered.empty()) {  // end of the run, or a change of states at the end of a step
     if (same_states(instant.states_before, instant.after.states)) return instant.t;
     return std::nullopt;
   }

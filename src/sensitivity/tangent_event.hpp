@@ -63,8 +63,8 @@ struct TangentAfter {
   Tangent start;
   SeriesPoint point;
   std::vector<DrivenRates> driven;
-  double dt = 0.0;                           ///< dt/dp of the instant
-  std::vector<EventRates> rates;             ///< one entry per contact, in internal units
+  double dt = 0.0;                ///< dt/dp of the instant
+  std::vector<EventRates> rates;  ///< one entry per contact, in internal units
   /// Derivatives of the impulses, one entry per contact; empty: no impact.
   std::vector<double> impulse_n, impulse_t;
   /// Reason why no derivative exists after the instant; empty: the derivative exists.

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int max_halvings = 30;
 constexpr int min_tangent_levels = 12;
-constexpr double bolder = 1.5;   // length of the next part / length of the last part that converged
-constexpr int turn_places = 24;  // places per step of six radians, a quarter radian apart
+constexpr double step_growth = 1.5;  // length of the next part / length of the last part that converged
+constexpr int turn_places = 24;      // places per step of six radians, a quarter radian apart
 // A product of two motions oscillates twice as fast as the motions, so a step of six radians needs two sets of ten Gauss
 // points. The relative error is then 6^21 (10!)^4 / (21 (20!)^3) = 1e-14.
 constexpr std::size_t work_parts = 2;
@@ -114,7 +114,7 @@ void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
   while (from < e.x || from == 0.0) {
     const double rest = e.x - from;
     double length = rest;
-    if (state.reach > 0.0) length = std::min(rest, bolder * state.reach / e.series->scale);
+    if (state.reach > 0.0) length = std::min(rest, step_growth * state.reach / e.series->scale);
     if (length < rest && length > 0.6 * rest) length = 0.5 * rest;
     if (from > 0.0) recentre(*e.series, step.forcing, from, 1.0, moved);
     const motion::Series& motion = from > 0.0 ? moved : *e.series;

@@ -18,7 +18,7 @@ struct TangentSample {
   const motion::Forcing& forcing;
   const contact::ContactStates& contact_states;
   SeriesPoint point;
-  Vector force_bends;                            ///< second time derivatives of the contact forces
+  Vector force_bends;  ///< second time derivatives of the contact forces
   /// One entry per parameter; empty vectors: the tangent no longer exists.
   std::vector<SeriesPoint> tangents;
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]

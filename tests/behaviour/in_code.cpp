@@ -177,7 +177,8 @@ TEST_CASE("what a law of one's own may not be is told with its state") {
             "'slides': expected N"));
   CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].guards.resize(4); }), "found 4 guards"));
   CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].tangent.form.at = 1.0; }), "expected forms"));
-  CHECK(has(message([](UserContactLaw& l, Scene&) { l.states[0].kind = State::inside; }), "expected the kind"));
+  CHECK(
+      has(message([](UserContactLaw& l, Scene&) { l.states[0].kind = State::inside; }), "expected the kind"));
   CHECK(has(message([](UserContactLaw& l, Scene&) { l.states.clear(); }), "found 0 states"));
   CHECK(has(message([](UserContactLaw&, Scene& s) { s.contacts[0].friction.static_ = 0.4; }),
             "beside a user-defined law"));

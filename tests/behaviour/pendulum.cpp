@@ -418,7 +418,8 @@ TEST_CASE(
   scene.replace(scene.find("[run]\n"), 6, "[run]\nengine = \"ida\"\n");
   CHECK_THROWS_WITH(
       static_cast<void>(rates_of(scene, {"pendulums.p.radius"})),
-      doctest::Contains("sensitivities cannot differentiate friction that rises with the slip rate together"));
+      doctest::Contains(
+          "sensitivities cannot differentiate friction that rises with the slip rate together"));
 }
 
 TEST_SUITE_END();

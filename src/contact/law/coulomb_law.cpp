@@ -109,8 +109,7 @@ ContactLaw::Guards CoulombLaw::guards(const Contact& contact, const ContactState
   } else if (const int s = slip_sign(state.state); s != 0) {
     result[1].kind = Guard::sliding;
     result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
-    if (contact.shear &&
-        contact.friction.is_rate_strengthening()) {  // same sign as s p', but more accurate
+    if (contact.shear && contact.friction.is_rate_strengthening()) {  // same sign as s p', but more accurate
       result[1].form = {};
       result[1].form.N = contact::static_friction(contact);
       result[1].form.T = s;

@@ -159,8 +159,8 @@ TEST_CASE("a row no longer than its neighbourhoods has none, and is not asked fo
   const motion::StateSystemPtr system = systems.system_of(rubbing_mode(small, 7));
   motion::Neighbourhoods near(systems, 12);
   for (const std::size_t c : {3U, 11U, 24U, 38U}) {
-    CHECK_FALSE(near.has_given_up());
+    CHECK_FALSE(near.found_none());
     CHECK(near.around(c, *system) == nullptr);
   }
-  CHECK(near.has_given_up());
+  CHECK(near.found_none());
 }

@@ -6,6 +6,7 @@
 // zero for the same y and y' as without r1/cj, and a solve needs no additional product with K.
 #pragma once
 
+#include "decide/guard_signs.hpp"
 #include "engine/events/active_guards.hpp"
 #include "engine/ida/ida_linear_solver.hpp"
 #include "engine/stepper.hpp"
@@ -74,6 +75,8 @@ class IdaProblem {
   /// contact forces on them.
   void widen_massless(const double* y, double* w) const;
 
+  /// Lists the guards of the segment in watched_guards_.
+  void list_watched_guards();
   /// Adds an entry to stopped_masses_ if the form moves mass.
   void add_stopped_mass(const Combination& form, int force);
 
@@ -105,6 +108,14 @@ class IdaProblem {
     double mass;  ///< moved by the form, from the diagonal of M
   };
   std::vector<StoppedMass> stopped_masses_;
+  // Guards that IDA watches: those of the segment that are linear without accelerations, or have products.
+  struct WatchedGuard {
+    std::size_t contact = 0, slot = 0;
+    const GuardForm* guard = nullptr;
+    decide::QuickForm form;  ///< of guard
+    double unit = 1.0;       ///< divisor that makes a linear guard O(1)
+  };
+  std::vector<WatchedGuard> watched_guards_;
   std::vector<linear::SharedForces> shared_;  // of the contact states of this segment
   std::vector<std::size_t> nonlinear_;  // contacts in this segment that slip with rate-dependent friction
   bool rate_dependent_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <memory>
 #include <system_error>
 
 #include "base/files.hpp"
@@ -51,11 +52,11 @@ ManifestEntry entry_of(const fs::path& directory, std::string_view file) {
   std::ifstream stream = opened(directory / file);
   std::streambuf& bytes = *stream.rdbuf();
   Fingerprint checksum;
-  std::vector<char> part(1 << 18);
-  const auto most = static_cast<std::streamsize>(part.size());
+  constexpr std::streamsize most = 1 << 18;
+  const auto part = std::make_unique_for_overwrite<char[]>(most);
   try {
-    for (std::streamsize n = bytes.sgetn(part.data(), most); n > 0; n = bytes.sgetn(part.data(), most)) {
-      checksum.add({part.data(), static_cast<std::size_t>(n)});
+    for (std::streamsize n = bytes.sgetn(part.get(), most); n > 0; n = bytes.sgetn(part.get(), most)) {
+      checksum.add({part.get(), static_cast<std::size_t>(n)});
       entry.size += static_cast<std::uintmax_t>(n);
     }
   } catch (const std::ios_base::failure& error) {  // read error of the disk

@@ -22,11 +22,11 @@ double equilibrium_residual(const Model& model, const linear::SystemMatrices& st
 }
 
 void Powers::at(const Forcing& forcing, double t, const contact::ContactStates& states, const Point& point,
-                double* out) const {
+                const std::vector<ContactMotion>& motions, double* out) const {
   out[0] = forcing.power(t, point.v.data());
   out[1] = structure_.damping_power(point.v.data());
   for (std::size_t k = 0; k < states.size(); ++k) {
-    const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
+    const ContactMotion& m = motions[k];
     const double slip = contact::working_slip_rate(model_.contacts[k], states[k].state, m);
     if (const Contact& contact = model_.contacts[k]; contact.curved_surface()) {
       const BodySlide slide = body_slide(contact, k, forcing, t, point.u, point.v);

@@ -121,9 +121,9 @@ class Powers {
 
   /// Number of powers at one time: loads, damping, then friction, surface and -N of each contact.
   [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
-  /// Writes all powers into out[0 .. count()).
+  /// Writes all powers into out[0 .. count()). motions: motion_of() of each contact at the point.
   void at(const Forcing& forcing, double t, const contact::ContactStates& states, const Point& point,
-          double* out) const;
+          const std::vector<ContactMotion>& motions, double* out) const;
   /// works += factor * powers
   void add(const double* powers, double factor, WorkIntegrals& works) const;
 

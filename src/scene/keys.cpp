@@ -565,7 +565,7 @@ std::string describe_type(const Key& key) {
     case KeyType::against:
       return "the name of a node, or an array of two";
     case KeyType::friction:
-      return "a number >= 0 or a table { static, kinetic }";
+      return "a number >= 0 or a table such as { static, kinetic }";
     case KeyType::term:
       return "a number or a table { factor, unit }";
     case direction:

@@ -77,7 +77,9 @@ std::string below(const Key& key) {
 base::Json friction_table(const std::string& path) {
   const base::Json falls = {{"required", base::Json::array({"static"})}};
   const base::Json rises = {{"required", base::Json::array({"slow", "fast", "velocity"})}};
-  return {{"allOf", base::Json::array({reference(path), any_of(falls, rises)})}};
+  const base::Json by_load = {{"required", base::Json::array({"light", "heavy", "force"})}};
+  return {{"allOf",
+           base::Json::array({reference(path), {{"anyOf", base::Json::array({falls, rises, by_load})}}})}};
 }
 
 base::Json table_type(const Key& key) {

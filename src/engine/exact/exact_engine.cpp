@@ -438,7 +438,7 @@ void ExactEngine::update_unarmed(double x) {
     const auto polynomial = contact.expand(segment_.decision->guard(slot), x - contact.origin(),
                                            events::max_root_degree, guard_.data());
     active_guards_.update(slot, motion::value_at(guard_.data(), polynomial.degree, x - contact.origin()),
-                          4.0 * (guard.noise + drift_of(guard, x)));
+                          4.0 * (guard.noise + drift_of(guard, x - begin_x_)));
   }
 }
 

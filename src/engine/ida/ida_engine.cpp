@@ -41,6 +41,7 @@ IdaEngine::IdaEngine(const Model& model, const linear::SystemMatrices& structure
       tolerance_(tolerance),
       flight_tolerances_(flight_tolerances),
       powers_(model, structure),
+      motions_(model.contacts.size()),
       bdf_(model, structure, tolerance, max_order, counters),
       turns_(model.contacts.size(), model.layout.guard_count() + powers_.count()),
       history_(model.layout.guard_count() + powers_.count() + turns_.count()),
@@ -64,7 +65,7 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   double* shown = powers + powers_.count();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t, point);
+    const ContactMotion& m = motions_[k] = motion::motion_of(contact, k, *segment_.forcing, t, point);
     const double still = segment_.forcing->surface_moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
     const double ut =
         contact.body_tangent().dot(point.u) - still;  // without a moving surface's s(t), see locate.hpp
@@ -76,7 +77,7 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
     for (const double* const end = guards + layout.guard_end(k); out != end;)
       *out++ = 0.0;  // slots without a guard
   }
-  powers_.at(*segment_.forcing, t, decision.states, point, powers);
+  powers_.at(*segment_.forcing, t, decision.states, point, motions_, powers);
 }
 
 /// Gap below which the series takes a flight: the geometric mean of the gap's tolerance and the size of its terms. Below it,

@@ -68,6 +68,7 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   const engine::Tolerance tolerance_;
   const double flight_tolerances_;
   motion::Powers powers_;
+  std::vector<ContactMotion> motions_;  // of each contact at the point that fill() evaluates
   BdfIntegrator bdf_;
   HistoryTurningPoints turns_;
   events::StepHistory history_;

@@ -7,7 +7,6 @@
 #include "base/simd.hpp"
 #include "contact/curved_surface.hpp"
 #include "contact/friction.hpp"
-#include "decide/guard_signs.hpp"
 #include "engine/ida/restart_order.hpp"
 #include "motion/point.hpp"
 
@@ -129,6 +128,7 @@ void IdaProblem::start(const engine::Segment& segment, const events::GuardMonito
   guard_monitor_ = &watch;
   linear_.set_contact_states(segment.decision->states);
   shared_ = linear_.shared_rows().in_force(linear_.rows());
+  list_watched_guards();
   nonlinear_.clear();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     if (contact::slips_nonlinearly(model_.contacts[k], segment.decision->states[k].state))
@@ -295,31 +295,37 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
   }
 }
 
-void IdaProblem::guards(double t, const double* y, const double* yp, double* g) const {
+void IdaProblem::list_watched_guards() {
   const Scales& scale = model_.scales;
+  watched_guards_.clear();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const ContactMotion m = motion(k, t, y, yp);
     const decide::GuardsOfState& forms = segment_.decision->forms[k];
-    std::size_t slot = layout_.contacts.guard(k);
-    const std::size_t unused = slot + layout_.contacts.guards(k), end = layout_.contacts.guard_end(k);
-    for (const GuardForm* guard = forms.data(); slot < unused; ++slot, ++guard) {
+    for (std::size_t i = 0; i < layout_.contacts.guards(k); ++i) {
+      const std::size_t slot = layout_.contacts.guard(k, i);
       const Guard kind = segment_.decision->guards[slot].kind;
-      const Form& form = guard->form;
       // IDA does not interpolate accelerations, so guards that contain one are left to events::GuardMonitor::check().
-      if (kind == Guard::none || form.an != 0.0 || !guard_monitor_->armed(slot)) {
-        g[slot] = 1.0;
-        continue;
-      }
+      if (kind == Guard::none || forms[i].form.an != 0.0) continue;
       // Guards are scaled to order 1, so that IDA's products of guard values do not underflow.
-      const bool of_rate = kind == Guard::sliding && form.T == 0.0;
+      const bool of_rate = kind == Guard::sliding && forms[i].form.T == 0.0;
       const double unit = kind == Guard::closing ? scale.displacement
                           : of_rate              ? scale.velocity
                                                  : scale.force;
-      g[slot] = guard->is_linear()
-                    ? decide::QuickForm(form).value(m) / unit
-                    : guard->value(m) * tolerance_.rtol / engine::tolerance(*guard, m, tolerance_);
+      watched_guards_.push_back({k, slot, &forms[i], decide::QuickForm(forms[i].form), unit});
     }
-    for (; slot < end; ++slot) g[slot] = 1.0;
+  }
+}
+
+void IdaProblem::guards(double t, const double* y, const double* yp, double* g) const {
+  std::fill(g, g + slots(), 1.0);
+  std::size_t evaluated = model_.contacts.size();  // contact of m
+  ContactMotion m;
+  for (const WatchedGuard& watched : watched_guards_) {
+    if (!guard_monitor_->armed(watched.slot)) continue;
+    if (watched.contact != evaluated) m = motion(evaluated = watched.contact, t, y, yp);
+    const GuardForm& guard = *watched.guard;
+    g[watched.slot] = guard.is_linear()
+                          ? watched.form.value(m) / watched.unit
+                          : guard.value(m) * tolerance_.rtol / engine::tolerance(guard, m, tolerance_);
   }
 }
 

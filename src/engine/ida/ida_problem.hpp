@@ -6,6 +6,7 @@
 // a solve needs no additional product with K. These terms do not change the solution, for which r1 = 0.
 #pragma once
 
+#include "decide/guard_signs.hpp"
 #include "engine/events/active_guards.hpp"
 #include "engine/ida/ida_linear_solver.hpp"
 #include "engine/stepper.hpp"
@@ -76,6 +77,8 @@ class IdaProblem {
   /// that determine them.
   void widen_massless(const double* y, double* w) const;
 
+  /// Lists the guards of the segment in watched_guards_.
+  void list_watched_guards();
   /// Adds an entry to stopped_masses_ if a degree of freedom in the form has mass. force: index of the force in y.
   void add_stopped_mass(const Combination& form, int force);
 
@@ -107,6 +110,14 @@ class IdaProblem {
     double mass;  ///< mass that the form moves, from the diagonal of M
   };
   std::vector<StoppedMass> stopped_masses_;
+  /// A guard that IDA's root finder evaluates: any guard of the segment that contains no acceleration.
+  struct WatchedGuard {
+    std::size_t contact = 0, slot = 0;
+    const GuardForm* guard = nullptr;
+    decide::QuickForm form;  ///< linear part of the guard
+    double unit = 1.0;       ///< a linear guard is divided by this unit, so that its values are of order 1
+  };
+  std::vector<WatchedGuard> watched_guards_;
   std::vector<linear::SharedForces> shared_;  // redundant rows in the contact states of this segment
   std::vector<std::size_t> nonlinear_;  // contacts in this segment that slip with rate-dependent friction
   bool rate_dependent_ = false;

@@ -152,6 +152,8 @@ TEST_SUITE("unit/scene/schema") {
           "[[members]]\nnodes = [\"A\", \"B\"]\nsection = \"s\"\nelements = [1, 2]\n",
           "[[contacts]]\nlaw = \"rigid\"\nagainst = [\"A\", \"B\"]\nfriction = { static = 0.4, kinetic = 0.3 "
           "}\n",
+          "[[contacts]]\nlaw = \"rigid\"\nfriction = { slow = 0.04, fast = 0.1, velocity = 0.02 }\n",
+          "[[contacts]]\nlaw = \"rigid\"\nfriction = { light = 0.12, heavy = 0.05, force = 600 }\n",
           "[[stops]]\ndirection = [1, 0]\nlaw = \"rigid\"\nfriction = { static = 0.4 }\ngaps = [1, 2]\n"}) {
       CAPTURE(more);
       CHECK(text_against_schema(scene + more) == "");
@@ -180,6 +182,7 @@ TEST_SUITE("unit/scene/schema") {
           Wrong{contact + "\"rigid\"\nnormal_stiffness = 0\n", "scene.contacts[].normal_stiffness"},
           Wrong{contact + "\"rigid\"\nfriction = { kinetic = 0.1 }\n", "scene.contacts[].friction"},
           Wrong{contact + "\"rigid\"\nfriction = { slow = 0.1, fast = 0.2 }\n", "scene.contacts[].friction"},
+          Wrong{contact + "\"rigid\"\nfriction = { light = 0.1, heavy = 0.05 }\n", "scene.contacts[].friction"},
           Wrong{contact + "\"rigid\"\nfriction = { statik = 0.1 }\n", "scene.contacts[].friction"},
           Wrong{"[[contacts]]\nnode = \"A\"\n", "scene.contacts[]: misses law"},
           Wrong{"[[stops]]\nlaw = \"rigid\"\n", "scene.stops[]: misses direction"},

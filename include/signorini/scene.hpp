@@ -43,8 +43,7 @@ struct Unit {
 
 enum class HistoryType { constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table };
 
-/// f(t) = offset + amplitude * shape(t). A load has its amplitude outside its history; there offset is 0 and amplitude
-/// 1.
+/// f(t) = offset + amplitude * shape(t). In a load's history offset is 0 and amplitude 1; LoadSpec has the load's amplitude.
 struct HistorySpec {
   HistoryType type = HistoryType::constant;
   double offset = 0.0;
@@ -57,7 +56,7 @@ struct HistorySpec {
   std::vector<double> times = {}, values = {};  ///< table
   bool steffen = false;                         ///< table: interpolation = "steffen"
   bool start_given = false;                     ///< false: a constant has always acted
-  bool hold = false;                            ///< table: the last value holds after the last time
+  bool hold = false;                            ///< table: the last value stays after the last time
   double shift = 0.0;                           ///< delay of the whole history
   double period = 0.0;                          ///< > 0: the shape restarts after each period, `rounds` times
   int rounds = 1;
@@ -82,19 +81,19 @@ struct Direction {
   std::vector<std::pair<std::string, double>> against = {};
 };
 
-/// newmark: method of locating an event in time. root: the step is redone until the guard at its end is zero; linear:
-/// redone once, to the interpolated time.
+/// newmark: method of locating an event in time. root: the step is repeated until the guard at its end is zero; linear:
+/// the step is repeated once, up to the interpolated time.
 enum class Refine { root, linear };
-/// newmark: doubling searches for the step whose doubling changes the result by less than the tolerance.
+/// newmark: doubling adapts the step: a step of twice the size must change the result by less than the tolerance.
 enum class StepControl { fixed, doubling };
-/// exact: method for the motion between events.
+/// exact: method that computes the motion between events.
 enum class Flow { automatic, modal, taylor };
-/// Certification of a run (certify.hpp); automatic: if the cost is low.
+/// Certification of a run (certify.hpp); automatic: the run is certified if this costs little.
 enum class Certify { automatic, yes, no };
 /// Type of companion run: the exact flow, or the same engine with a finer setting.
 enum class Companion { automatic, exact, finer };
 
-/// Absolute tolerances; an absent one is rtol times a scale of the scene.
+/// Absolute tolerances; the default of each is rtol times a scale of the scene.
 struct Tolerances {
   std::optional<double> displacement, velocity, force;
 };
@@ -109,7 +108,7 @@ struct RunSpec {
   std::vector<double> frames = {};    ///< times of deformed shapes, strictly ascending, in [0, t_end]
   std::optional<int> max_order = {};  ///< ida: 1 to 5; absent: "auto"
   int max_events_at_once = 100;       ///< rounds of state changes at one instant before the run stops
-  /// newmark, friction-iteration: the step; with doubling: the largest step
+  /// newmark, friction-iteration: the step; with step = doubling: the largest step
   std::optional<double> dt = {};
   Refine refine = Refine::root;
   StepControl step = StepControl::fixed;
@@ -175,8 +174,7 @@ struct SavedState {
     double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
   };
   std::vector<FinalContact> final_contacts;  ///< empty: contacts.csv has no such rows
-  /// Scales of the run, so that tolerances and the limit of rest do not change: displacement, rotation, velocity,
-  /// angular velocity, force.
+  /// Scales that keep the tolerances and the rest limit of the run: displacement, rotation, velocity, angular velocity, force.
   std::optional<std::array<double, 5>> scales;
   std::optional<Prestress> prestress;  ///< forces of the run, if it had run.geometric
   /// Carried loads of pendulums in the run's K, by name.
@@ -185,8 +183,7 @@ struct SavedState {
   std::vector<std::string> structure_differences;
 };
 
-/// Initial state: "static" or "frictional", the state of another run, or explicit values, by degree of freedom in the
-/// order of [matrices] dofs, or by node.
+/// Initial state: "static", "frictional", the state of another run, or values by node or by [matrices] dofs (in this order).
 struct InitialSpec {
   bool is_static = false;
   bool is_frictional = false;
@@ -202,8 +199,7 @@ struct InitialSpec {
   SourcePlace place = {};
 };
 
-/// C = alpha M + beta K. alpha_over_omega1 means alpha = alpha_over_omega1 * omega1. Damping ratios at two frequencies
-/// are converted to alpha and beta.
+/// C = alpha M + beta K; alpha_over_omega1, if given: alpha / omega1. The reader converts damping ratios to alpha and beta.
 struct DampingSpec {
   double alpha = 0.0;
   double beta = 0.0;
@@ -214,11 +210,9 @@ struct DampingSpec {
 /// A trial run with one cutoff, during the search for a tolerance.
 struct CutoffTrial {
   double cutoff_omega = 0.0;  ///< rad per time
-  int modes = 0;              ///< kept
-  /// Relative contribution of the left-out modes to the response (study/reduction).
-  double missed = 0.0;
-  /// Relative, largest difference of displacements from the next trial; 0: there is no next trial.
-  double moved = 0.0;
+  int modes = 0;              ///< number of kept modes
+  double missed = 0.0;  ///< relative contribution of the omitted modes to the response (study/reduction)
+  double moved = 0.0;  ///< largest relative difference of displacements from the next trial; 0: no next trial
   /// Error bound: `moved` plus the error bound of the next trial; `missed` if there is no next trial.
   double error = 0.0;
 };
@@ -233,7 +227,7 @@ struct ReductionSpec {
 
 struct Section {
   std::string name;
-  double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI 0: for bars only
+  double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI = 0: only for bars
   double area = 0.0, modulus = 0.0;                  ///< stresses are N / area, M / modulus; 0: unknown
   double pipe_radius = 0.0, pipe_wall = 0.0;         ///< mean radius and wall of a pipe; 0: not a pipe
 };
@@ -265,7 +259,7 @@ struct Member {
   SourcePlace place = {};
   std::vector<std::string> release = {};             ///< first or last node, or both, with a hinge
   double thermal_expansion = 0.0;                    ///< strain per temperature
-  HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
+  HistorySpec temperature = HistorySpec::zero();     ///< difference from the undeformed state
   HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: elongation
   std::optional<Bend> bend = {};                     ///< absent: straight pieces
 };
@@ -279,12 +273,12 @@ struct BodySpec {
   bool plane_strain = false;  ///< plane strain; false: plane stress
   MassKind mass = MassKind::consistent;
   double thermal_expansion = 0.0;                 ///< strain per temperature
-  HistorySpec temperature = HistorySpec::zero();  ///< above that of the undeformed state
+  HistorySpec temperature = HistorySpec::zero();  ///< difference from the undeformed state
   std::vector<int> massless = {};  ///< nodes whose mass is moved to others (contact_mass = "none")
   SourcePlace place = {};
 };
 
-/// A node of a boundary in a scene of [matrices]: place, and degrees of freedom by name; empty: fixed.
+/// A node of a boundary in a scene of [matrices]: coordinates, and names of its degrees of freedom; empty name: fixed.
 struct SurfaceNode {
   double x = 0.0, y = 0.0;
   std::string ux = {}, uy = {};
@@ -296,7 +290,7 @@ struct SurfaceSpec {
   SourcePlace place = {};
 };
 
-/// A node of a seam; each belongs to one of Scene::contacts, in the same order.
+/// A node of a seam. The i-th node of a seam belongs to Scene::contacts[first_contact + i].
 struct SeamNode {
   int node = 0;                            ///< index into Scene::nodes, or Scene::surface_nodes
   std::array<double, 2> at{0.0, 0.0};      ///< place of the node
@@ -312,7 +306,7 @@ struct SeamSpec {
   SourcePlace place = {};
 };
 
-/// A node that follows others, u = sum_l w_l u_l, along x and y: from a seam with law = "tied".
+/// A node tied to master nodes, u = sum_l w_l u_l along x and y; the reader makes it from a seam with law = "tied".
 struct TieSpec {
   std::string seam = {};
   int node = 0;                                     ///< index into Scene::nodes
@@ -351,7 +345,7 @@ struct Support {
   std::string node = {};
   bool ux = false, uy = false, rz = false;
   SourcePlace place = {};
-  /// Prescribed motion of the single fixed degree of freedom; absent: it rests.
+  /// Prescribed motion of the single fixed degree of freedom; absent: no motion.
   std::optional<HistorySpec> motion = {};
   bool motion_is_acceleration = false;  ///< `motion` is its second derivative, starting from rest at zero
   std::string key = "supports";         ///< key for messages, "supports.3"; one table may hold many nodes
@@ -380,11 +374,11 @@ struct Friction {
   [[nodiscard]] bool has_static_drop() const {
     return static_ > kinetic && !is_rate_dependent() && !is_load_dependent();
   }
-  /// Velocity constant of the exponential; only where friction varies.
+  /// Velocity constant of the exponential. Precondition: is_rate_dependent().
   [[nodiscard]] double decay_velocity() const { return velocity ? *velocity : stribeck_velocity.value(); }
 };
 
-/// A constant of friction besides the two coefficients: its key below `friction`, its member and its unit.
+/// A constant of friction besides the two coefficients: its key in the table `friction`, its member and its unit.
 struct FrictionConstant {
   std::string_view key;
   std::optional<double> Friction::*value;
@@ -409,14 +403,14 @@ struct ContactSpec {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness = {};
-  double normal_damping = 0.0;      ///< dashpot beside the normal spring, >= 0
-  double tangential_damping = 0.0;  ///< dashpot beside the tangential spring, >= 0
+  double normal_damping = 0.0;      ///< dashpot parallel to the normal spring, >= 0
+  double tangential_damping = 0.0;  ///< dashpot parallel to the tangential spring, >= 0
   Friction friction = {};
   HistorySpec normal_force = HistorySpec::zero();      ///< slider: compression, positive
   HistorySpec surface_velocity = HistorySpec::zero();  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
-  double restitution = 0.0;  ///< rigid: Newton's coefficient, 0 to 1
-  /// rigid: slower rebounds come to rest; absent: the tolerances give the limit
+  double restitution = 0.0;  ///< rigid: Newton's coefficient of restitution, 0 to 1
+  /// rigid: a contact with a slower rebound stays closed; absent: the limit follows from the tolerances
   std::optional<double> capture_velocity = {};
   SourcePlace place = {};
   /// Surface of a pendulum; the stiffness nominal_force / radius is one of the scene's springs.
@@ -433,7 +427,7 @@ struct ContactSpec {
   [[nodiscard]] ContactLawPtr contact_law() const {
     return user_law ? ContactLawPtr(user_law) : ContactLawPtr(law);
   }
-  /// The direction along which N acts; nullptr if the scene gives N, or no direction.
+  /// The direction along which N acts; nullptr if the scene gives N as a history, or gives no direction.
   [[nodiscard]] const Direction* bearing_normal() const {
     return normal && !capabilities().normal_force_given ? &*normal : nullptr;
   }
@@ -453,14 +447,13 @@ struct BaseMotionSpec {
 
 enum class LoadType { force, moment, distributed, traction };
 
-/// A force or a moment at a node, a force per length on pieces of members, or a traction on a boundary of a
-/// body.
+/// A force or a moment at a node, a force per length on pieces of members, or a traction on a boundary of a body.
 struct LoadSpec {
   Direction direction = {};  ///< moment: its node only
   double amplitude = 0.0;
   HistorySpec history = {};
   SourcePlace place = {};
-  std::string name = {};  ///< name in results and stages; empty: "load 1", by its number
+  std::string name = {};  ///< name in results and stages; empty: "load NUMBER"
   LoadType type = LoadType::force;
   std::vector<std::string> pieces = {};  ///< distributed: nodes; consecutive ones span a piece of a member
   bool member_axes = false;  ///< distributed: direction in the axes of the piece (along, to the left)
@@ -482,8 +475,7 @@ enum class OutputKind : unsigned char {
   contact,
   combination
 };
-/// Quantity of an output. Members have N, V, M and stress; bodies xx, yy and xy; contacts N, T, gap, slip and
-/// loss.
+/// Quantity of an output. Members have N, V, M and stress; bodies xx, yy and xy; contacts N, T, gap, slip and loss.
 enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress, xx, yy, xy };
 /// True for a component of the stress at a node of a body.
 [[nodiscard]] constexpr bool is_of_body(OutputQuantity q) {
@@ -594,10 +586,9 @@ struct Override {
   std::string shown_as = {};
 };
 
-/// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError,
-/// UsageError for a wrong override.
+/// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError, UsageError for a wrong override.
 [[nodiscard]] Scene read_scene(const std::string& path, const std::vector<Override>& overrides = {});
-/// Same for a scene in memory; `file` is used in messages and to find matrix files beside it.
+/// Reads, checks and completes a scene in memory. `file` names it in messages; matrix files are relative to its folder.
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& file,
                                 const std::vector<Override>& overrides = {});
 

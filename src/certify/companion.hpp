@@ -4,7 +4,7 @@
 //   not exact          exact      unchanged                        1.5       the difference is the error of the run
 //   ida                finer      rtol / 100, atol / 100           2         at rtol / 10 both errors may be similar
 //   fixed steps dt     ida        rtol 1e-9 at most                1.5       the difference is the error of the run
-//   fixed steps dt     finer      dt / 2                           3         exact values: 4/3 at order 2, 2 at order 1
+//   fixed steps dt     finer      dt / 2                           3         in theory 4/3 at order 2, 2 at order 1
 //   exact              finer      two runs with perturbed data     5         two samples of a random error
 //
 // A fraction of each event's t_uncertainty is added to the error bound: one tenth if ida has the companion exact, because
@@ -121,8 +121,8 @@ class CompanionTracker : public run::ForwardingRecorder {
   const CompanionLimit* limit = nullptr;                       ///< only for a companion
   double max_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
   bool too_long = false;                                       ///< the companion was stopped after max_steps
-  double event_shift =
-      0.0;  ///< for a companion: shift of the next events / their time, which event() subtracts again
+  /// For a companion: shift of the next events / their time, which event() subtracts again.
+  double event_shift = 0.0;
 
  private:
   const Model& model_;

@@ -196,7 +196,8 @@ void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& cou
 
 namespace {
 
-// A contact closer to its friction limit than this fraction of the limit may slide. Value as for starts of reduced models.
+// A contact closer to its friction limit than this fraction of the limit may slide. Starts of reduced models use the same
+// value.
 constexpr double at_limit = 1e-9;
 
 bool rubs(const Model& model, const Contact& c) { return model.statics.frictional && c.has_friction(); }

@@ -29,8 +29,8 @@ using Rows = std::vector<std::size_t>;
 /// Data of a contact from its previous events.
 struct Past {
   double off = 0.0;  // t' - t of the previous event
-  std::vector<double> speeds =
-      std::vector<double>(difference_window, 0.0);  // R of the last events, in a ring buffer
+  // Differences R (event_matcher.hpp) of the last events, in a ring buffer.
+  std::vector<double> speeds = std::vector<double>(difference_window, 0.0);
   std::size_t next = 0;
 };
 

@@ -130,9 +130,9 @@ void check_folder(const fs::path& path, const ResultFolder& folder, bool force, 
   std::error_code error;
   const bool holds_results = fs::exists(path / folder.marker, error);
   if (holds_results && !scene.empty() && lies_in(path, scene))
-    throw FileError(
-        scene,
-        fmt::format("lies in {}, where --force replaces files; move it, or name another -o", path.string()));
+    throw FileError(scene, fmt::format("lies in {}, where --force replaces files; move the scene file, or "
+                                       "choose another directory with -o",
+                                       path.string()));
 }
 
 void begin_folder(const fs::path& path, const ResultFolder& folder) {

@@ -40,13 +40,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell: not found; could not be started
-constexpr int no_end = 124;                       // exit code as of timeout(1): stopped after `patience`
-// Limit for one picture, which usually takes a second or two.
+// Exit codes as in a shell: program not found; program could not be started.
+constexpr int no_program = 127, no_reason = 126;
+constexpr int no_end = 124;  // exit code as of timeout(1): gnuplot was stopped
+// Time limit for one picture; gnuplot usually takes one or two seconds.
 constexpr std::chrono::seconds patience{60};
 constexpr std::size_t max_output = 1 << 16;
-constexpr std::size_t max_contact_pictures =
-    24;  // each picture takes about 0.17 s; displacement pictures show as many nodes
+// Limit of the number of pictures of contacts, each of which takes about 0.17 s.
+constexpr std::size_t max_contact_pictures = 24;
 
 struct Ended {
   int code = 0;
@@ -113,13 +114,13 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   close(ends[0]);
   if (silent)
     if (const auto code = wait_for(child, last)) return {*code, output};
-  setpgid(child, child);  // here as well, because parent and child run in any order
+  setpgid(child, child);  // also in the parent, because parent and child run in either order
   kill(-child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
   return {no_end, output.size() > max_output
-                      ? "it printed more than 64 kB and was stopped"
-                      : fmt::format("it ran longer than {} s and was stopped", patience.count())};
+                      ? "gnuplot printed more than 64 kB and was stopped"
+                      : fmt::format("gnuplot ran longer than {} s and was stopped", patience.count())};
 }
 
 }  // namespace
@@ -161,8 +162,9 @@ std::string draw_pictures(const std::filesystem::path& directory,
   const std::string more =
       first.size() == scripts.size()
           ? ""
-          : fmt::format(", of the first {} contacts; `gnuplot contact-NAME.gp` there draws another one",
-                        max_contact_pictures);
+          : fmt::format(
+                ", of the first {} contacts; in this folder, `gnuplot contact-NAME.gp` draws the others",
+                max_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)
     return "pictures: no gnuplot on PATH; its scripts are in " + folder + later + "\n";
@@ -259,7 +261,8 @@ ExitCode plot(const fs::path& directory, const result::PlotWindow& window, const
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
   const std::vector<fs::path> scripts = first_ones(write_any_plots(directory, window, look));
   if (scripts.empty())
-    throw FileError(directory.string(), "has nothing to draw: fewer than two output times, or rows");
+    throw FileError(directory.string(),
+                    "has nothing to draw: the results have fewer than two output times or rows");
   const Drawing drawing = draw(scripts);
   if (drawing.kind == Drawing::Kind::no_gnuplot) {
     throw FileError("gnuplot", "not found on PATH; the scripts are in " + (directory / "plots").string());

@@ -23,7 +23,8 @@ struct Drawing {
 [[nodiscard]] Drawing draw(const std::vector<std::filesystem::path>& scripts);
 
 /// Draws the scripts in DIR/plots and returns a line for the terminal that names the pictures. Without gnuplot the line
-/// names the scripts and ends with `later`. Empty if there is nothing to name. Messages of gnuplot go to stderr.
+/// names the scripts and ends with `later`. Empty if there are no scripts, or if the only script failed. Messages of gnuplot go
+/// to stderr.
 [[nodiscard]] std::string draw_pictures(const std::filesystem::path& directory,
                                         const std::vector<std::filesystem::path>& scripts,
                                         const std::string& later = "");

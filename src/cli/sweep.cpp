@@ -125,7 +125,7 @@ void specify_strobe(const SweepOptions& options, const Scene& scene, const Model
                     t_end, periods));
 }
 
-/// Text of the saved state from which the runs start; changes of this state must be detected.
+/// Text of the saved state from which the runs start. It is part of the fingerprint, so that a changed state is detected.
 std::string text_of_state(const Scene& scene) {
   std::string text;
   if (!scene.initial.saved) return text;
@@ -163,7 +163,8 @@ Specified specify(const SweepOptions& options) {
   if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
   if (options.share) spec.share = sweep::parse_share(*options.share, environment);
   specified.text = scene::scene_text(options.scene);
-  constexpr std::size_t most_tried = 200;  // number of rows that are tried until one of them is valid
+  // Limit of the number of rows that are tried until a valid row is found.
+  constexpr std::size_t most_tried = 200;
   std::optional<Error> first;
   std::size_t tried = 0;
   for (const auto& point : sweep::points(spec.vary)) {
@@ -334,7 +335,7 @@ void print_strobe_note(const SweepOptions& options, const sweep::SweepSpec& spec
       const std::string doubt =
           sweep::strobe_warning(sweep::parse_strobe(options.strobe, scene, build_model(scene)), scene);
       if (!doubt.empty()) return print_note(doubt);
-    } catch (const Error&) {  // the row reports its error itself
+    } catch (const Error&) {  // the run of this row reports the error
     }
   }
 }

@@ -24,7 +24,7 @@ namespace signorini::law_check {
 struct ContactKinematics {
   double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0,
          ddq = 0.0;
-  // Sum of the sizes of the terms of g and ut; of g' and ut'; of g'' and ut''.
+  // Sums of the sizes of terms: displacement_size for g and ut, velocity_size for g' and ut', acceleration_size for g'', ut''.
   double displacement_size = 0.0, velocity_size = 0.0, acceleration_size = 0.0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 struct ClosedRows {
   std::vector<const Combination*> forms;
-  std::vector<Vector> columns;  // M^-1 form; for a sliding contact including friction
+  std::vector<Vector> columns;  // for each row: M^-1 times its form, plus friction if the contact slides
   std::vector<double> gaps;
 
   void add(const Combination& form, Vector column, double gap) {

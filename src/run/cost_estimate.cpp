@@ -100,11 +100,13 @@ CostEstimate cost_of_fixed_steps(const CostInputs& parts) {
 
 namespace {
 
-constexpr double longest_first = 2.0;  // s, limit for the first step, which cannot be interrupted; chosen
-constexpr double times_as_long = 4.0,
-                 long_run = 5.0;  // least ratio, and least seconds, for a recommendation; chosen
+// Limit of the duration of the first step in s, because this step cannot be interrupted. Chosen value.
+constexpr double longest_first = 2.0;
+// Limits for a recommendation: least ratio of run times, and least duration of the run in s. Chosen values.
+constexpr double times_as_long = 4.0, long_run = 5.0;
 
-constexpr double least_steps = 10.0;  // least progress of a trial, in steps estimated by the rules; chosen
+// Least progress of an extrapolated trial, in steps estimated by the rules. Chosen value.
+constexpr double least_steps = 10.0;
 
 /// Recorder that ends a run after a given wall time. It stores no rows, because a trial's memory is added to the run's.
 class Stopwatch : public Recorder {
@@ -157,7 +159,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double s
     if (report.outcome.kind == Outcome::Kind::done) return watch.now();
     if (report.outcome.kind != Outcome::Kind::interrupted) return 0.0;
     const double moved = watch.t_reached - watch.t_1;
-    // If the trial has made only the small steps of the start, use the rule.
+    // A trial that has made only the small steps of the start is not extrapolated; the estimate by rules is returned.
     if (effort.steps > 0.0 && moved < least_steps * run.t_end / effort.steps) return effort.seconds;
     return extrapolated_seconds(run.t_end, {watch.t_1, watch.s_1}, {watch.t_reached, watch.s});
   } catch (const SceneError&) {

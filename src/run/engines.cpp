@@ -101,11 +101,12 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
 void refuse_endless_series(const Model& model, const RunSpec& run) {
   const double radians = model.omega_max * run.t_end;
   if (!(radians > 1.0 / rounding::eps) || choose_flow(model, run).modal) return;
-  refuse(run,
-         fmt::format("follows the highest frequency, {:.3g} rad/{}, by series: {:.2g} radians to t_end; a "
-                     "step is shorter than the resolution of a double at that time",
-                     model::in_scene_units(model, model.omega_max, unit::rate), model.units.time, radians),
-         "use \"ida\", or less stiffness");
+  refuse(
+      run,
+      fmt::format("computes the highest frequency, {:.3g} rad/{}, by series; its phase advances by {:.2g} "
+                  "radians until t_end, so that a step is shorter than the resolution of t_end as a double",
+                  model::in_scene_units(model, model.omega_max, unit::rate), model.units.time, radians),
+      "use \"ida\", or less stiffness");
 }
 
 /// Refusals of a series, which must include all terms of polynomials in the forcing.

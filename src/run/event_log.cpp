@@ -14,8 +14,8 @@
 namespace signorini::run {
 namespace {
 
-// Hits of coupled contacts closer than this fraction of t cause a warning. Chosen value: data are rarely known more
-// accurately; tests/behaviour/awkward.cpp depends on it.
+// Hits of coupled contacts whose times differ by less than this fraction of t cause a warning. Chosen value: data are rarely
+// known more accurately; tests/behaviour/awkward.cpp depends on it.
 constexpr double coincidence = 1e-9;
 
 bool is_hit(const decide::Decision& decision, std::size_t k) {
@@ -198,7 +198,7 @@ void EventLog::add_conditioning(const Instant& now, const engine::Stepper& stepp
 
 namespace {
 
-constexpr int max_warnings = 5;  // limit for warnings about pairs of events whose order is unknown
+constexpr int max_warnings = 5;  // limit of the number of warnings about pairs of events in unknown order
 
 }  // namespace
 
@@ -231,7 +231,7 @@ void EventOrder::warn(const std::string& which) {
 void EventOrder::finish() {
   if (unordered_ > max_warnings)
     report_.warnings.push_back(
-        fmt::format("{} more pairs of events whose order is not determined", unordered_ - max_warnings));
+        fmt::format("the order of {} more pairs of events is not determined", unordered_ - max_warnings));
 }
 
 }  // namespace signorini::run

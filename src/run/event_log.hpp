@@ -13,7 +13,7 @@
 //
 // Uncertainty of a time: an error delta of the guard g shifts the event by the smallest of (m! delta / |g^(m)|)^(1/m),
 // m = 1, 2, ... A warning reports events that are closer than their uncertainties, because their order is unknown. It
-// also reports hits of coupled contacts whose times differ by less than the data are accurate: delta does not include
+// also reports hits of coupled contacts whose times differ by less than the accuracy of the data: delta does not include
 // accumulated errors, and successive hits have other results than simultaneous hits.
 #pragma once
 
@@ -37,7 +37,7 @@ class EventOrder {
   /// Model and report must outlive the object. Warnings go to the report.
   EventOrder(const Model& model, Report& report) : model_(model), report_(report) {}
 
-  /// Adds an event whose t_uncertainty is known. resolution: times closer than this are one instant.
+  /// Adds an event whose t_uncertainty is known. resolution: times that differ by at most this are one instant.
   void event(const Event& event, double resolution);
   void load_jump(double t);
   void warn(const std::string& which);

@@ -88,7 +88,7 @@ bool Loop::refuse(const Refusal& refusal) {
   return stop(refusal.reason);
 }
 
-/// Returns false, and stops the run, if the motion so far violates a law without an explanation.
+/// Returns false, and stops the run, if the law checker has found an unexplained violation (Violation::unexplained).
 bool Loop::laws_hold() { return record_.law_violated().empty() || stop(record_.law_violated()); }
 
 motion::Point Loop::decided_point(const decide::Decision& decision) const {
@@ -99,7 +99,7 @@ motion::Point Loop::decided_point(const decide::Decision& decision) const {
 
 bool Loop::start() {
   State& s = state_;
-  s.point.u = model_.u0;  // last point of the run if its first states cannot be decided
+  s.point.u = model_.u0;  // last point of the run if the contact states at t = 0 cannot be decided
   s.point.v = model_.v0;
   decide::Instant now;
   now.u = model_.u0;

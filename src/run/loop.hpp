@@ -39,7 +39,7 @@ class Loop {
 
   /// Decides the states at t = 0. Called once, first.
   void begin();
-  /// True if the states could be decided.
+  /// True if the contact states at t = 0 could be decided.
   [[nodiscard]] bool begun() const { return begun_; }
   /// Advances to the first step that ends at `until` or later, to t_end at most, or until the run stops.
   void advance_to(double until);

@@ -77,12 +77,13 @@ class CheckedMotion {
   double energy_ = 0.0;  // largest LawChecker::twice_energy
   // Largest v^T M v, if motions are sums over modes.
   double kinetic_ = 0.0;
-  // For each contact: LawChecker::speed_per_energy_root, and this * sqrt(energy_).
+  // For each contact: LawChecker::speed_per_energy_root, and its product with sqrt(energy_).
   std::vector<double> lightness_, speeds_;
   std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // LawChecker::modal_size
 };
 
-inline constexpr std::size_t max_stored_violations = 100;  // further violations are counted, but not stored
+/// Limit of the number of stored violations; further violations are only counted.
+inline constexpr std::size_t max_stored_violations = 100;
 
 /// Position of a contact at the start, and its largest distances from this position.
 struct ObservedPeak {

@@ -9,7 +9,8 @@
 namespace signorini::run {
 namespace {
 
-// A bouncing ball comes to rest after 2000 events if e = 0.99, and after 20000 events, in a longer time, if e = 0.999.
+// Number of events between two checks of progress. A bouncing ball has 2000 events before rest if e = 0.99; with e = 0.999 it
+// has 20000 events, but in a longer time.
 constexpr int watched_events = 10000;
 constexpr double least_progress = 1e-5;          // least duration of watched_events, as a fraction of the run
 constexpr double resolutions_of_instant = 10.0;  // duration of one instant, in resolutions of the clock
@@ -80,7 +81,7 @@ std::optional<std::string> LargeMotionDetector::warning() const {
   if (!first_) return std::nullopt;
   return fmt::format(
       "{} is {:.3g} rad at t = {:.6g}, and {} reaches {:.3g} rad: the model assumes small rotations, so "
-      "results from there on are wrong for the real structure",
+      "results from this time on are wrong for the real structure",
       first_->description, first_->angle, model::time_in_scene_units(model_, first_->t),
       greatest_description_, greatest_);
 }

@@ -1,6 +1,6 @@
 // run_record.hpp: listener that records rows, events, extremes, pictures, audit and law-check data of a run.
 //
-//   a step       works of the whole step, so that output times do not change the results; rows inside the step;
+//   a step       work in the whole step, so that output times do not change the results; rows inside the step;
 //                extremes of outputs; rows for pictures and peaks; the end of the step
 //   an instant   outputs before the instant, audit, event log, law check; a row at this time shows the side after it
 //

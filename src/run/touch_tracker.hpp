@@ -2,7 +2,7 @@
 //
 // At its last touch a contact has exactly g = 0; afterwards rounding accumulates in the gap.
 //
-//   last touch of k = last instant at which contact k was closed, before or after it, or had an impulse; 0: none
+//   last touch of k = last instant with contact k closed just before or just after it, or with an impulse; 0: none
 #pragma once
 
 #include <limits>

@@ -15,7 +15,8 @@
 namespace signorini::scene {
 namespace {
 
-constexpr std::size_t most_parts = 16;  // much deeper than any key of a scene
+// Limit of the number of parts of a path; keys of scenes have far fewer.
+constexpr std::size_t most_parts = 16;
 
 /// Pairs of keys that exclude each other and give the same quantity: places_of() writes both by the first name.
 constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
@@ -130,7 +131,7 @@ class Change {
     fail("the value is not TOML, expected a number, a word, \"text\", [...] or { ... }");
   }
 
-  /// TOML text of a value that the path enters and the file lacks: the default if that is a list, else an empty table.
+  /// TOML text of a table or list on the path that the file lacks: the key's default if it is a list, else an empty table.
   std::string left_out(Segments rest) const {
     const Key* key = rest.size() == segments_.size() ? find_key("", rest[0]) : nullptr;
     const bool numbers = key != nullptr && key->default_value.starts_with('[');

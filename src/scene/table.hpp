@@ -98,7 +98,7 @@ class Table {
 
 /// Refuses names that cannot be a column of a CSV file or part of a --set path.
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path);
-/// Refuses what cannot be a reference: a name as in check_name(), or BODY.NUMBER for a node of a mesh.
+/// Refuses text that cannot be a reference, which is a name as in check_name(), or BODY.NUMBER for a node of a mesh.
 void check_reference(const std::string& name, const SourcePlace& place, const std::string& path);
 
 /// Names in the order of the file, with fast search.

@@ -170,7 +170,7 @@ class Companions {
     while (threads_.size() < beside) start();
   }
   /// Limits companions to the time that the run has reached, and waits until all have ended. If go_on returns false,
-  /// companions are stopped at once.
+  /// companions are stopped immediately.
   void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
     limit_.stop_at(reached);
     if (interrupted) limit_.stop();

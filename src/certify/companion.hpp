@@ -58,7 +58,7 @@ struct CompanionPlan {
   std::string choice;  ///< "as given", or "auto: ..."
   /// Reason why the companion cannot certify the run; empty: the companion can certify it.
   std::string limitation;
-  double factor = 1.0;  ///< c
+  double factor = 1.0;  ///< factor c of the error bounds
   /// Fraction of t_uncertainty that is added to error bounds, because the difference of the runs does not contain it.
   double local = 1.0;
   double cost = 0.0;     ///< expected cost of the companions / cost of the run; 0: unknown
@@ -118,8 +118,8 @@ class CompanionTracker : public run::ForwardingRecorder {
 
   std::vector<TimedEvent> events;
   RecordedRows rows;
-  const CompanionLimit* limit = nullptr;                       ///< only for a companion
-  double max_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
+  const CompanionLimit* limit = nullptr;                       ///< of a companion; null: none
+  double max_steps = std::numeric_limits<double>::infinity();  ///< of a companion
   bool too_long = false;                                       ///< the companion was stopped after max_steps
   /// For a companion: shift of the next events / their time, which event() subtracts again.
   double event_shift = 0.0;

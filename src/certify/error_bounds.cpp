@@ -41,7 +41,7 @@ class ColumnOf {
   std::size_t column_;
 };
 
-/// For each row: the row is within the error of an event's time, so its velocities may be those of the other side.
+/// For each row: whether it lies within the error of an event's time, so that its velocities may be those of the other side.
 std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector<TimedEvent>& events,
                                  const std::vector<double>& errors) {
   std::vector<bool> at(t.size(), false);

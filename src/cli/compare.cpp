@@ -173,7 +173,7 @@ Variant variant_of(const std::string& text) {
   return variant;
 }
 
-/// Names of the engines in --engines, without keys. A setting "NAME:PATH=VALUE" of --set applies to one of them.
+/// Names of the engines in --engines, without keys. A setting "NAME:PATH=VALUE" of --set applies to one of these names.
 std::vector<std::string> engines_of(const CompareOptions& options) {
   std::vector<std::string> names;
   for (const std::string& text : options.engines) names.push_back(variant_of(text).engine);

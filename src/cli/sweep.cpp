@@ -414,7 +414,7 @@ ExitCode merge(const SweepOptions& options) {
   return ExitCode::stopped;
 }
 
-/// Converts --engine to a setting, which sweep.json stores: a sweep with another engine is another sweep.
+/// Converts --engine to a setting, which sweep.json stores, so that a sweep with another engine counts as another sweep.
 SweepOptions with_engine(SweepOptions options) {
   if (options.engine.empty()) return options;
   for (const std::string& varied : options.varied)

@@ -99,7 +99,7 @@ std::vector<Violation> LawChecker::check_point(double t, const CheckedSide& now)
     if (found.size() == before ||
         (model.contacts[k].normal_spring() && model.contacts[k].tangential_stiffness))
       continue;
-    // Repeat with the uncertainty of constraint forces, a costly sum over the structure.
+    // The check is repeated with the uncertainty of constraint forces, a costly sum over the structure.
     found.resize(before);
     check_contact(t, k, (*now.mode)[k], m, now.a != nullptr, parts_->context.balance_terms(now), found);
   }

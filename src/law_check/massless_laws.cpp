@@ -187,7 +187,7 @@ class RateRows {
   const CheckContext& bench_;
   std::vector<int> place_;
   Terms dampers_, springs_;
-  SparseMatrix C_, K_;  // with the terms of contacts
+  SparseMatrix C_, K_;  // of massless rows, with the terms of contacts
   std::vector<RateRow> rows_;
   int size_ = 0;
   bool reported_ = true;

@@ -86,7 +86,7 @@ class Auditor {
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
   LandingTracker landings_;
-  bool massless_;  // has_instantaneous_parts()
+  bool massless_;  // has_instantaneous_parts(model)
   bool begun_ = false;
 };
 

@@ -42,7 +42,8 @@ constexpr int min_unknowns = 16;
 
 // Least number of unknowns for complex modes: with fewer, the series costs less (validation/exact). Chosen value.
 constexpr int min_damped_unknowns = 40;
-constexpr double worth = 2.0;  // required ratio of costs: series / complex modes of all states
+// Complex modes of all states are chosen only if the series costs at least this many times as much.
+constexpr double worth = 2.0;
 // Limit of the number of unknowns n for complex modes: those of a state take 120 n^2 bytes, and 5 s for n = 500.
 constexpr int max_damped_unknowns = 500;
 

@@ -72,7 +72,7 @@ struct Chebyshev {
 /// Columns of history.csv whose displacements pictures show.
 [[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
 
-/// Indices of the entries of a physical u that drawn_columns() needs.
+/// Indices into a physical u of the displacements in drawn_columns().
 [[nodiscard]] std::vector<int> drawn_entries(const Model& model);
 
 /// Largest number of points per curve, if pictures show `columns` displacements.
@@ -105,7 +105,7 @@ class CurveRecord {
     std::string name;
     Kind kind;
     int dof;        // index into the physical u; -1: a fixed direction or an energy
-    double factor;  // unit conversion
+    double factor;  // from the model's unit to the scene's
     base::Downsampled<CurvePoint, 1, ValueOf> points;
     bool kept = true;  // false: not stored, because EnergySum adds the energies of all parts
     double least = std::numeric_limits<double>::infinity(), greatest = -least;

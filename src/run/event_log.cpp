@@ -22,8 +22,8 @@ bool is_hit(const decide::Decision& decision, std::size_t k) {
   return !decision.impulses.empty() && decision.impulses[k].hit;
 }
 
-/// Value of Event::departure: the ratio of the rebound or of the later departure, whichever was closer to the decision
-/// limit 1; nullopt: neither is known.
+/// Value of Event::departure: a speed relative to the least speed of a rebound. A rebound below the limit 1 counts alone;
+/// otherwise, of the rebound and the later departure, the one closer to 1. nullopt: neither is known.
 std::optional<double> departure_of(const decide::Decision& decision, std::size_t k) {
   const auto known = [](double ratio) { return std::isfinite(ratio) && ratio > 0.0; };
   const double rebound =

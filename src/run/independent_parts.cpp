@@ -212,7 +212,7 @@ class IndependentParts {
     return over() ? 0 : rows_.forward(until == spec_.t_end ? until : reached(), until == spec_.t_end);
   }
 
-  /// Earliest time reached by any part: all rows up to it are complete.
+  /// Earliest time reached by any part: all rows up to this time are complete.
   [[nodiscard]] double reached() const {
     double t = spec_.t_end;
     for (const auto& loop : loops_) t = std::min(t, loop->t());

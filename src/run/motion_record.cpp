@@ -53,7 +53,8 @@ void MotionRecord::step(double begin, double end, std::span<const double> turnin
 std::optional<MotionRecord::RowTime> MotionRecord::next() {
   const double never = std::numeric_limits<double>::infinity();
   const double turn = turn_ < turns_.size() ? turns_[turn_] : never;
-  double line = enabled_ ? std::max(at_, last_ + spacing_) : never;  // does not depend on the step size
+  // Next row for drawn lines: independent of the step size.
+  double line = enabled_ ? std::max(at_, last_ + spacing_) : never;
   if (!(line < end_ - 0.5 * spacing_)) line = never;
   if (turn == never && line == never) return std::nullopt;
   at_ = std::min(turn, line);

@@ -346,7 +346,8 @@ bool OutputMonitor::settled(const Watched& watched, engine::DenseOutput& motion,
   const ValueBounds at = bounds_along(all, stride, false);
   if (within(at, 2.0 * error + (at.greatest - at.least))) return true;
   if (stride < 4 && within(bounds_along(all, stride, true), 2.0 * error)) return true;
-  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // the samples are included
+  // Largest value so far, including the samples of this part.
+  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));
   double magnitude = 0.0;
   for (std::size_t i = watched.first; i < watched.first + watched.count; ++i)
     magnitude = std::max(magnitude, magnitudes_[i]);

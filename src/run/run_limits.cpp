@@ -45,7 +45,7 @@ std::optional<std::string> StallDetector::slow_progress(double t) {
 
 namespace {
 
-constexpr double large = 0.25;  // rad; 1 - cos is 3 %. Chosen value
+constexpr double large = 0.25;  // rad; cos differs from 1 by 3 %. Chosen value
 
 }  // namespace
 

@@ -25,7 +25,7 @@ class LoadChanges final : public Steering {
   struct Change {
     bool any = false, jump = false;
   };
-  /// Makes the requests since the last call the change at the current instant.
+  /// Turns the requests since the last call into the change at the current instant.
   void apply() { change_ = std::exchange(requested_, {}); }
   /// Change at the current instant.
   [[nodiscard]] const Change& change() const { return change_; }

@@ -60,7 +60,7 @@ class ZeroTracker {
   [[nodiscard]] std::vector<double> zero_durations(double t,
                                                    const std::vector<decide::TriggeredGuard>& fired) const {
     std::vector<double> result;
-    if (layout_.contacts() == 0) return result;  // not updated yet
+    if (layout_.contacts() == 0) return result;  // update() has not been called yet
     for (const decide::TriggeredGuard& f : fired)
       for (std::size_t slot = layout_.guard(f.contact); slot < layout_.guard_end(f.contact); ++slot) {
         if (!f.never_positive || kinds_[slot] != f.guard || !(since_[slot] < t)) continue;

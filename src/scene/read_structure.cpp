@@ -13,7 +13,8 @@ namespace signorini::scene {
 namespace {
 
 constexpr int most_elements = 1'000'000;
-constexpr int elements_of_arc = 8;  // for a quarter circle, whose chords are then 0.16 % shorter than the arc
+// Elements of a quarter circle; the chords are then 0.16 % shorter than the arc.
+constexpr int elements_of_arc = 8;
 
 void check_pieces(const Table& table, const Scene& scene, const std::vector<std::size_t>& nodes) {
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {

@@ -4,7 +4,7 @@
 //   spec.gap = contact.number("gap");      // type, range and default from the key table
 //   contact.finish();                      // refuses keys that were not read
 //
-// Unknown keys are refused at once, with a suggestion. A known key that was not read has no meaning in its context
+// Unknown keys are refused immediately, with a suggestion. A known key that was not read has no meaning in its context
 // (normal_stiffness of a slider); finish() reports it.
 #pragma once
 

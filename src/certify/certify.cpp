@@ -34,7 +34,7 @@ constexpr double cheap = 0.5;
 /// A companion that was not requested ends after `patience` times the expected number of steps, but not before
 /// least_steps, since the expected number does not include events.
 constexpr double patience = 20.0, least_steps = 1e5;
-constexpr std::chrono::milliseconds now_and_then{50};
+constexpr std::chrono::milliseconds progress_interval{50};
 
 /// A thread with all signals blocked, so that the calling thread receives all signals.
 class SignalBlockedThread {
@@ -60,8 +60,9 @@ class SignalBlockedThread {
   std::thread thread_;
 };
 
-std::optional<certify::EventSequence::FirstViolation> objection_of(const Report& report, const Model& model,
-                                                                   const std::string& where = "") {
+std::optional<certify::EventSequence::FirstViolation> first_violation_of(const Report& report,
+                                                                         const Model& model,
+                                                                         const std::string& where = "") {
   if (report.law_checks.violations.empty()) return std::nullopt;
   const Violation& first = report.law_checks.violations.front();
   return certify::EventSequence::FirstViolation{first.t, where + run::sentence_of(first, model)};
@@ -127,7 +128,7 @@ class CompanionTask {
                                  "",
                                  report_.first_undecided,
                                  guard_monitor_.first,
-                                 objection_of(report_, run_.model, "in the companion, "),
+                                 first_violation_of(report_, run_.model, "in the companion, "),
                                  engine_info(run_.run.engine).accuracy == Accuracy::rounding};
     if (!failure_.empty()) {
       track.reached = 0.0;
@@ -170,13 +171,13 @@ class Companions {
     while (threads_.size() < beside) start();
   }
   /// Limits companions to the time that the run has reached, and waits until all have ended. If go_on returns false,
-  /// companions are stopped at once.
+  /// companions are stopped immediately.
   void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
     limit_.stop_at(reached);
     if (interrupted) limit_.stop();
     if (threads_.size() < tasks_.size()) start();
     std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, now_and_then, [this] { return done_ == tasks_.size(); }))
+    while (!ended_.wait_for(lock, progress_interval, [this] { return done_ == tasks_.size(); }))
       if (!go_on()) limit_.stop();
   }
 
@@ -206,7 +207,9 @@ class Companions {
 };
 
 /// True if the plan is cheap enough to certify the run automatically.
-bool is_cheap(const certify::CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
+bool costs_little_to_certify(const certify::CompanionPlan& plan) {
+  return plan.cost > 0.0 && plan.cost < cheap;
+}
 
 /// Reason why the run is not certified. If run and companion use the same engine, the message gives their cost ratio. For
 /// different engines this ratio is not known well, so the message gives durations; the estimate includes the restarts
@@ -255,7 +258,7 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const certify
       "",
       report.first_undecided,
       {},
-      plan.limitation.empty() ? objection_of(report, model)
+      plan.limitation.empty() ? first_violation_of(report, model)
                               : std::optional(certify::EventSequence::FirstViolation{0.0, plan.limitation})};
   certify::MatchResult verdict = certify::match_events(
       track, tracks, plan.factor, names, engine_info(run.engine).accuracy == Accuracy::rounding);
@@ -299,7 +302,7 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   run.engine = run::choose_engine(model, settings).engine;
   run::engine_row(run.engine).refuse(model, run);
   certify::CompanionPlan plan = certify::plan_companion(model, run);
-  if (run.certify != Certify::yes && !is_cheap(plan)) {
+  if (run.certify != Certify::yes && !costs_little_to_certify(plan)) {
     plain();
     result.reason = why_not(model, run, plan, result.report);
     return result;

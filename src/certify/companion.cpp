@@ -59,13 +59,13 @@ std::string unresolved(const Model& model, double dt) {
   const double decay = model::fastest_decay(model), rate = std::max(model.omega_max, decay);
   if (dt * rate <= resolved) return "";
   return fmt::format(
-      "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so a run with half of it may have the "
+      "dt = {:g} {} does not resolve the fastest {}, {:.3g} {}/{}, so a run with dt / 2 may have the "
       "same error; use companion = \"exact\", or a dt of {:.2g}",
       dt, model.units.time, decay > model.omega_max ? "decay" : "oscillation", rate,
       decay > model.omega_max ? "1" : "rad", model.units.time, resolved / rate);
 }
 
-/// Refines the absolute tolerances that the scene gives; the default ones follow rtol already.
+/// Refines the absolute tolerances that the scene gives. Default tolerances are multiples of rtol, so they change with it.
 void make_finer(Tolerances& atol) {
   for (std::optional<double>* t : {&atol.displacement, &atol.velocity, &atol.force})
     if (*t) **t *= finer_tolerance;
@@ -170,7 +170,7 @@ void CompanionTracker::sample(const Sample& sample) {
   if (all_) {
     for (const ContactSample& contact : sample.contacts)
       rows.values.insert(rows.values.end(), {contact.N, contact.T});
-    // response() is called after sample() for the same time, or before it at an event.
+    // For the same time, response() is called after sample(); at an event, response() is called first.
     if (last_time_ == sample.t)
       rows.values.insert(rows.values.end(), last_outputs_.begin(), last_outputs_.end());
     else

@@ -4,7 +4,7 @@
 //   not exact          exact      unchanged                        1.5       the difference is the error of the run
 //   ida                finer      rtol / 100, atol / 100           2         at rtol / 10 both errors may be similar
 //   fixed steps dt     ida        rtol 1e-9 at most                1.5       the difference is the error of the run
-//   fixed steps dt     finer      dt / 2                           3         exact values: 4/3 at order 2, 2 at order 1
+//   fixed steps dt     finer      dt / 2                           3         in theory 4/3 at order 2, 2 at order 1
 //   exact              finer      two runs with perturbed data     5         two samples of a random error
 //
 // A fraction of each event's t_uncertainty is added to the error bound: one tenth if ida has the companion exact, because
@@ -58,7 +58,7 @@ struct CompanionPlan {
   std::string choice;  ///< "as given", or "auto: ..."
   /// Reason why the companion cannot certify the run; empty: the companion can certify it.
   std::string limitation;
-  double factor = 1.0;  ///< c
+  double factor = 1.0;  ///< factor c of the error bounds
   /// Fraction of t_uncertainty that is added to error bounds, because the difference of the runs does not contain it.
   double local = 1.0;
   double cost = 0.0;     ///< expected cost of the companions / cost of the run; 0: unknown
@@ -118,11 +118,11 @@ class CompanionTracker : public run::ForwardingRecorder {
 
   std::vector<TimedEvent> events;
   RecordedRows rows;
-  const CompanionLimit* limit = nullptr;                       ///< only for a companion
-  double max_steps = std::numeric_limits<double>::infinity();  ///< only for a companion
+  const CompanionLimit* limit = nullptr;                       ///< of a companion; null: none
+  double max_steps = std::numeric_limits<double>::infinity();  ///< of a companion
   bool too_long = false;                                       ///< the companion was stopped after max_steps
-  double event_shift =
-      0.0;  ///< for a companion: shift of the next events / their time, which event() subtracts again
+  /// For a companion: shift of the next events / their time, which event() subtracts again.
+  double event_shift = 0.0;
 
  private:
   const Model& model_;

@@ -35,7 +35,7 @@ class DataPerturber {
  public:
   explicit DataPerturber(std::uint64_t seed) : seed_(mixed(seed)) {}
 
-  /// 1 + delta r, for the datum with this number.
+  /// Factor 1 + delta r of the datum with this number.
   [[nodiscard]] double factor(std::uint64_t number) const {
     const std::uint64_t bits = mixed(seed_ ^ mixed(number));
     const double size = 0.5 + 0.5 * static_cast<double>(bits >> 12U) * 0x1p-52;
@@ -196,7 +196,8 @@ void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& cou
 
 namespace {
 
-// A contact closer to its friction limit than this fraction of the limit may slide. Value as for starts of reduced models.
+// A contact closer to its friction limit than this fraction of the limit may slide. Starts of reduced models use the same
+// value.
 constexpr double at_limit = 1e-9;
 
 bool rubs(const Model& model, const Contact& c) { return model.statics.frictional && c.has_friction(); }

@@ -41,7 +41,7 @@ class ColumnOf {
   std::size_t column_;
 };
 
-/// For each row: the row is within the error of an event's time, so its velocities may be those of the other side.
+/// For each row: whether it lies within the error of an event's time, so that its velocities may be those of the other side.
 std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector<TimedEvent>& events,
                                  const std::vector<double>& errors) {
   std::vector<bool> at(t.size(), false);
@@ -254,9 +254,8 @@ class GapDifference {
 
   const Model& model_;
   const RecordedRows &run_, &other_;
-  std::vector<int>
-      column_of_;  // column of each degree of freedom; -1: none; empty: the model is reduced, so columns
-                   // are not its degrees of freedom
+  // Column of each degree of freedom; -1: none. Empty for a reduced model, whose degrees of freedom have no columns.
+  std::vector<int> column_of_;
 };
 
 }  // namespace
@@ -277,7 +276,7 @@ std::optional<EventSequence::FirstViolation> first_undecided_impact(const Model&
     first = EventSequence::FirstViolation{
         std::max(0.0, since),
         fmt::format("the gap of '{}' is {:.2g} {} at t = {:.9g} in the companion, and its error in the run "
-                    "is {:.2g} {}: both may have missed a hit",
+                    "is {:.2g} {}: run and companion may both have missed a hit",
                     contact.name, hit.gap, model.units.length, hit.t, off, model.units.length)};
   }
   return first;

@@ -23,7 +23,7 @@ struct RecordedRun {
 };
 
 struct BoundSettings {
-  double factor = 1.0;          ///< c
+  double factor = 1.0;          ///< factor c of the error bounds
   engine::Tolerance tolerance;  ///< tolerance of the run; rtol = 0: the engine has none
 };
 
@@ -46,10 +46,10 @@ void bound_extremes(Certificate& certificate, const RecordedRun& run,
 //
 // ringing: amplitude of the omitted modes after jumps of loads. The larger f_d applies to both directions, because an
 // error along the normal of a contact also moves it along its tangent if its axis is bent. The force of a contact spring
-// follows the error of its gap at once, before the structure yields (measured with the full pipeline model: errors of
+// follows the error of its gap immediately, before the structure yields (measured with the full pipeline model: errors of
 // forces are kn times those of displacements). The estimates do not include events that a change of force may shift.
 
-/// The estimates above for a reduced model. peaks: largest displacements and forces of the run.
+/// Truncation error of a reduced model, by the equations above. peaks: largest displacements and forces of the run.
 [[nodiscard]] Truncation truncation_of(const Model& model, const Reduction& reduction,
                                        const std::vector<Peak>& peaks);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Relative rounding error of an event time: two rounding errors of a sum.
-constexpr double of_clock = 2.0 * rounding::eps;
+constexpr double relative_clock_rounding = 2.0 * rounding::eps;
 
 /// End of the certified sequence and its reason; at() keeps the earliest end.
 struct CertifiedSpan {
@@ -29,8 +29,8 @@ using Rows = std::vector<std::size_t>;
 /// Data of a contact from its previous events.
 struct Past {
   double off = 0.0;  // t' - t of the previous event
-  std::vector<double> speeds =
-      std::vector<double>(difference_window, 0.0);  // R of the last events, in a ring buffer
+  // Differences R (event_matcher.hpp) of the last events, in a ring buffer.
+  std::vector<double> speeds = std::vector<double>(difference_window, 0.0);
   std::size_t next = 0;
 };
 
@@ -113,7 +113,7 @@ class EventMatcher {
     // An error that is common to both events does not change the interval since the contact's previous event.
     const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
     // Rounding errors of the two event times are added, unless both events are changes at one instant.
-    const double apart = i > 0 && since > 0.0 ? own_rounding(own, other, i, companion) : 0.0;
+    const double apart = i > 0 && since > 0.0 ? interval_rounding(own, other, i, companion) : 0.0;
     const double shift = factor_ * change + apart;
     if (same(*a, *b) && shift <= 0.5 * since) {
       if (!rebound_is_decided(*a, *b, past)) return false;
@@ -135,8 +135,8 @@ class EventMatcher {
 
   /// Sum of the rounding errors of two successive event times: of the run if its engine has rounding errors only, else of
   /// a companion with such an engine, which cannot certify shorter intervals than it resolves.
-  [[nodiscard]] double own_rounding(const Rows& own, const Rows& other, std::size_t i,
-                                    const EventSequence& companion) const {
+  [[nodiscard]] double interval_rounding(const Rows& own, const Rows& other, std::size_t i,
+                                         const EventSequence& companion) const {
     if (!rounded_ && !companion.rounded) return 0.0;
     const std::vector<TimedEvent>& events = rounded_ ? run_.events : companion.events;
     const Rows& rows = rounded_ ? own : other;
@@ -185,7 +185,7 @@ class EventMatcher {
     for (std::size_t i = 0; i < run_.events.size(); ++i) {
       const TimedEvent& event = run_.events[i];
       if (event.t >= certified_until_.t) break;
-      errors_[i] = of_clock * event.t;
+      errors_[i] = relative_clock_rounding * event.t;
       if (!event.is_change() || (!event.is_located && deviation_[i] == 0.0)) continue;
       last[next++ % difference_window] = deviation_[i];
       const double error = factor_ * *std::max_element(last.begin(), last.end());
@@ -222,7 +222,7 @@ class EventMatcher {
       if (!event.is_change()) continue;
       if (before < i && run_.events[before].contact != event.contact) {
         const double apart = event.t - run_.events[before].t;
-        if (apart > of_clock * event.t && apart < result.t_errors[before] + result.t_errors[i])
+        if (apart > relative_clock_rounding * event.t && apart < result.t_errors[before] + result.t_errors[i])
           ++result.unordered;
       }
       before = i;

@@ -87,7 +87,7 @@ struct MatchResult {
   std::vector<double> t_errors;  ///< one entry per event; NaN: not certified
   /// Number of successive certified events of different contacts in unknown order.
   std::size_t unordered = 0;
-  double spread = 0.0;  ///< c D at `until`, or at the end
+  double spread = 0.0;  ///< uncertainty c D of event times at `until`, or at the end
 };
 
 /// Compares the events of a run with those of its companions. factor: c; names: names of the contacts, for reasons;

@@ -117,7 +117,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool lies_in(const fs::path& folder, const fs::path& file) {
+bool is_inside_folder(const fs::path& folder, const fs::path& file) {
   std::error_code error;
   const fs::path outer = fs::weakly_canonical(folder, error), inner = fs::weakly_canonical(file, error);
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
@@ -128,11 +128,11 @@ bool lies_in(const fs::path& folder, const fs::path& file) {
 void check_folder(const fs::path& path, const ResultFolder& folder, bool force, const std::string& scene) {
   base::check_output_directory(path, {folder.what, folder.marker}, force);
   std::error_code error;
-  const bool holds_results = fs::exists(path / folder.marker, error);
-  if (holds_results && !scene.empty() && lies_in(path, scene))
-    throw FileError(
-        scene,
-        fmt::format("lies in {}, where --force replaces files; move it, or name another -o", path.string()));
+  const bool is_result_folder = fs::exists(path / folder.marker, error);
+  if (is_result_folder && !scene.empty() && is_inside_folder(path, scene))
+    throw FileError(scene, fmt::format("lies in {}, where --force replaces files; move the scene file, or "
+                                       "choose another directory with -o",
+                                       path.string()));
 }
 
 void begin_folder(const fs::path& path, const ResultFolder& folder) {

@@ -72,7 +72,7 @@ std::string sequence(const compare::ComparisonReport& report, std::size_t i) {
   const std::size_t pairs = alignment.pairs.size();
   std::string text =
       alignment.split
-          ? fmt::format("{} equal, then they differ at t = {:.9g}: {}; {} from there on",
+          ? fmt::format("{} equal, then they differ at t = {:.9g}: {}; {} from this time on",
                         base::count_text(pairs, "event"), alignment.split->t,
                         compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
                         base::count_text(alignment.split->unaligned, "event"))
@@ -173,7 +173,7 @@ Variant variant_of(const std::string& text) {
   return variant;
 }
 
-/// Names of the engines in --engines, without keys. A setting "NAME:PATH=VALUE" of --set applies to one of them.
+/// Names of the engines in --engines, without keys. A setting "NAME:PATH=VALUE" of --set applies to one of these names.
 std::vector<std::string> engines_of(const CompareOptions& options) {
   std::vector<std::string> names;
   for (const std::string& text : options.engines) names.push_back(variant_of(text).engine);
@@ -215,7 +215,7 @@ void run_engine(const CompareOptions& options, const fs::path& path, const study
     ProgressDisplay live(directory, run.model, run.scene.run.t_end, !options.quiet);
     report = run.run_to_disk(directory, live).certified.report;
   } catch (const SceneError& error) {
-    // An earlier run could be mistaken for the refused run.
+    // An earlier run in this directory could be mistaken for the refused run.
     if (options.force) result::remove_run(path / engine);
     outcomes.report.refused.emplace_back(engine, error.what());
     return;

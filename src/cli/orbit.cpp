@@ -74,8 +74,8 @@ class CheckpointWriter {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int checkpoint_interval_factor =
-      20;  // time between two checkpoints / time to write one. Chosen value.
+  // Least time between two checkpoints, divided by the time to write a checkpoint. Chosen value.
+  static constexpr int checkpoint_interval_factor = 20;
 
   const fs::path& path_;
   const SceneReader& read_;

@@ -40,13 +40,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int no_program = 127, no_reason = 126;  // exit codes as in a shell: not found; could not be started
-constexpr int no_end = 124;                       // exit code as of timeout(1): stopped after `patience`
-// Limit for one picture, which usually takes a second or two.
+// Exit codes as in a shell: program not found; program could not be started.
+constexpr int no_program = 127, exit_not_started = 126;
+constexpr int exit_stopped = 124;  // exit code as of timeout(1): gnuplot was stopped
+// Time limit for one picture; gnuplot usually takes one or two seconds.
 constexpr std::chrono::seconds patience{60};
 constexpr std::size_t max_output = 1 << 16;
-constexpr std::size_t max_contact_pictures =
-    24;  // each picture takes about 0.17 s; displacement pictures show as many nodes
+// Limit of the number of pictures of contacts, each of which takes about 0.17 s.
+constexpr std::size_t max_contact_pictures = 24;
 
 struct Ended {
   int code = 0;
@@ -54,14 +55,14 @@ struct Ended {
 };
 
 // Only async-signal-safe calls are allowed between fork and exec.
-[[noreturn]] void become_gnuplot(const char* folder, const char* script, int output) {
+[[noreturn]] void exec_gnuplot(const char* folder, const char* script, int output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // gnuplot ends with its parent
   const int nothing = open("/dev/null", O_RDWR);
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
   if (chdir(folder) == 0) execlp("gnuplot", "gnuplot", "-d", script, static_cast<char*>(nullptr));
-  _exit(errno == ENOENT ? no_program : no_reason);
+  _exit(errno == ENOENT ? no_program : exit_not_started);
 }
 
 /// Reads gnuplot's output until gnuplot closes it. Returns false if this takes until `last`, or if the output exceeds
@@ -86,7 +87,8 @@ bool listen(int end, Clock::time_point last, std::string& output) {
 std::optional<int> wait_for(pid_t child, Clock::time_point last) {
   for (;;) {
     int status = 0;
-    if (waitpid(child, &status, WNOHANG) == child) return WIFEXITED(status) ? WEXITSTATUS(status) : no_reason;
+    if (waitpid(child, &status, WNOHANG) == child)
+      return WIFEXITED(status) ? WEXITSTATUS(status) : exit_not_started;
     if (Clock::now() > last) return std::nullopt;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -95,17 +97,17 @@ std::optional<int> wait_for(pid_t child, Clock::time_point last) {
 Ended run_gnuplot(const std::filesystem::path& script) {
   const std::string folder = script.parent_path().string(), name = script.filename().string();
   std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return {no_reason, "cannot create a pipe"};
+  if (pipe(ends.data()) != 0) return {exit_not_started, "cannot create a pipe"};
   const pid_t child = fork();
   if (child == 0) {
     setpgid(0, 0);  // a new process group, so that gnuplot's own children can also be ended
     close(ends[0]);
-    become_gnuplot(folder.c_str(), name.c_str(), ends[1]);
+    exec_gnuplot(folder.c_str(), name.c_str(), ends[1]);
   }
   close(ends[1]);
   if (child < 0) {
     close(ends[0]);
-    return {no_reason, "cannot start a process"};
+    return {exit_not_started, "cannot start a process"};
   }
   const auto last = Clock::now() + patience;
   std::string output;
@@ -113,18 +115,18 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   close(ends[0]);
   if (silent)
     if (const auto code = wait_for(child, last)) return {*code, output};
-  setpgid(child, child);  // here as well, because parent and child run in any order
+  setpgid(child, child);  // also in the parent, because parent and child run in either order
   kill(-child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
-  return {no_end, output.size() > max_output
-                      ? "it printed more than 64 kB and was stopped"
-                      : fmt::format("it ran longer than {} s and was stopped", patience.count())};
+  return {exit_stopped, output.size() > max_output
+                            ? "gnuplot printed more than 64 kB and was stopped"
+                            : fmt::format("gnuplot ran longer than {} s and was stopped", patience.count())};
 }
 
 }  // namespace
 
-std::vector<std::filesystem::path> first_ones(const std::vector<std::filesystem::path>& scripts) {
+std::vector<std::filesystem::path> scripts_to_draw(const std::vector<std::filesystem::path>& scripts) {
   std::vector<std::filesystem::path> first;
   std::size_t contacts = 0;
   for (const auto& script : scripts)
@@ -141,7 +143,7 @@ Drawing draw(const std::vector<std::filesystem::path>& scripts) {
     if (ended.code == no_program) return {Drawing::Kind::no_gnuplot, ""};
     if (ended.code == 0) continue;
     if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + ended.output};
-    if (ended.code == no_end)
+    if (ended.code == exit_stopped)
       return drawing;  // gnuplot itself hangs, so the other pictures would hang as well
   }
   if (failed > 1)
@@ -156,13 +158,14 @@ std::string draw_pictures(const std::filesystem::path& directory,
                           const std::vector<std::filesystem::path>& scripts, const std::string& later) {
   if (scripts.empty()) return "";
   const std::string folder = (directory / "plots").string();
-  const std::vector<std::filesystem::path> first = first_ones(scripts);
+  const std::vector<std::filesystem::path> first = scripts_to_draw(scripts);
   const Drawing drawing = draw(first);
   const std::string more =
       first.size() == scripts.size()
           ? ""
-          : fmt::format(", of the first {} contacts; `gnuplot contact-NAME.gp` there draws another one",
-                        max_contact_pictures);
+          : fmt::format(
+                ", of the first {} contacts; in this folder, `gnuplot contact-NAME.gp` draws the others",
+                max_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)
     return "pictures: no gnuplot on PATH; its scripts are in " + folder + later + "\n";
@@ -257,9 +260,10 @@ ExitCode plot(const fs::path& directory, const result::PlotWindow& window, const
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
-  const std::vector<fs::path> scripts = first_ones(write_any_plots(directory, window, look));
+  const std::vector<fs::path> scripts = scripts_to_draw(write_any_plots(directory, window, look));
   if (scripts.empty())
-    throw FileError(directory.string(), "has nothing to draw: fewer than two output times, or rows");
+    throw FileError(directory.string(),
+                    "has nothing to draw: the results have fewer than two output times or rows");
   const Drawing drawing = draw(scripts);
   if (drawing.kind == Drawing::Kind::no_gnuplot) {
     throw FileError("gnuplot", "not found on PATH; the scripts are in " + (directory / "plots").string());

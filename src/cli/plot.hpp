@@ -15,7 +15,7 @@ struct Drawing {
 };
 
 /// The scripts without those of contacts after the first 24, because pictures of many contacts would take minutes.
-[[nodiscard]] std::vector<std::filesystem::path> first_ones(
+[[nodiscard]] std::vector<std::filesystem::path> scripts_to_draw(
     const std::vector<std::filesystem::path>& scripts);
 
 /// Runs gnuplot on each script, in the folder of the script. The other scripts also run if one fails; the result has the
@@ -23,7 +23,8 @@ struct Drawing {
 [[nodiscard]] Drawing draw(const std::vector<std::filesystem::path>& scripts);
 
 /// Draws the scripts in DIR/plots and returns a line for the terminal that names the pictures. Without gnuplot the line
-/// names the scripts and ends with `later`. Empty if there is nothing to name. Messages of gnuplot go to stderr.
+/// names the scripts and ends with `later`. Empty if there are no scripts, or if the only script failed. Messages of gnuplot go
+/// to stderr.
 [[nodiscard]] std::string draw_pictures(const std::filesystem::path& directory,
                                         const std::vector<std::filesystem::path>& scripts,
                                         const std::string& later = "");

@@ -31,10 +31,10 @@ void ProgressDisplay::event(const Event& event) {
   if (last_.size() > shown_last) last_.pop_front();
 }
 
-void ProgressDisplay::advise(double t) {
-  constexpr double quiet_time = 2.0;  // s, time of the run before the advice
+void ProgressDisplay::print_advice(double t) {
+  constexpr double seconds_before_advice = 2.0;  // s, time of the run before the advice
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (s < quiet_time) return;
+  if (s < seconds_before_advice) return;
   const auto ask = std::exchange(advice_, nullptr);
   const std::string note = ask(s * t_end_ / t);
   if (note.empty()) return;
@@ -57,7 +57,7 @@ std::string ProgressDisplay::time_left(double t) {
 
 bool ProgressDisplay::progress(double t) {
   const bool go_on = run::ForwardingRecorder::progress(t) && !Interrupt::requested();
-  if (advice_ && go_on && t > 0.0) advise(t);
+  if (advice_ && go_on && t > 0.0) print_advice(t);
   if (!show_progress_) return go_on;
   if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {
     next_line_ = now + std::chrono::milliseconds(100);
@@ -70,12 +70,12 @@ bool ProgressDisplay::progress(double t) {
 
 namespace {
 
-volatile std::sig_atomic_t noting = 0, noted = 0;
+volatile std::sig_atomic_t interrupts_are_deferred = 0, interrupt_was_requested = 0;
 
 // Signal handler; it may call only functions that are async-signal-safe in POSIX.
 void handle_signal(int signal) {
-  if (signal != SIGALRM && noting != 0 && noted == 0) {
-    noted = 1;
+  if (signal != SIGALRM && interrupts_are_deferred != 0 && interrupt_was_requested == 0) {
+    interrupt_was_requested = 1;
     alarm(Interrupt::grace_seconds);
     return;
   }
@@ -93,13 +93,13 @@ void end_on_interrupt() {
   for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaction(signal, &action, nullptr);
 }
 
-Interrupt::Interrupt() { noting = 1; }
+Interrupt::Interrupt() { interrupts_are_deferred = 1; }
 
 Interrupt::~Interrupt() {
-  noting = 0;
+  interrupts_are_deferred = 0;
   alarm(0);
 }
 
-bool Interrupt::requested() { return noted != 0; }
+bool Interrupt::requested() { return interrupt_was_requested != 0; }
 
 }  // namespace signorini::cli

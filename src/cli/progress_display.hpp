@@ -4,7 +4,7 @@
 //   Report report = simulate(model, scene.run, display);
 //
 // All data are forwarded to another Recorder. After the first SIGINT or SIGTERM the run stops, and its results so far
-// remain on disk; a second signal ends the program at once.
+// remain on disk; a second signal ends the program immediately.
 #pragma once
 
 #include <chrono>
@@ -20,10 +20,10 @@ namespace signorini::cli {
 
 // Reaction to SIGINT and SIGTERM, the same for both signals and for all commands.
 //
-//   without an Interrupt object (set-up, check)   the program ends at once with exit code 130
+//   without an Interrupt object (set-up, check)   the program ends immediately with exit code 130
 //   with an Interrupt object (a run)              the run stops after its current step, its results so far remain, exit
 //                                                 code 130; after a second signal, or after grace_seconds, the program
-//                                                 ends at once
+//                                                 ends immediately
 
 /// Installs the signal handler. To be called once, at the start of the program.
 void end_on_interrupt();
@@ -62,7 +62,7 @@ class ProgressDisplay : public run::ForwardingRecorder {
   [[nodiscard]] long event_count() const { return count_; }
 
  private:
-  void advise(double t);
+  void print_advice(double t);
   /// Text such as ", about 8 s left", estimated from the speed of the last seconds; empty during the first second.
   [[nodiscard]] std::string time_left(double t);
 

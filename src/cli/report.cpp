@@ -51,7 +51,7 @@ ExitCode report(const fs::path& directory, const fs::path& given) {
   return ExitCode::done;
 }
 
-/// Writes a page for several runs, and a CSV file with the same data; its name is that of the page with the ending .csv.
+/// Writes a page for several runs, and a CSV file with the same data and the same name, but with the ending .csv.
 ExitCode report_cases(const std::vector<std::string>& directories, const fs::path& given) {
   const std::vector<report::LoadCase> cases =
       report::read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));

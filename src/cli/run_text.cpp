@@ -279,8 +279,8 @@ std::string run_summary(const RunSpec& run, const Model& model, const Report& re
            fmt::format("reason for engine {}: {}\n", to_string(report.method.engine), report.method.reason);
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
-  // A line about engine exact is printed only if exact would be faster than the run. After a run of more than long_run,
-  // a trial of exact replaces the estimate.
+  // A line about engine exact is printed only if exact would be faster than the run. After a run longer than long_run, a trial
+  // of exact replaces the estimate.
   std::optional<double> exact = run::seconds_with_exact(model, chosen);
   constexpr double long_run = 1.0, share = 0.02;  // s; duration of the trial / duration of the run
   if (exact && report.wall_time > long_run) {

@@ -79,7 +79,7 @@ class Stoppable : public Recorder {
 };
 
 /// Adds the parameters of --sigma to `paths`, and returns one sigma per parameter; 0: not given. Empty without --sigma.
-sensitivity_study::Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& paths) {
+sensitivity_study::Sigmas read_sigmas(const SensitivityOptions& options, std::vector<std::string>& paths) {
   sensitivity_study::Sigmas sigmas(paths.size(), 0.0);
   for (const std::string& text : options.sigmas) {
     const std::size_t equals = text.find('=');
@@ -214,7 +214,7 @@ void write_events(const fs::path& path, const Model& model, const Sensitivities&
 ExitCode run(const SensitivityOptions& options) {
   const std::vector<Override> changes = overrides_of(options.settings);
   std::vector<std::string> paths = options.parameters;
-  const sensitivity_study::Sigmas sigmas = take_sigmas(options, paths);
+  const sensitivity_study::Sigmas sigmas = read_sigmas(options, paths);
   if (paths.empty()) throw UsageError("expected --parameter PATH or --sigma PATH=VALUE");
   const fs::path path = directory_of(options, "-sensitivity");
   check_folder(path, sensitivity_folder(), options.force, options.scene);

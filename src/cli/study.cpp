@@ -51,7 +51,7 @@ std::vector<std::string> names_of_engines() {
   return names;
 }
 
-/// Names of the engines whose accuracy is set in this way, such as "newmark, friction-iteration".
+/// Names of the engines with this kind of accuracy setting, such as "newmark, friction-iteration".
 std::string engines_with(Accuracy accuracy) {
   std::string names;
   for (const EngineInfo& engine : all_engines)
@@ -107,7 +107,7 @@ bool sets_accuracy(const std::string& path) {
   return path == accuracy_key(Accuracy::tolerance) || path == accuracy_key(Accuracy::step);
 }
 
-/// Refuses a key that another option sets, or with whose change runs could not be compared. Errors: UsageError.
+/// Refuses a key that another option sets, or whose change makes runs incomparable. Errors: UsageError.
 void refuse_key(const std::string& option, const std::string& path) {
   if (sets_accuracy(path)) throw UsageError(option + ": --rtol and --dt set the accuracy of runs");
   for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
@@ -135,7 +135,7 @@ void check_settings(const StudyOptions& options) {
   }
 }
 
-/// Builds the scene with each engine and each varied key, so that invalid ones are reported before anything is written.
+/// Builds the scene with each engine and each varied key, so that invalid values are reported before any file is written.
 void try_engines(const StudyOptions& options, const std::vector<sweep::ParameterRange>& varied) {
   for (const std::string& engine : options.engines) {
     std::vector<Override> changes = settings_for(options, engine);

@@ -125,7 +125,7 @@ void specify_strobe(const SweepOptions& options, const Scene& scene, const Model
                     t_end, periods));
 }
 
-/// Text of the saved state from which the runs start; changes of this state must be detected.
+/// Text of the saved state from which the runs start. It is part of the fingerprint, so that a changed state is detected.
 std::string text_of_state(const Scene& scene) {
   std::string text;
   if (!scene.initial.saved) return text;
@@ -163,7 +163,8 @@ Specified specify(const SweepOptions& options) {
   if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
   if (options.share) spec.share = sweep::parse_share(*options.share, environment);
   specified.text = scene::scene_text(options.scene);
-  constexpr std::size_t most_tried = 200;  // number of rows that are tried until one of them is valid
+  // Limit of the number of rows that are tried until a valid row is found.
+  constexpr std::size_t most_tried = 200;
   std::optional<Error> first;
   std::size_t tried = 0;
   for (const auto& point : sweep::points(spec.vary)) {
@@ -216,7 +217,7 @@ class Progress {
   Progress(const sweep::SweepDirectory& directory, std::size_t all, bool line)
       : directory_(directory),
         all_(all),
-        there_(directory.rows().size()),
+        rows_before_(directory.rows().size()),
         line_(line && stderr_is_terminal()) {}
   ~Progress() {
     if (line_) progress_line("");
@@ -239,16 +240,18 @@ class Progress {
 
  private:
   [[nodiscard]] std::string time_left(std::chrono::steady_clock::time_point now) const {
-    const std::size_t done = directory_.rows().size() - there_;
+    const std::size_t done = directory_.rows().size() - rows_before_;
     if (done == 0) return "";
     const double s = std::chrono::duration<double>(now - start_).count();
     return ", about " +
-           base::duration_text(s * static_cast<double>(all_ - there_ - done) / static_cast<double>(done)) +
+           base::duration_text(s * static_cast<double>(all_ - rows_before_ - done) /
+                               static_cast<double>(done)) +
            " left";
   }
 
   const sweep::SweepDirectory& directory_;
-  std::size_t all_, there_, written_ = 0;  // there_: number of rows that an earlier process has computed
+  std::size_t all_, rows_before_,
+      written_ = 0;  // rows_before_: number of rows that an earlier process has computed
   bool line_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point next_;
@@ -334,7 +337,7 @@ void print_strobe_note(const SweepOptions& options, const sweep::SweepSpec& spec
       const std::string doubt =
           sweep::strobe_warning(sweep::parse_strobe(options.strobe, scene, build_model(scene)), scene);
       if (!doubt.empty()) return print_note(doubt);
-    } catch (const Error&) {  // the row reports its error itself
+    } catch (const Error&) {  // the run of this row reports the error
     }
   }
 }
@@ -413,7 +416,7 @@ ExitCode merge(const SweepOptions& options) {
   return ExitCode::stopped;
 }
 
-/// Converts --engine to a setting, which sweep.json stores: a sweep with another engine is another sweep.
+/// Converts --engine to a setting, which sweep.json stores, so that a sweep with another engine counts as another sweep.
 SweepOptions with_engine(SweepOptions options) {
   if (options.engine.empty()) return options;
   for (const std::string& varied : options.varied)

@@ -26,9 +26,9 @@
 namespace signorini::cli {
 namespace {
 
-constexpr int between_looks = 200;  // ms, longest wait for reports before `idle` is called
+constexpr int poll_timeout_ms = 200;  // ms, longest wait for reports before `idle` is called
 // Tasks per worker: the current task, and one that waits in the worker's pipe.
-constexpr std::size_t max_ahead = 2;
+constexpr std::size_t max_tasks_per_worker = 2;
 
 /// Owner of a file descriptor; the destructor closes it.
 class Descriptor {
@@ -190,7 +190,7 @@ class Pool {
   Pool& operator=(const Pool&) = delete;
 
   [[nodiscard]] std::size_t size() const { return workers_.size(); }
-  [[nodiscard]] std::size_t under_way() const {
+  [[nodiscard]] std::size_t tasks_in_progress() const {
     std::size_t sum = 0;
     for (const Worker& w : workers_) sum += w.given.size();
     return sum;
@@ -216,7 +216,7 @@ class Pool {
 
   /// Sends a first task to each worker without one, then a second task that waits in the worker's pipe.
   void send_tasks(std::deque<std::size_t>& queue) {
-    for (std::size_t ahead = 1; ahead <= max_ahead; ++ahead)
+    for (std::size_t ahead = 1; ahead <= max_tasks_per_worker; ++ahead)
       for (Worker& w : workers_) {
         if (queue.empty()) return;
         if (w.given.size() >= ahead) continue;
@@ -232,14 +232,14 @@ class Pool {
   bool listen(std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     std::vector<pollfd> watched{{signals_.fd(), POLLIN, 0}};
     for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
-    if (poll(watched.data(), watched.size(), between_looks) <= 0) return false;
+    if (poll(watched.data(), watched.size(), poll_timeout_ms) <= 0) return false;
     for (auto worker = workers_.begin(); worker != workers_.end();) {
       const bool alive = read_reports(*worker, ends);
       if (alive) {
         ++worker;
         continue;
       }
-      bury(*worker, queue, ends);
+      remove_dead_worker(*worker, queue, ends);
       worker = workers_.erase(worker);
     }
     signalfd_siginfo signal{};
@@ -292,7 +292,7 @@ class Pool {
     return open;
   }
 
-  static void bury(Worker& w, std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
+  static void remove_dead_worker(Worker& w, std::deque<std::size_t>& queue, std::vector<TaskResult>& ends) {
     const int status = reap(w.process);
     const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // the worker ended between two tasks
     if (!w.given.empty() && !clean) {
@@ -319,10 +319,10 @@ bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const 
   Pool pool(signals, work);
   std::deque<std::size_t> queue(tasks.begin(), tasks.end());
   bool go_on = true, whole = true;
-  while (whole && ((go_on && !queue.empty()) || pool.under_way() > 0)) {
-    while (go_on && pool.size() < std::min(jobs, queue.size() + pool.under_way())) pool.start();
+  while (whole && ((go_on && !queue.empty()) || pool.tasks_in_progress() > 0)) {
+    while (go_on && pool.size() < std::min(jobs, queue.size() + pool.tasks_in_progress())) pool.start();
     if (go_on) pool.send_tasks(queue);
-    idle(pool.under_way());
+    idle(pool.tasks_in_progress());
     std::vector<TaskResult> ends;
     whole = !pool.listen(queue, ends);
     for (const TaskResult& end : ends) go_on = ended(end) && go_on;

@@ -3,11 +3,12 @@
 //   const bool whole = run_workers(tasks, jobs, work, ended, idle);
 //
 //   parent --- task -->  pipe  --> worker:  for each task: work(task), then
-//   parent <-- report -- pipe <--           { task, exit code, length, return value of work }; parts of it may come earlier
+//   parent <-- report -- pipe <--           { task, exit code, length, return value of work }
+//                                           work() may send parts of its report earlier
 //
 // Workers are processes, not threads, so that a run that crashes or exhausts the memory does not affect other runs
 // (docs/decisions/sweep-workers.md). If a worker dies, only its current task is lost: a new worker replaces it, and the
-// task waiting in its pipe goes to another worker. SIGINT and SIGTERM end all workers at once, so files of a task must be
+// task waiting in its pipe goes to another worker. SIGINT and SIGTERM end all workers immediately, so files of a task must be
 // written atomically.
 #pragma once
 

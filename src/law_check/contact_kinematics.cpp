@@ -21,7 +21,7 @@ double size_on(const Combination& form, const Vector& x, double reach) {
 }
 
 /// Slope dF/d|N| of the friction limit F, for friction that depends on N.
-double growth_of_limit(const Contact& c, double N) {
+double slope_of_friction_limit(const Contact& c, double N) {
   const double x = std::max(0.0, -N) / *c.friction.force;
   return friction_at(c, 0.0, N) - (c.friction.static_ - c.friction.kinetic) * x * std::exp(-x);
 }
@@ -129,7 +129,7 @@ GuardValues guards_of(const Contact& c, const ContactState& state, const Contact
   if (!c.has_friction() || kind_of(state.state) == State::closed) return guards;
   const bool by_force = c.friction.force.has_value();
   const double fs = by_force ? friction_at(c, 0.0, m.N) : c.friction.static_;
-  const double growth = by_force ? growth_of_limit(c, m.N) : fs;
+  const double growth = by_force ? slope_of_friction_limit(c, m.N) : fs;
   const double fk = by_force ? growth : c.friction.kinetic;
   if (const int s = slip_direction(state.state); s == 0) {
     const double size =
@@ -177,8 +177,8 @@ bool slides_on(const Contact& c, std::size_t k, int s, const CheckedSide& side) 
   return rate >= 0.0;
 }
 
-bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
-                        double rest) {
+bool tangent_row_is_satisfied(const Contact& c, std::size_t k, const ContactState& state,
+                              const CheckedSide& side, double rest) {
   const double N = N_of(side, k), T = T_of(side, k);
   if (const int s = slip_direction(state.state); s != 0)
     return !is_at_static_limit(state.state) &&
@@ -192,7 +192,8 @@ bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& sta
 
 }  // namespace
 
-bool guards_hold(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side) {
+bool guards_are_satisfied(const Contact& c, std::size_t k, const ContactState& state,
+                          const CheckedSide& side) {
   if (is_open(state.state))
     return c.normal_force_given() || (state.state != State::inside && c.gap_at(*side.u) >= 0.0);
   const double N = N_of(side, k);
@@ -203,8 +204,8 @@ bool guards_hold(const Contact& c, std::size_t k, const ContactState& state, con
   return std::abs(T_of(side, k)) <= -c.friction.static_ * N;
 }
 
-bool rows_hold(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
-               double rest) {
+bool rows_are_satisfied(const Contact& c, std::size_t k, const ContactState& state, const CheckedSide& side,
+                        double rest) {
   if (c.friction.force || !c.forces_follow_motion()) return false;
   const double N = N_of(side, k);
   double off = 0.0;
@@ -215,7 +216,8 @@ bool rows_hold(const Contact& c, std::size_t k, const ContactState& state, const
   else if (c.normal_spring())
     off = N - c.normal_stiffness * c.gap_at(*side.u) -
           (c.normal_damping > 0.0 ? c.normal_damping * c.normal.dot(*side.v) : 0.0);
-  return std::abs(off) <= rounding::elimination * std::abs(N) && tangent_row_stands(c, k, state, side, rest);
+  return std::abs(off) <= rounding::elimination * std::abs(N) &&
+         tangent_row_is_satisfied(c, k, state, side, rest);
 }
 
 }  // namespace signorini::law_check

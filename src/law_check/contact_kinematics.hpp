@@ -24,7 +24,7 @@ namespace signorini::law_check {
 struct ContactKinematics {
   double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0,
          ddq = 0.0;
-  // Sum of the sizes of the terms of g and ut; of g' and ut'; of g'' and ut''.
+  // Sums of the sizes of terms: displacement_size for g and ut, velocity_size for g' and ut', acceleration_size for g'', ut''.
   double displacement_size = 0.0, velocity_size = 0.0, acceleration_size = 0.0;
 };
 
@@ -72,11 +72,11 @@ struct GuardValues {
 // check omits these sums, so its limits are never larger: a contact that passes it satisfies the laws.
 
 /// True if no guard of the state is negative. False if a guard is negative, or if this check cannot decide.
-[[nodiscard]] bool guards_hold(const Contact& contact, std::size_t k, const ContactState& state,
-                               const CheckedSide& side);
+[[nodiscard]] bool guards_are_satisfied(const Contact& contact, std::size_t k, const ContactState& state,
+                                        const CheckedSide& side);
 /// True if N and T satisfy the rows of the state. False if they do not, or if this check cannot decide. rest: speed up to
 /// which a contact is regarded as at rest.
-[[nodiscard]] bool rows_hold(const Contact& contact, std::size_t k, const ContactState& state,
-                             const CheckedSide& side, double rest);
+[[nodiscard]] bool rows_are_satisfied(const Contact& contact, std::size_t k, const ContactState& state,
+                                      const CheckedSide& side, double rest);
 
 }  // namespace signorini::law_check

@@ -12,7 +12,7 @@ namespace {
 
 struct ClosedRows {
   std::vector<const Combination*> forms;
-  std::vector<Vector> columns;  // M^-1 form; for a sliding contact including friction
+  std::vector<Vector> columns;  // for each row: M^-1 times its form, plus friction if the contact slides
   std::vector<double> gaps;
 
   void add(const Combination& form, Vector column, double gap) {
@@ -340,7 +340,7 @@ std::vector<Violation> equilibrium_law(const CheckContext& context, double t, co
     rows.add(c.tangent, m.T, size);
     const CurvedSurface* bowl = c.curved_surface();
     if (bowl == nullptr) continue;
-    // K contains the restoring force of a pendulum under its nominal force; that of the remaining N is added here.
+    // K contains the restoring force of a pendulum under its nominal force; that of the remaining force is added here.
     const double slope = (c.body_tangent().dot(*side.u) - side.driven[k].s) / bowl->radius;
     rows.add(c.body_tangent(), (-m.N - bowl->nominal_force) * slope,
              (size + bowl->nominal_force) * m.displacement_size / bowl->radius);

@@ -156,7 +156,7 @@ void InstantLawChecker::restitution() {
     if ((closed || m.g <= 0.0) && m.dg < -rounding_of_speed)
       add(static_cast<int>(k), "penetration rate", -m.dg, rounding_of_speed, seen::velocity, true);
   }
-  // Scale of impulses: the largest impulse, or the impulse that would cause the velocities before.
+  // Scale of impulses: the largest impulse, or the impulse that would cause the velocities before the impact.
   double greatest = 0.0;
   for (const RecordedImpulse& p : record_.impulses) {
     greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
@@ -212,8 +212,8 @@ void InstantLawChecker::restitution_of(const RecordedImpulse& p, const ImpactVel
   const double limit = context_.rest_speed(record_, p.contact) + strike.uncertainty +
                        (own != nullptr ? rounding::elimination * own->nn * greatest : 0.0);
   const double asked = -c.restitution * std::min(strike.dg_before, 0.0);
-  double off = asked - strike.dg_after;                                // the rebound is too slow
-  if (p.normal > zero) off = std::abs(off);                            // if there is an impulse: or too fast
+  double off = asked - strike.dg_after;      // the rebound is too slow
+  if (p.normal > zero) off = std::abs(off);  // with an impulse, also if it is too fast
   if (asked <= limit) off = std::min(off, std::abs(strike.dg_after));  // a slow rebound may end at rest
   if (off > limit) add(contact, "restitution", off, limit, seen::velocity, true);
 }

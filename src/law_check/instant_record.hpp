@@ -71,22 +71,22 @@ struct RecordedEvent {
 
 struct InstantRecord {
   double t = 0.0;
-  double resolution = 0.0;  ///< times closer than this are one instant
+  double resolution = 0.0;  ///< times that differ by at most this are one instant
   CheckedSide before, after;
   std::vector<RecordedImpulse> impulses;  ///< in the order of the impacts; empty: no impact
   /// Capture impulses along n and t, in the order of forces; empty: none.
   Vector captures;
   std::vector<RecordedEvent> events;
   std::vector<std::size_t> released;  ///< contacts that massless parts left instantaneously
-  /// Start of the run: the states of `before` are guessed from the gaps, or continued.
+  /// True at the start of the run: the states of `before` are guessed from the gaps, or are those of the previous run.
   bool start = false;
   /// The run continues another run: `before` has the final contact states of that run.
   bool continues = false;
   bool breakpoint = false;  ///< the forcing is not smooth here
   bool load_jumps = false;
   bool located = true;  ///< the engine locates the zeros of guards
-  double eigenvector_condition =
-      1.0;  ///< StepFacts::eigenvector_condition of the motion before; 1: no modes, or orthogonal modes
+  /// StepFacts::eigenvector_condition of the motion before the instant; 1: no modes, or orthogonal modes.
+  double eigenvector_condition = 1.0;
   /// Accepted violation of states that were reported as undecided, in units of their rounding.
   double forgiven = 0.0;
 };

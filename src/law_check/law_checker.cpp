@@ -88,7 +88,7 @@ std::vector<Violation> LawChecker::check_point(double t, const CheckedSide& now)
   std::vector<Violation> found;
   const Model& model = parts_->context.model;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    if (guards_hold(model.contacts[k], k, (*now.mode)[k], now)) continue;
+    if (guards_are_satisfied(model.contacts[k], k, (*now.mode)[k], now)) continue;
     const ContactKinematics m = kinematics(model.contacts[k], k, now);
     const std::size_t before = found.size();
     check_contact(t, k, (*now.mode)[k], m, now.a != nullptr, 0.0, found);
@@ -99,7 +99,7 @@ std::vector<Violation> LawChecker::check_point(double t, const CheckedSide& now)
     if (found.size() == before ||
         (model.contacts[k].normal_spring() && model.contacts[k].tangential_stiffness))
       continue;
-    // Repeat with the uncertainty of constraint forces, a costly sum over the structure.
+    // The check is repeated with the uncertainty of constraint forces, a costly sum over the structure.
     found.resize(before);
     check_contact(t, k, (*now.mode)[k], m, now.a != nullptr, parts_->context.balance_terms(now), found);
   }

@@ -9,7 +9,7 @@
 //                  would violate one of its guards
 //   sufficiency    just after the instant, the equations (rows) and guards of the new state are satisfied
 //   guard          a guard of the old state is zero at the time of its event
-//   continuity     u is continuous; so are T and p of contacts that stick before or after
+//   continuity     u is continuous; T and p of contacts that stick before or after are continuous, too
 //
 // The laws are implemented independently of the solver, from docs/theory-checks.md. This folder uses the model, the
 // constants of contacts and the rounding constants, but no code that decides states, advances the motion or locates
@@ -30,8 +30,8 @@ struct LawLimits {
   double capture_velocity = 0.0;  ///< for contacts without their own capture_velocity
   /// Step of an engine that enforces contact laws only at the ends of steps; 0: other engines.
   double step = 0.0;
-  bool resolves_low_flights =
-      true;  ///< true: flights lower than the rounding of their gaps are computed; false: treated as rest
+  /// True if the engine computes flights that are lower than the rounding of their gaps; false: it treats them as rest.
+  bool resolves_low_flights = true;
 };
 
 struct ContactKinematics;
@@ -67,8 +67,8 @@ class LawChecker {
   [[nodiscard]] std::array<double, 2> modal_size(double norm) const;
   /// Twice the elastic energy, u^T K u; K includes the springs of all contacts.
   [[nodiscard]] double twice_energy(const Vector& u) const;
-  /// Factor s of contact k in |n v| + |t v| <= s sqrt(2 * energy), from |n v| <= sqrt(n M^-1 n) sqrt(v^T M v). It bounds
-  /// the velocity that a rounding error of u becomes after a quarter of a period. 0: contact k acts on a massless part.
+  /// Factor s of contact k in |n v| + |t v| <= s sqrt(2 * energy), from |n v| <= sqrt(n M^-1 n) sqrt(v^T M v). It bounds the
+  /// velocity that a rounding error of u causes a quarter of a period later. 0: contact k acts on a massless part.
   [[nodiscard]] double speed_per_energy_root(std::size_t k) const;
 
  private:

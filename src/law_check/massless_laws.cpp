@@ -35,7 +35,7 @@ struct RateRow {
 class RateRows {
  public:
   RateRows(const CheckContext& context, const CheckedSide& side)
-      : bench_(context), place_(static_cast<std::size_t>(context.model.size()), -1) {
+      : check_context_(context), place_(static_cast<std::size_t>(context.model.size()), -1) {
     for (const int i : context.massless()) place_[static_cast<std::size_t>(i)] = size_++;
     for (const int i : context.massless()) {
       add_row(i, context.damping_by_rows(), dampers_);
@@ -63,7 +63,7 @@ class RateRows {
     Eigen::SparseLU<SparseMatrix> lu(transposed);
     if (lu.info() != Eigen::Success) return {};
     const Vector x = lu.solve(f);
-    const bool solved = x.allFinite() && (transposed * x - f).norm() <= of_solve * f.norm();
+    const bool solved = x.allFinite() && (transposed * x - f).norm() <= solve_accuracy * f.norm();
     return solved ? x : Vector();
   }
   /// Rounding error of row j. forces, rates: rounding errors of forces and of their rates, by degree of freedom.
@@ -71,14 +71,14 @@ class RateRows {
     const Vector& terms = rows_[j].by_forces ? forces : rates;
     double sum = 0.0;
     for (const auto& [i, weight] : rows_[j].parts)
-      sum += std::abs(weight) * terms[bench_.massless()[static_cast<std::size_t>(i)]];
+      sum += std::abs(weight) * terms[check_context_.massless()[static_cast<std::size_t>(i)]];
     return sum;
   }
 
  private:
   using Terms = std::vector<Eigen::Triplet<double>>;
   // Largest relative residual (half of the digits) of a system that determines velocities.
-  static constexpr double of_solve = 1e-8;
+  static constexpr double solve_accuracy = 1e-8;
   // Largest number of rows coupled by dampers, which are decomposed together. Chosen: more rows would take seconds.
   static constexpr std::size_t max_together = 300;
 
@@ -93,7 +93,7 @@ class RateRows {
     return matrix;
   }
   void check_known(std::size_t k, const CheckedSide& side) {
-    const Contact& c = bench_.model.contacts[k];
+    const Contact& c = check_context_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
     if (!c.forces_follow_motion() || c.takes_impulses() || c.holds_tangent(state.state)) reported_ = false;
   }
@@ -106,7 +106,7 @@ class RateRows {
   }
   /// Adds the derivatives of N = kn g + cn g' and T = kt ut or -s fk N: by g' to dampers_, by g and ut to springs_.
   void add_contact(std::size_t k, const CheckedSide& side) {
-    const Contact& c = bench_.model.contacts[k];
+    const Contact& c = check_context_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
     const double sliding = -slip_direction(state.state) * c.friction.kinetic;
     const auto add_force = [&](const Combination& along, const Combination& by, double spring,
@@ -184,10 +184,10 @@ class RateRows {
     return matrix_of(terms);
   }
 
-  const CheckContext& bench_;
+  const CheckContext& check_context_;
   std::vector<int> place_;
   Terms dampers_, springs_;
-  SparseMatrix C_, K_;  // with the terms of contacts
+  SparseMatrix C_, K_;  // of massless rows, with the terms of contacts
   std::vector<RateRow> rows_;
   int size_ = 0;
   bool reported_ = true;
@@ -215,7 +215,7 @@ namespace {
 
 // Relative accuracy of the terms of rates, which follow from solves and their derivatives. Chosen value; a wrong or
 // missing term would violate it by far (tests/unit/law_check/massless.cpp).
-constexpr double of_rates = 1e-9;
+constexpr double rate_accuracy = 1e-9;
 constexpr const char* names[] = {"massless equilibrium", "massless velocity", "massless acceleration"};
 
 /// N and T of a contact, or their rates, and the size of their terms. known: N and T follow from the motion.
@@ -286,7 +286,7 @@ class Balance {
   [[nodiscard]] Vector noise() {
     structure();
     for (const std::size_t k : context_.contacts_on_massless()) contact(k);
-    return (order_ == 0 ? rounding::elimination : of_rates) * size_;
+    return (order_ == 0 ? rounding::elimination : rate_accuracy) * size_;
   }
 
  private:

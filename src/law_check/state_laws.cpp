@@ -96,8 +96,11 @@ void InstantLawChecker::states() {
     if (!c.obeys_coulomb()) continue;
     const double rest = c.capture_velocity.value_or(context_.limits.capture_velocity);
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-    if (!guards_hold(c, k, now, record_.after) || !rows_hold(c, k, now, record_.after, rest)) state_of(k);
-    if (!record_.start && record_.located && !rows_hold(c, k, old, record_.before, rest)) old_rows(k);
+    if (!guards_are_satisfied(c, k, now, record_.after) ||
+        !rows_are_satisfied(c, k, now, record_.after, rest))
+      state_of(k);
+    if (!record_.start && record_.located && !rows_are_satisfied(c, k, old, record_.before, rest))
+      old_rows(k);
   }
 }
 
@@ -183,7 +186,7 @@ void InstantLawChecker::friction_of(std::size_t k, const ContactKinematics& m) {
   double asked = 0.0, size = std::abs(m.T);
   if (s != 0) {
     if (c.friction.is_rate_dependent() && c.sliding_point())
-      return;  // the rate of the sliding point follows from T, so there is nothing to compare T with
+      return;  // the rate of the sliding point follows from T, so T cannot be checked with this rate
     const double f = friction_in(c, state.state, m.dut, m.N);
     asked = -s * f * m.N;
     size += std::abs(asked) + f * normal_force_size(c, m);
@@ -268,8 +271,8 @@ bool InstantLawChecker::jumps(std::size_t k) const {
   const double force =
       rounding::elimination * (normal_force_size(c, a) + std::abs(a.N) + std::abs(b.N)) +
       tolerance_factor * (context_.limits.force + c.normal_stiffness * context_.limits.displacement);
-  const bool may_jump =
-      !c.normal_spring() || c.normal_damping > 0.0;  // otherwise N = kn g, which is continuous, because u is
+  // With a normal spring and no dashpot, N = kn g is continuous, because u is continuous.
+  const bool may_jump = !c.normal_spring() || c.normal_damping > 0.0;
   return std::abs(a.dg - b.dg) > speed || std::abs(a.dut - b.dut) > speed ||
          (may_jump && std::abs(a.N - b.N) > force);
 }

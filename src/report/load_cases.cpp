@@ -412,10 +412,10 @@ std::vector<std::string> load_case_warnings(const std::vector<LoadCase>& cases) 
   for (const LoadCase& c : cases) {
     const base::Json& outcome = entry_of(c.summary, "outcome");
     if (!is_done(c))
-      doubts.push_back(fmt::format("case {} ended at t = {} of {} ({}); it governs no row", c.name,
-                                   shown(number_in(entry_of(outcome, "t")).value_or(0.0)),
-                                   shown(number_in(entry_of(outcome, "t_end")).value_or(0.0)),
-                                   text_in(entry_of(outcome, "kind"))));
+      doubts.push_back(fmt::format(
+          "case {} ended at t = {} of {} ({}); its values are not used as governing values", c.name,
+          shown(number_in(entry_of(outcome, "t")).value_or(0.0)),
+          shown(number_in(entry_of(outcome, "t_end")).value_or(0.0)), text_in(entry_of(outcome, "kind"))));
     if (names_in(entry_of(c.summary, "contacts")) != names_in(entry_of(cases.front().summary, "contacts")))
       doubts.push_back(
           fmt::format("cases {} and {} have different contacts; check that they describe the same structure",

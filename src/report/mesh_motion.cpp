@@ -67,9 +67,9 @@ double fitting_magnification(const base::Json& nodes, const base::Json& curve, d
 
 namespace {
 
-constexpr double accuracy =
-    1e-3;  // relative to the largest displacement: 0.25 pixels if the page draws it with 250 pixels
-constexpr std::size_t max_on_page = 120'000;  // numbers on the page: about 0.8 MB
+// Allowed error relative to the largest displacement: 0.25 pixels if the page draws this displacement with 250 pixels.
+constexpr double accuracy = 1e-3;
+constexpr std::size_t max_on_page = 120'000;  // limit of the number of values on the page: about 0.8 MB
 
 base::Json digits(double value, int count) {
   return std::isfinite(value) ? base::Json(std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr))

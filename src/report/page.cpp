@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t max_rows = 2000;  // rows of a table on the page
+constexpr std::size_t max_rows = 2000;  // limit of the rows of a table on the page
 
 struct Kind {
   const char *marker, *name;

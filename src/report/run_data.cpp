@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_values = 60'000;  // displacements on a page: 1 MB with their times
-constexpr std::size_t max_motion = 16'000;   // rows of all contacts on a page
+// Limit of the number of displacements on a page: 1 MB with their times.
+constexpr std::size_t most_values = 60'000;
+constexpr std::size_t max_motion = 16'000;  // limit of the number of rows of all contacts on a page
 constexpr std::size_t max_events = 5'000;
 
 double rounded(double value, int digits) {

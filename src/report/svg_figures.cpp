@@ -49,7 +49,7 @@ bool read_point(const std::string& path, std::size_t& at, Point& point) {
   if (first.ec != std::errc() || first.ptr == end || *first.ptr != ',') return false;
   const auto second = std::from_chars(first.ptr + 1, end, y);
   if (second.ec != std::errc()) return false;
-  constexpr double most = 1e6;  // larger than any picture
+  constexpr double most = 1e6;  // limit of coordinates, in pixels: larger than any picture
   if (!(std::abs(x) < most && std::abs(y) < most)) return false;
   point = {std::lround(10.0 * x), std::lround(10.0 * y)};
   at = static_cast<std::size_t>(second.ptr - path.data());

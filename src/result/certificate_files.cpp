@@ -21,7 +21,7 @@ void add_columns(const fs::path& path, const Certificate& certificate) {
   fs::path draft = path;
   draft += ".part";
   std::error_code error;
-  fs::remove(draft, error);  // a killed run left it, or it is a symbolic link, which must not be followed
+  fs::remove(draft, error);  // draft of a killed run, or a symbolic link, which must not be followed
   {
     CsvFile file(draft);
     CsvBlock block;

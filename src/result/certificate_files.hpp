@@ -28,7 +28,7 @@ inline constexpr std::array certificate_columns = {
                       "1: this event and all earlier events are those of the exact motion; 0: not certified"},
 };
 
-/// Adds the columns to events.csv, and writes errors.csv. Errors: FileError.
+/// Adds the columns t_error and certain to events.csv, and writes errors.csv. Errors: FileError.
 void write_certificate(const std::filesystem::path& directory, const Model& model,
                        const Certificate& certificate);
 

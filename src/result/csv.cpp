@@ -93,7 +93,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   const auto create = [&] { return open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); };
   int file = create();
   if (file < 0 && errno == EEXIST) {
-    // A killed run left the draft, or the draft is a symbolic link, which must not be followed.
+    // The draft exists: a killed run left it, or it is a symbolic link, which must not be followed.
     unlink(draft.c_str());
     file = create();
   }

@@ -43,7 +43,7 @@ struct Panel {
   double weight = 1.0;     ///< relative height of the panel
   std::string after = "";  ///< gnuplot lines that undo permanent settings of `axes`
   bool own_axis = false;   ///< numbers and label at the horizontal axis even if panels follow
-  /// gnuplot lines for its position and all of its axes; empty: panels are stacked.
+  /// gnuplot lines for the panel's position and axes; empty: the panels are stacked.
   std::string margins = "";
 };
 

@@ -15,9 +15,10 @@ namespace {
 constexpr double wide = 1120.0;                                           // pixels
 constexpr double pixels_a_mm = 96.0 / 25.4, dots_a_pixel = 300.0 / 96.0;  // PNG: 300 dots per inch
 constexpr double usual_dots = 1.5;                                        // PNG: dots per pixel
-constexpr double max_dots = 32000.0;                                      // per side
+constexpr double max_dots = 32000.0;                                      // limit of the dots per side
 constexpr double letter_height = 13.0;                                    // pixels
-constexpr double least_letter = 6.0 * 96.0 / 72.0;                        // 6 points, the minimum of journals
+constexpr double least_letter =
+    6.0 * 96.0 / 72.0;  // pixels: 6 points, the smallest size that journals accept
 
 std::string white(const std::string& size, double font) {
   return fmt::format("size {} background '#ffffff' font 'DejaVu Sans,{:.4g}'", size, font);

@@ -24,7 +24,7 @@ void PictureTables::curves(const Curves& curves) {
 namespace {
 
 constexpr int pieces = 1200;                    // intervals of the time axis, about one per pixel
-constexpr std::size_t max_breakpoints = 10000;  // more than a picture can show
+constexpr std::size_t max_breakpoints = 10000;  // limit; a picture cannot show more
 
 /// Sign of a load: the acceleration a of the base acts as the load -M r a.
 double sign_of(const Load& load) { return load.kind == LoadKind::base ? -1.0 : 1.0; }

@@ -13,10 +13,11 @@ namespace signorini::result {
 
 namespace {
 
-constexpr std::size_t max_pictures = 40;  // if there are more frames, 40 are selected evenly
+constexpr std::size_t max_pictures = 40;  // limit; if there are more frames, 40 are selected evenly
 // Largest number of contacts whose labels show the forces; with more contacts labels show names only.
 constexpr std::size_t max_labelled = 6;
-constexpr std::size_t max_names = 30;  // with more contacts there are no labels
+// Limit of the number of contacts; with more contacts there are no labels.
+constexpr std::size_t max_names = 30;
 
 struct ShapePoint {
   std::string kind;

@@ -12,7 +12,7 @@
 namespace signorini::result {
 namespace {
 
-constexpr std::size_t most_points = 20000;  // per curve; more points only make an SVG slow
+constexpr std::size_t most_points = 20000;  // limit per curve, because more points make an SVG slow
 
 /// gnuplot option " every ..." for the row `index` of each time, in a table with `group` rows per time.
 std::string every(std::size_t times, std::size_t group, std::size_t index) {

@@ -16,9 +16,10 @@ namespace signorini::result {
 
 namespace {
 
-// Limit per contact. Beyond it, bands shorter than 1/5000 of the run are merged: a picture cannot show them.
+// Limit of the number of bands per contact. If there are more, bands shorter than 1/5000 of the run are merged, because a
+// picture cannot show them.
 constexpr std::size_t max_bands = 5000;
-constexpr double max_marks = 3000;                // per contact and type, over the picture's width
+constexpr double max_marks = 3000;                // limit of the number of marks per contact and event type
 constexpr const char* events_suffix = "-events";  // suffix for pictures from the first event to the last
 
 std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
@@ -52,7 +53,7 @@ std::size_t number_of(const ContactNumbers& numbers, const std::string& contact,
 
 bool shows(const PlottedRun& run, double t) { return t >= run.from && t <= run.to; }
 
-/// Extends `rows`, the rows of one name, by `row`; refuses the table if the row does not follow them.
+/// Extends `rows`, the rows of one name, by `row`; refuses the table if the row is not the next row after `rows`.
 void count(PlottedRun::Rows& rows, std::size_t row, const CsvReader& table, const char* of) {
   if (rows.count == 0) rows.first = row;
   if (row != rows.first + rows.count)
@@ -289,7 +290,7 @@ PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts, co
 }
 
 std::optional<PlottedRun> event_window(const TableFolder& tables, const PlottedRun& run) {
-  constexpr std::size_t most_contacts = 6;  // with more contacts there would be too many pictures
+  constexpr std::size_t most_contacts = 6;  // limit, because more contacts would need too many pictures
   double first = run.t_last, last = run.t_first;
   std::size_t changes = 0;
   for (const auto& bands : run.bands) {

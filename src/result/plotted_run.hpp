@@ -106,8 +106,8 @@ struct PlotWindow {
 /// are read. Errors: FileError; UsageError if the window contains no part of the run.
 [[nodiscard]] PlottedRun read_plotted_run(const TableFolder& tables, const RunFacts& facts,
                                           const PlotWindow& window);
-/// The run from its first change of state to the last, with a margin. nullopt if this is 60 % of the run or more, if
-/// there are fewer than four changes, or if there are more than six contacts.
+/// The part of the run from the first change of a contact state to the last, with a margin. nullopt if this is 60 % of the run
+/// or more, if there are fewer than four changes, or if there are more than six contacts.
 [[nodiscard]] std::optional<PlottedRun> event_window(const TableFolder& tables, const PlottedRun& run);
 /// Data of a run for pictures that overlay several runs: times, forces and ranges. t_end: end of the longest run.
 [[nodiscard]] PlottedRun read_compared(const TableFolder& tables, const RunFacts& facts, double t_end);

@@ -116,7 +116,7 @@ RunDirectory::~RunDirectory() = default;
 
 RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
-  check_run_directory(path_, options_.force);  // again, in case another process created it
+  check_run_directory(path_, options_.force);  // again, because another process may have created it
   const fs::path created = base::make_directory(path_);
   if (!lock_.take(path_))
     throw FileError(path_.string(), "another process is writing a run to this directory");

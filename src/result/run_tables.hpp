@@ -56,7 +56,7 @@ struct CurveRow {
 /// Columns of curves.csv.
 [[nodiscard]] const CsvTable<CurveRow>& curve_table();
 
-/// A node of an element (`element` counts from 1), or a named node without element.
+/// A node of an element (`element` is its number, from 1), or a named node without element.
 struct FrameRow {
   double t;
   const char* kind;

@@ -215,8 +215,8 @@ Energy Auditor::stored(const contact::ContactStates& states, const motion::Point
     m.vn = contact::gap_rate(contact, point.v);
     const double springs = contact::stored_energy(contact, states[k].state, m);
     (contact.compliance_split() ? e.elastic : e.contact) += springs;
-    if (const ShearElement* element =
-            contact.sliding_point()) {  // the springs of these contacts are part of the structure's stiffness
+    // The springs of a contact with a sliding point are part of K, so their energy moves from e.elastic to e.contact.
+    if (const ShearElement* element = contact.sliding_point()) {
       const double strain = element->body.dot(point.u) - contact.tangent.dot(point.u);
       const double energy = 0.5 * element->stiffness * strain * strain;
       e.contact += energy;

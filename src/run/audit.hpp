@@ -4,8 +4,8 @@
 //   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, kinetic in slip
 //   E_kin + E_el + E_contact + D_friction + D_damping + D_impact - W_loads - W_surface = const
 //
-// Contacts are checked after every step. Works and dissipations are integrals of powers (motion/point.hpp); the engine
-// computes them as accurately as the motion.
+// Contacts are checked after every step. The work of forces and the dissipated energies are integrals of power
+// (motion/point.hpp); the engine computes them as accurately as the motion.
 #pragma once
 
 #include "run/touch_tracker.hpp"
@@ -19,7 +19,7 @@ class Auditor {
  public:
   Auditor(const Model& model, const linear::SystemMatrices& structure);
 
-  /// Adds works and dissipations since the last call.
+  /// Adds the work and the dissipated energies since the last call.
   void add(const motion::WorkIntegrals& works);
 
   /// Starts the audit. first: contact states guessed before the decision at t = 0; point: the motion after this decision.
@@ -33,14 +33,15 @@ class Auditor {
                const contact::ContactStates& states, const motion::Point& point);
   /// Updates the largest residual of the equation of motion; `residual` is a force.
   void equilibrium(double t, double residual);
-  /// Adds works and dissipations at an instant: impacts, drops of friction forces, and jumps of massless parts.
+  /// Adds the work and the dissipated energies of an instant: impacts, drops of friction forces, and jumps of massless parts.
   void instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states,
                const motion::Point& before, const motion::Forcing& forcing, bool load_jumps);
-  /// Returns the energies at t, and audits their balance. ahead: the works after t that add() has received already.
+  /// Returns the energies at t, and audits their balance. ahead: the work done after t, which add() has received already.
   Energy energy(double t, const contact::ContactStates& states, const motion::Point& point);
   Energy energy(double t, const motion::WorkIntegrals& ahead, const contact::ContactStates& states,
                 const motion::Point& point);
-  /// Energies at an earlier point; the balance is not audited. works: the works after this point that add() has received.
+  /// Energies at an earlier point; the balance is not audited. works: the work done after this point, which add() has received
+  /// already.
   [[nodiscard]] Energy energy_before(const motion::WorkIntegrals& works, const contact::ContactStates& states,
                                      const motion::Point& point) const;
   [[nodiscard]] ContactSample sample(std::size_t contact, const motion::Forcing& forcing, double t,
@@ -67,13 +68,13 @@ class Auditor {
                                     const decide::Decision& decision) const;
   /// Updates the largest error of the balance; returns e without Model::correction_energy.
   Energy audit_balance(double t, Energy e);
-  /// Kinetic, elastic and contact energies; works and dissipations are zero.
+  /// Kinetic, elastic and contact energies; work and dissipated energies are zero.
   [[nodiscard]] Energy stored(const contact::ContactStates& states, const motion::Point& point) const;
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
   Audit audit_;
-  Energy work_;  // dissipations and works since t = 0
+  Energy work_;  // work and dissipated energies since t = 0
   std::vector<double> friction_;
   struct Place {
     double normal = 0.0, ut = 0.0;
@@ -85,7 +86,7 @@ class Auditor {
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
   LandingTracker landings_;
-  bool massless_;  // has_instantaneous_parts()
+  bool massless_;  // has_instantaneous_parts(model)
   bool begun_ = false;
 };
 

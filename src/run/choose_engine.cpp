@@ -36,13 +36,16 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
 
 namespace {
 
-constexpr int max_unknowns = 4000;  // mode shapes and their inverse take 16 n^2 bytes
-constexpr int min_unknowns =
-    16;  // with fewer unknowns, the modes of a state cost more than the series (validation/exact); chosen
+constexpr int max_unknowns = 4000;  // limit of n, because mode shapes and their inverse take 16 n^2 bytes
+// Least number of unknowns for modes: with fewer, the modes of a state cost more than the series (validation/exact). Chosen.
+constexpr int min_unknowns = 16;
 
-constexpr int min_damped_unknowns = 40;   // with fewer, the series costs less (validation/exact); chosen
-constexpr double worth = 2.0;             // required ratio of costs: series / complex modes of all states
-constexpr int max_damped_unknowns = 500;  // complex modes of a state take 120 n^2 bytes, and 5 s for n = 500
+// Least number of unknowns for complex modes: with fewer, the series costs less (validation/exact). Chosen value.
+constexpr int min_damped_unknowns = 40;
+// Complex modes of all states are chosen only if the series costs at least this many times as much.
+constexpr double worth = 2.0;
+// Limit of the number of unknowns n for complex modes: those of a state take 120 n^2 bytes, and 5 s for n = 500.
+constexpr int max_damped_unknowns = 500;
 
 bool has_rigid_rows(const Model& model) {
   return std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {

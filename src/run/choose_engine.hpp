@@ -46,8 +46,8 @@ struct FlowChoice {
 /// Kind of modes that a scene needs, and the reason if modes cannot compute its motion.
 struct ModalKind {
   bool damped = false;  ///< complex modes are needed, because damping is not proportional
-  bool too_many_springs =
-      false;              ///< some contact states may have too many springs for modes and need the series
+  /// Some contact states may have too many springs for modes and need the series.
+  bool too_many_springs = false;
   std::string objection;  ///< empty: modes can compute the scene
 };
 /// Kind of modes that this model needs.

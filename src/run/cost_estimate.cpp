@@ -24,10 +24,10 @@ struct StepTime {
 // rtol 1e-4, 1e-6, 1e-8, 1e-10. The step is limited by accuracy, h ~ rtol^(1/6), and by stability.
 constexpr double steps_at_stability = 12.0, steps_at_unit_tolerance = 3.1;
 constexpr StepTime time_of_bdf = {1e-6, 2e-8};
-// Measured on models/pipeline.toml with three meshes: radians of omega_max per step.
+// Measured on models/pipeline.toml with three meshes: omega_max h of a step h, in rad.
 constexpr double radians_of_series = 5.3;
 constexpr StepTime time_of_series = {4e-6, 3.5e-7};
-// Measured on beams with 100, 300 and 1000 contacts, 3 unknowns per contact: 0.5, 1.8, 4.2 ms.
+// Measured on beams with 100, 300 and 1000 contacts, 3 unknowns per contact: 0.5, 1.8, 4.2 ms per event.
 constexpr StepTime time_of_event = {1e-5, 1.5e-6};
 // Measured on models/pipeline.toml and a single mass.
 constexpr StepTime time_of_fixed_steps = {3e-7, 1.6e-8};
@@ -100,26 +100,28 @@ CostEstimate cost_of_fixed_steps(const CostInputs& parts) {
 
 namespace {
 
-constexpr double longest_first = 2.0;  // s, limit for the first step, which cannot be interrupted; chosen
-constexpr double times_as_long = 4.0,
-                 long_run = 5.0;  // least ratio, and least seconds, for a recommendation; chosen
+// Limit of the duration of the first step in s, because this step cannot be interrupted. Chosen value.
+constexpr double max_first_effort_seconds = 2.0;
+// Limits for a recommendation: least ratio of run times, and least duration of the run in s. Chosen values.
+constexpr double min_time_ratio = 4.0, long_run = 5.0;
 
-constexpr double least_steps = 10.0;  // least progress of a trial, in steps estimated by the rules; chosen
+// Least progress of an extrapolated trial, in steps estimated by the rules. Chosen value.
+constexpr double least_steps = 10.0;
 
 /// Recorder that ends a run after a given wall time. It stores no rows, because a trial's memory is added to the run's.
 class Stopwatch : public Recorder {
  public:
-  explicit Stopwatch(double seconds_limit) : patience_(seconds_limit) {}
+  explicit Stopwatch(double seconds_limit) : seconds_limit_(seconds_limit) {}
   void event(const Event& /*event*/) override {}
   void sample(const Sample& /*sample*/) override {}
   bool progress(double t) override {
     s = now();
-    if (s < 0.25 * patience_ || t_1 == 0.0) {
+    if (s < 0.25 * seconds_limit_ || t_1 == 0.0) {
       t_1 = t;
       s_1 = s;
     }
     t_reached = t;
-    return s < patience_;
+    return s < seconds_limit_;
   }
   [[nodiscard]] double now() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -128,7 +130,7 @@ class Stopwatch : public Recorder {
   double s = 0.0, s_1 = 0.0, t_1 = 0.0, t_reached = 0.0;
 
  private:
-  double patience_;
+  double seconds_limit_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -151,13 +153,13 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double s
   try {
     // A trial can be stopped only after its first step: if this step takes long, no trial is started.
     const CostEstimate effort = expected_cost(model, run).estimate;
-    if (effort.first > longest_first) return effort.seconds;
+    if (effort.first > max_first_effort_seconds) return effort.seconds;
     Stopwatch watch(seconds_limit);
     const Report report = signorini::simulate(model, run, watch);
     if (report.outcome.kind == Outcome::Kind::done) return watch.now();
     if (report.outcome.kind != Outcome::Kind::interrupted) return 0.0;
     const double moved = watch.t_reached - watch.t_1;
-    // If the trial has made only the small steps of the start, use the rule.
+    // A trial that has made only the small steps of the start is not extrapolated; the estimate by rules is returned.
     if (effort.steps > 0.0 && moved < least_steps * run.t_end / effort.steps) return effort.seconds;
     return extrapolated_seconds(run.t_end, {watch.t_1, watch.s_1}, {watch.t_reached, watch.s});
   } catch (const SceneError&) {
@@ -216,7 +218,7 @@ std::string trial_text(const std::vector<Trial>& trials) {
 std::string faster_engine_advice(const std::vector<Trial>& trials, Engine own, double seconds) {
   const auto best = std::min_element(trials.begin(), trials.end(),
                                      [](const Trial& a, const Trial& b) { return a.seconds < b.seconds; });
-  if (best == trials.end() || seconds < long_run || best->seconds * times_as_long > seconds) return "";
+  if (best == trials.end() || seconds < long_run || best->seconds * min_time_ratio > seconds) return "";
   return fmt::format("{} is expected to take {}; by their first steps: {}", to_string(own), about(seconds),
                      trial_text(trials));
 }

@@ -1,7 +1,7 @@
 // cost_estimate.hpp: estimated cost of a run, and of the same run with engine exact: by rules, or by trials of a few
 // steps.
 //
-// The highest frequency in these rules includes those of loads.
+// The highest frequency in these rules includes the frequencies of loads.
 #pragma once
 
 #include <optional>
@@ -26,15 +26,16 @@ struct CostEstimate {
   double steps_per_period = 0.0;  ///< period 2 pi / omega_max
   double steps = 0.0, seconds = 0.0;
   double first = 0.0;  ///< part of `seconds` before the first step ends: the modes of contact states
-  double by_series = 0.0,
-         by_modes = 0.0;  ///< engine exact: seconds with each flow; 0: this flow cannot compute the scene
+  /// Engine exact: seconds with each flow; 0: this flow cannot compute the scene.
+  double by_series = 0.0, by_modes = 0.0;
 };
 
 struct CostInputs {
   const Model& model;
   const RunSpec& run;
   const Method& method;
-  double omega_max;  ///< > 0; of the structure with all contacts sticking, and of harmonic loads
+  double
+      omega_max;  ///< highest frequency, > 0, of the structure with all contacts sticking and of harmonic loads
   long unknowns;
 };
 
@@ -61,7 +62,7 @@ struct CostInputs {
 struct Trial {
   Engine engine = Engine::automatic;
   double cutoff = 0.0;   ///< cutoff_frequency of [reduction]; 0: the model without reduction
-  double seconds = 0.0;  ///< expected for the whole run
+  double seconds = 0.0;  ///< expected duration of the whole run
 };
 
 /// Time t of the run, and the wall time at which the run reached t, in seconds since its start.
@@ -95,7 +96,8 @@ struct TrialTime {
 
 struct ExpectedCost {
   long unknowns = 0;
-  double omega_max = 0.0;  ///< of the structure with all contacts sticking, and of harmonic loads
+  /// Highest frequency of the structure with all contacts sticking and of harmonic loads.
+  double omega_max = 0.0;
   CostEstimate estimate;
 };
 

@@ -62,7 +62,7 @@ double Chebyshev::interpolate(const Values& values, std::size_t stride, double x
 Chebyshev::Values Chebyshev::slopes(const Values& values, std::size_t stride) {
   const Matrix& d = derivative_of(stride);
   Values result{};
-  // Differences of values give a constant the derivative exactly zero.
+  // With differences of values, the derivative of a constant is exactly zero.
   for (std::size_t i = 0; i <= last_node; i += stride)
     for (std::size_t j = 0; j <= last_node; j += stride) result[i] += d[i][j] * (values[j] - values[i]);
   return result;
@@ -84,11 +84,12 @@ double Chebyshev::extremum_between(const Values& slope, std::size_t stride, doub
 
 namespace {
 
-constexpr std::size_t max_of_a_kind = 24;  // limit for the displacement curves of one kind in a picture
+// Limit of the number of displacement curves of one kind in a picture.
+constexpr std::size_t max_of_a_kind = 24;
 constexpr std::size_t most_values = 100000, most_points = 8000, min_points = 2500;
 // A parabola's vertex is kept only if it exceeds the middle row by more than this fraction of the range so far.
 constexpr double least_rise = 1e-3;
-constexpr double turn = 1e-3;  // rad; smallest scale of rotations, so that 1e-15 rad is rounding
+constexpr double turn = 1e-3;  // rad; least scale of rotations, so that rotations of 1e-15 rad are rounding
 
 /// Vertex of the parabola through three rows; nullopt: the middle row is no peak, or two of the rows have the same time.
 std::optional<CurvePoint> vertex(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {

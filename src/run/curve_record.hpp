@@ -5,8 +5,8 @@
 //
 // A curve has rows on both sides of every instant, and at as many ends and interior points of steps as a drawn line
 // needs. The times are those of the contact rows (motion_record.hpp). Each curve is thinned separately (base/curves.hpp).
-// No parabola extends across an instant, whose two sides have the same time. The energies of an independent part are
-// passed to part_rows.hpp at once.
+// The two sides of an instant have the same time, so no parabola extends across an instant. The energies of an independent part
+// are passed to part_rows.hpp immediately.
 #pragma once
 
 #include <array>
@@ -72,7 +72,7 @@ struct Chebyshev {
 /// Columns of history.csv whose displacements pictures show.
 [[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
 
-/// Indices of the entries of a physical u that drawn_columns() needs.
+/// Indices into a physical u of the displacements in drawn_columns().
 [[nodiscard]] std::vector<int> drawn_entries(const Model& model);
 
 /// Largest number of points per curve, if pictures show `columns` displacements.
@@ -105,9 +105,9 @@ class CurveRecord {
     std::string name;
     Kind kind;
     int dof;        // index into the physical u; -1: a fixed direction or an energy
-    double factor;  // unit conversion
+    double factor;  // from the model's unit to the scene's
     base::Downsampled<CurvePoint, 1, ValueOf> points;
-    bool kept = true;  // false: EnergySum adds the energies of all parts
+    bool kept = true;  // false: not stored, because EnergySum adds the energies of all parts
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
 
     [[nodiscard]] double range() const {
@@ -123,7 +123,7 @@ class CurveRecord {
   const Model& model_;
   double t_end_, last_;
   double requested_spacing_ = std::numeric_limits<double>::infinity();
-  std::array<double, 4> greatest_{};  // largest value of each kind
+  std::array<double, 4> greatest_{};  // for each Kind: largest value of its curves
   bool enabled_;
   // Receives the energies of a part; empty for a whole model.
   std::function<void(double, const Energy&)> energies_;

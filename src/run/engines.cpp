@@ -28,7 +28,7 @@ constexpr const char* ida_instead = "use \"ida\"";
 
 void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
 
-void refuse_own_laws(const Model& model, const RunSpec& run) {
+void refuse_user_laws(const Model& model, const RunSpec& run) {
   for (const Contact& contact : model.contacts)
     if (contact.obeys_coulomb())
       continue;
@@ -42,7 +42,7 @@ void refuse_own_laws(const Model& model, const RunSpec& run) {
              ida_instead);
 }
 
-void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
+void refuse_nonlinear_laws(const Model& model, const RunSpec& run) {
   for (const Contact& contact : model.contacts) {
     if (contact.curved_surface())
       refuse(
@@ -59,9 +59,9 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
   }
 }
 
-void refuse_own_and_nonlinear_laws(const Model& model, const RunSpec& run) {
-  refuse_own_laws(model, run);
-  refuse_laws_that_are_not_linear(model, run);
+void refuse_user_and_nonlinear_laws(const Model& model, const RunSpec& run) {
+  refuse_user_laws(model, run);
+  refuse_nonlinear_laws(model, run);
 }
 
 void refuse_functions(const Model& model, const RunSpec& run) {
@@ -78,8 +78,8 @@ void refuse_functions(const Model& model, const RunSpec& run) {
 }
 
 /// Refusals of an engine that iterates on friction forces: such an engine cannot compute impulses of rigid contacts.
-void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
-  refuse_own_and_nonlinear_laws(model, run);
+void refuse_for_friction_iteration(const Model& model, const RunSpec& run) {
+  refuse_user_and_nonlinear_laws(model, run);
   refuse_functions(model, run);
   for (const Contact& contact : model.contacts) {
     if (contact.takes_impulses())
@@ -98,19 +98,20 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
 
 /// A step of the series covers a few radians of the highest frequency. After 1/eps radians, such a step no longer changes
 /// the time as a double.
-void refuse_endless_series(const Model& model, const RunSpec& run) {
+void refuse_unresolved_steps(const Model& model, const RunSpec& run) {
   const double radians = model.omega_max * run.t_end;
   if (!(radians > 1.0 / rounding::eps) || choose_flow(model, run).modal) return;
-  refuse(run,
-         fmt::format("follows the highest frequency, {:.3g} rad/{}, by series: {:.2g} radians to t_end; a "
-                     "step is shorter than the resolution of a double at that time",
-                     model::in_scene_units(model, model.omega_max, unit::rate), model.units.time, radians),
-         "use \"ida\", or less stiffness");
+  refuse(
+      run,
+      fmt::format("computes the highest frequency, {:.3g} rad/{}, by series; its phase advances by {:.2g} "
+                  "radians until t_end, so that a step is shorter than the resolution of t_end as a double",
+                  model::in_scene_units(model, model.omega_max, unit::rate), model.units.time, radians),
+      "use \"ida\", or less stiffness");
 }
 
 /// Refusals of a series, which must include all terms of polynomials in the forcing.
-void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
-  refuse_laws_that_are_not_linear(model, run);
+void refuse_for_series(const Model& model, const RunSpec& run) {
+  refuse_nonlinear_laws(model, run);
   refuse_functions(model, run);
   const auto check = [&](const History& history, const std::string& what) {
     for (const Piece& p : history.pieces())
@@ -126,7 +127,7 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
     check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
     check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
   }
-  refuse_endless_series(model, run);
+  refuse_unresolved_steps(model, run);
 }
 
 Method closed_flow(const Model& model, const RunSpec& run) {
@@ -178,7 +179,7 @@ std::unique_ptr<engine::Stepper> make_friction_iteration(const EngineParts& p) {
 
 bool always(const RunSpec& /*run*/) { return true; }
 bool never(const RunSpec& /*run*/) { return false; }
-bool unless_interpolated(const RunSpec& run) { return run.refine != Refine::linear; }
+bool refines_on_exact_motion(const RunSpec& run) { return run.refine != Refine::linear; }
 bool all_flights(const Model& /*model*/) { return true; }
 bool no_flights(const Model& /*model*/) { return false; }
 
@@ -190,7 +191,7 @@ constexpr std::array rows_of_engines = {
                .laws_at_step_ends = true,
                .locates_events = always,
                .resolves_low_flights = all_flights},
-              refuse_long_polynomials_too,
+              refuse_for_series,
               closed_flow,
               make_exact,
               cost_of_exact},
@@ -208,16 +209,16 @@ constexpr std::array rows_of_engines = {
               EngineRole::fixed_steps,
               {.discrete_derivatives = true,
                .laws_at_step_ends = true,
-               .locates_events = unless_interpolated,
+               .locates_events = refines_on_exact_motion,
                .resolves_low_flights = no_flights},
-              refuse_own_and_nonlinear_laws,
+              refuse_user_and_nonlinear_laws,
               fixed_steps,
               make_newmark,
               cost_of_fixed_steps},
     EngineRow{Engine::friction_iteration,
               EngineRole::none,
               {.locates_events = never, .resolves_low_flights = no_flights},
-              refuse_rigid_contacts_too,
+              refuse_for_friction_iteration,
               fixed_steps,
               make_friction_iteration,
               cost_of_fixed_steps},

@@ -50,7 +50,7 @@ enum class EngineRole : unsigned char {
   /// The motion between events is exact up to rounding. Chosen automatically for accepted scenes of low cost; companion
   /// run of all other engines.
   closed_form,
-  /// Accepts every scene; chosen if closed_form is not; companion of fixed steps if exact refuses the scene.
+  /// Accepts every scene. Chosen automatically if closed_form is not; companion run of fixed steps if exact refuses the scene.
   integrator,
   fixed_steps,  ///< independent method for `verify`, which halves its steps
 };

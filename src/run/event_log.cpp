@@ -14,16 +14,16 @@
 namespace signorini::run {
 namespace {
 
-// Hits of coupled contacts closer than this fraction of t cause a warning. Chosen value: data are rarely known more
-// accurately; tests/behaviour/awkward.cpp depends on it.
+// Hits of coupled contacts whose times differ by less than this fraction of t cause a warning. Chosen value: data are rarely
+// known more accurately; tests/behaviour/awkward.cpp depends on it.
 constexpr double coincidence = 1e-9;
 
 bool is_hit(const decide::Decision& decision, std::size_t k) {
   return !decision.impulses.empty() && decision.impulses[k].hit;
 }
 
-/// Value of Event::departure: the ratio of the rebound or of the later departure, whichever was closer to the decision
-/// limit 1; nullopt: neither is known.
+/// Value of Event::departure: a speed relative to the least speed of a rebound. A rebound below the limit 1 counts alone;
+/// otherwise, of the rebound and the later departure, the one closer to 1. nullopt: neither is known.
 std::optional<double> departure_of(const decide::Decision& decision, std::size_t k) {
   const auto known = [](double ratio) { return std::isfinite(ratio) && ratio > 0.0; };
   const double rebound =
@@ -47,7 +47,7 @@ void settle(const Contact& contact, double error, Event& event) {
 }
 
 /// True if the sliding point can jump: it has no mass, or a spring connects it to the mass.
-bool can_slide_at_once(const Model& model, const Contact& contact) {
+bool can_slide_instantaneously(const Model& model, const Contact& contact) {
   return !contact.takes_impulses() && (!contact.sticks_rigidly() || decide::acts_on_massless(model, contact));
 }
 
@@ -92,8 +92,8 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
 
 }  // namespace
 
-std::optional<EventType> classify(State from, State to, bool let_go) {
-  if (from == to) return let_go ? std::optional(EventType::slip) : std::nullopt;
+std::optional<EventType> classify(State from, State to, bool slipped_within_instant) {
+  if (from == to) return slipped_within_instant ? std::optional(EventType::slip) : std::nullopt;
   if (is_open(to)) return EventType::separation;
   if (is_open(from)) return EventType::contact;
   if (slip_sign(from) != 0 && slip_sign(to) != 0) return EventType::reversal;
@@ -123,9 +123,10 @@ void EventLog::instant(const Instant& now, const engine::Stepper& stepper) {
   const decide::Decision& decision = *now.decision;
   for (std::size_t k = 0; k < now.before->size(); ++k) {
     const State from = in_events((*now.before)[k].state), to = in_events(decision.states[k].state);
-    const bool let_go = from == State::stick && decision.visited[k] && decision.jumped[k] &&
-                        can_slide_at_once(model_, model_.contacts[k]);
-    auto type = is_hit(decision, k) ? std::optional(EventType::impact) : classify(from, to, let_go);
+    const bool slipped_within_instant = from == State::stick && decision.visited[k] && decision.jumped[k] &&
+                                        can_slide_instantaneously(model_, model_.contacts[k]);
+    auto type =
+        is_hit(decision, k) ? std::optional(EventType::impact) : classify(from, to, slipped_within_instant);
     if (!type && now.load_jumps && decision.jumped[k]) type = EventType::time;
     if (type) contact(now, k, *type, stepper);
   }
@@ -198,7 +199,7 @@ void EventLog::add_conditioning(const Instant& now, const engine::Stepper& stepp
 
 namespace {
 
-constexpr int max_warnings = 5;  // limit for warnings about pairs of events whose order is unknown
+constexpr int max_warnings = 5;  // limit of the number of warnings about pairs of events in unknown order
 
 }  // namespace
 
@@ -231,7 +232,7 @@ void EventOrder::warn(const std::string& which) {
 void EventOrder::finish() {
   if (unordered_ > max_warnings)
     report_.warnings.push_back(
-        fmt::format("{} more pairs of events whose order is not determined", unordered_ - max_warnings));
+        fmt::format("the order of {} more pairs of events is not determined", unordered_ - max_warnings));
 }
 
 }  // namespace signorini::run

@@ -13,7 +13,7 @@
 //
 // Uncertainty of a time: an error delta of the guard g shifts the event by the smallest of (m! delta / |g^(m)|)^(1/m),
 // m = 1, 2, ... A warning reports events that are closer than their uncertainties, because their order is unknown. It
-// also reports hits of coupled contacts whose times differ by less than the data are accurate: delta does not include
+// also reports hits of coupled contacts whose times differ by less than the accuracy of the data: delta does not include
 // accumulated errors, and successive hits have other results than simultaneous hits.
 #pragma once
 
@@ -37,7 +37,7 @@ class EventOrder {
   /// Model and report must outlive the object. Warnings go to the report.
   EventOrder(const Model& model, Report& report) : model_(model), report_(report) {}
 
-  /// Adds an event whose t_uncertainty is known. resolution: times closer than this are one instant.
+  /// Adds an event whose t_uncertainty is known. resolution: times that differ by at most this are one instant.
   void event(const Event& event, double resolution);
   void load_jump(double t);
   void warn(const std::string& which);
@@ -52,9 +52,9 @@ class EventOrder {
   int unordered_ = 0;  // number of pairs of events whose order is unknown
 };
 
-/// Event type of a change of state; nullopt if the change is no event. let_go: the contact sticks before and after the
+/// Event type of a change of state; nullopt if the change is no event. slipped_within_instant: the contact sticks before and after the
 /// instant, but slipped within it.
-[[nodiscard]] std::optional<EventType> classify(State from, State to, bool let_go);
+[[nodiscard]] std::optional<EventType> classify(State from, State to, bool slipped_within_instant);
 
 /// Uncertainty of the time at which a guard is zero. error: error of the guard's value; nullopt: all known derivatives of
 /// the guard are zero.

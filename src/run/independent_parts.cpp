@@ -14,7 +14,7 @@
 namespace signorini::run {
 namespace {
 
-constexpr std::size_t max_of_all_parts = 50;  // limit for the different warnings of all parts
+constexpr std::size_t max_of_all_parts = 50;  // limit of the number of different warnings of all parts
 
 int number_of(const assembly::PartModel& part, int contact) {
   return contact < 0 ? contact : static_cast<int>(part.contacts[static_cast<std::size_t>(contact)]);
@@ -111,7 +111,7 @@ double merge_results(const Model& whole, const std::vector<assembly::PartModel>&
   }
   if (unique.size() > max_of_all_parts)
     report.warnings.push_back(
-        fmt::format("{} more warnings of uncoupled parts", unique.size() - max_of_all_parts));
+        fmt::format("{} more warnings of uncoupled parts are omitted", unique.size() - max_of_all_parts));
   std::vector<Violation>& found = report.law_checks.violations;
   std::stable_sort(found.begin(), found.end(),
                    [](const Violation& a, const Violation& b) { return a.t < b.t; });
@@ -124,9 +124,9 @@ namespace {
 /// Least number of stages in t_end. All parts reach the end of a stage before the next stage starts, so rows wait, and an
 /// interrupted run loses, at most one stage. Chosen value.
 constexpr double stages = 32.0;
-constexpr double max_waiting = 8e6;  // limit for the count of numbers in waiting rows
-constexpr std::size_t max_events =
-    2000;  // events per stage (less than a megabyte); after more events, the next stage is shorter
+constexpr double max_waiting = 8e6;  // limit of the number of values in waiting rows
+// Limit of the number of events in a stage (less than a megabyte); after more events, the next stage is shorter.
+constexpr std::size_t max_events = 2000;
 
 /// Run data with the flow that was chosen for the whole model, so that all parts use the same flow.
 RunSpec as_chosen(RunSpec spec, const Method& method) {
@@ -212,7 +212,7 @@ class IndependentParts {
     return over() ? 0 : rows_.forward(until == spec_.t_end ? until : reached(), until == spec_.t_end);
   }
 
-  /// Earliest time reached by any part: all rows up to it are complete.
+  /// Earliest time reached by any part: all rows up to this time are complete.
   [[nodiscard]] double reached() const {
     double t = spec_.t_end;
     for (const auto& loop : loops_) t = std::min(t, loop->t());
@@ -231,7 +231,7 @@ class IndependentParts {
     stopped_ = &parts_[i];
   }
 
-  /// Advances all parts to the time at which a part stopped: this time may lie far beyond the stage.
+  /// Advances all parts to the time at which a part stopped, which may be far later than the end of the stage.
   void catch_up() {
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
       loops_[i]->advance_to(end_);

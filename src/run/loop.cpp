@@ -88,8 +88,10 @@ bool Loop::refuse(const Refusal& refusal) {
   return stop(refusal.reason);
 }
 
-/// Returns false, and stops the run, if the motion so far violates a law without an explanation.
-bool Loop::laws_hold() { return record_.law_violated().empty() || stop(record_.law_violated()); }
+/// Returns false, and stops the run, if the law checker has found an unexplained violation (Violation::unexplained).
+bool Loop::has_no_unexplained_violation() {
+  return record_.law_violated().empty() || stop(record_.law_violated());
+}
 
 motion::Point Loop::decided_point(const decide::Decision& decision) const {
   motion::Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
@@ -99,7 +101,7 @@ motion::Point Loop::decided_point(const decide::Decision& decision) const {
 
 bool Loop::start() {
   State& s = state_;
-  s.point.u = model_.u0;  // last point of the run if its first states cannot be decided
+  s.point.u = model_.u0;  // last point of the run if the contact states at t = 0 cannot be decided
   s.point.v = model_.v0;
   decide::Instant now;
   now.u = model_.u0;
@@ -131,7 +133,7 @@ bool Loop::start() {
   // If squares of the motion exceed the range of doubles, the energy balance is unknown.
   if (!std::isfinite(record_.energy().balance()))
     return stop("the energy at the start exceeds the range of doubles");
-  return laws_hold();
+  return has_no_unexplained_violation();
 }
 
 /// Makes one step of the engine. If the step ends at an instant, decides the contact states there. Returns false if the run
@@ -257,7 +259,7 @@ bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<cont
   touches_.instant(s.t, old_states, next);
   s.decision = std::move(next);
   s.point = std::move(after);
-  return laws_hold();
+  return has_no_unexplained_violation();
 }
 
 RunEnd Loop::end() {

@@ -39,7 +39,7 @@ class Loop {
 
   /// Decides the states at t = 0. Called once, first.
   void begin();
-  /// True if the states could be decided.
+  /// True if the contact states at t = 0 could be decided.
   [[nodiscard]] bool begun() const { return begun_; }
   /// Advances to the first step that ends at `until` or later, to t_end at most, or until the run stops.
   void advance_to(double until);
@@ -60,7 +60,7 @@ class Loop {
   bool steered();
   bool instant(std::vector<decide::TriggeredGuard> fired,
                std::optional<contact::ContactStates> adopted = std::nullopt);
-  [[nodiscard]] bool laws_hold();
+  [[nodiscard]] bool has_no_unexplained_violation();
   [[nodiscard]] decide::Instant instant_now(std::vector<decide::TriggeredGuard> fired) const;
   [[nodiscard]] motion::Point decided_point(const decide::Decision& decision) const;
   [[nodiscard]] RunPoint current_point() const {

@@ -12,13 +12,13 @@
 namespace signorini::run {
 namespace {
 
-// Limits for the number of rows: the file then has at most about five megabytes if motions are slow.
+// Limits of the number of rows: with these limits the file has at most about five megabytes if motions are slow.
 constexpr std::size_t max_in_all = 40000, max_of_one = 8000, min_of_one = 400;
 constexpr double min_intervals = 250.0;  // least number of row intervals in a run, also for a contact at rest
-constexpr std::size_t max_drawn = 24;    // number of contacts with a picture
+constexpr std::size_t max_drawn = 24;    // limit of the number of contacts with a picture
 // The widest picture has 1250 pixels per run, so straight lines have fewer than two rows per pixel.
 constexpr double pieces_of_run = 2000.0;
-constexpr double growth = 0.2;  // growth of the row spacing per elapsed time; chosen
+constexpr double growth = 0.2;  // growth of the row spacing per elapsed time. Chosen value
 
 }  // namespace
 
@@ -53,7 +53,8 @@ void MotionRecord::step(double begin, double end, std::span<const double> turnin
 std::optional<MotionRecord::RowTime> MotionRecord::next() {
   const double never = std::numeric_limits<double>::infinity();
   const double turn = turn_ < turns_.size() ? turns_[turn_] : never;
-  double line = enabled_ ? std::max(at_, last_ + spacing_) : never;  // does not depend on the step size
+  // Next row for drawn lines: independent of the step size.
+  double line = enabled_ ? std::max(at_, last_ + spacing_) : never;
   if (!(line < end_ - 0.5 * spacing_)) line = never;
   if (turn == never && line == never) return std::nullopt;
   at_ = std::min(turn, line);

@@ -62,7 +62,7 @@ class MotionRecord {
   void write(Recorder& recorder);
 
  private:
-  /// Values of a row that decide its thinning; the state is one of them, so both sides of a change of state remain.
+  /// Values of a row by which rows are thinned; the state is one of them, so both sides of a change of state remain.
   struct Drawn {
     std::array<double, 5> operator()(const MotionRow& row) const {
       return {row.sample.N, row.sample.T, row.sample.gap, row.sample.ut,
@@ -84,7 +84,8 @@ class MotionRecord {
   double spacing_;  // row spacing that drawn lines need
   bool enabled_;
   double last_ = 0.0, adapted_ = 0.0;
-  double requested_spacing_ = std::numeric_limits<double>::infinity();  // least since the last adapt()
+  // Least spacing requested since the last call of adapt().
+  double requested_spacing_ = std::numeric_limits<double>::infinity();
   // Largest values of all drawn contacts.
   double force_ = 0.0, length_ = 0.0;
   double at_ = 0.0, end_ = 0.0;  // current time and end of the step

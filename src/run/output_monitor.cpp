@@ -82,7 +82,7 @@ double magnitude_of(const Output& output, double t, motion::Side side, const mot
 
 namespace {
 
-// Extremes whose relative difference is smaller are equal; the earlier extreme keeps its time.
+// Two extremes are equal if their relative difference is smaller than this; the earlier extreme is then reported.
 constexpr double tie = rounding::few_operations;
 // Allowed error of p, as a fraction of |r|, if the turning points of p are used. A phase error d of a turning point changes
 // the extreme by about |r| d^2.
@@ -90,7 +90,8 @@ constexpr double located = 1e-12;
 // Length of a part in radians of the fastest motion: five points detect whether the motion oscillates there. Chosen value;
 // a single peak that is narrower than a fifth of a part may be missed.
 constexpr double longest = 32.0;
-// Limit for the number of parts in a run: they have at least 1e8 points, which take hours for most models. Chosen value.
+// Limit of the number of parts in a run. So many parts have at least 1e8 points, whose evaluation takes hours for most models.
+// Chosen value.
 constexpr double max_pieces = 1e7;
 // Motion below this fraction of the allowed error need not be resolved: a polynomial through 17 points has an error of
 // less than four times the unresolved motion (1 + the Lebesgue constant of the points).
@@ -302,7 +303,7 @@ void OutputMonitor::sample(engine::DenseOutput& motion, const Part& part, double
     const Watched& watched = watched_[k];
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
       samples_[i][point] = value_of(*forms_[i], t, side, point_, model_.layout, none_);
-      // The many forms of segments have their magnitudes computed only once per part.
+      // Segments have many forms, so their magnitudes are computed only once per part.
       if (watched.stretch < 0 || point == 0)
         magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_, model_.layout));
     }
@@ -345,7 +346,8 @@ bool OutputMonitor::settled(const Watched& watched, engine::DenseOutput& motion,
   const ValueBounds at = bounds_along(all, stride, false);
   if (within(at, 2.0 * error + (at.greatest - at.least))) return true;
   if (stride < 4 && within(bounds_along(all, stride, true), 2.0 * error)) return true;
-  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // the samples are included
+  // Largest value so far, including the samples of this part.
+  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));
   double magnitude = 0.0;
   for (std::size_t i = watched.first; i < watched.first + watched.count; ++i)
     magnitude = std::max(magnitude, magnitudes_[i]);

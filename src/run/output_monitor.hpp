@@ -76,14 +76,14 @@ class OutputMonitor {
   /// Largest |sum of reactions - loads + inertia| of all rows, a force.
   [[nodiscard]] const Extreme& reactions() const { return reactions_; }
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
-  /// Warning if the motion has more turning points than the search could resolve; nullopt: none.
+  /// Warning if the motion has more turning points than the search could resolve; nullopt: no warning.
   [[nodiscard]] const std::optional<std::string>& coarse_warning() const { return coarse_warning_; }
 
  private:
   /// A function of time with sample points: a linear output, or a segment of another output.
   struct Watched {
     std::size_t output = 0;
-    int stretch = -1;                  ///< -1: a linear output
+    int stretch = -1;                  ///< index of the segment; -1: a linear output
     std::size_t first = 0, count = 1;  ///< range of indices in forms_
   };
   struct Part {

@@ -98,22 +98,22 @@ double FastModeCutoff::max_rate(double radians, double begin, double end) {
 double FastModeCutoff::output_rate(
     const engine::FastModes& modes, double all,
     const std::function<bool(const engine::FastModeBound&)>& is_rounding) const {
-  const auto quiet_above = [&](double omega) {
+  const auto is_rounding_above = [&](double omega) {
     const auto ripple = modes.fast_mode_bound(omega);
     return ripple && is_rounding(*ripple);
   };
   double from = load_rate_, to = all;
-  if (quiet_above(from)) return from;
+  if (is_rounding_above(from)) return from;
   while (to > 2.0 * from) {
     const double middle = std::sqrt(from) * std::sqrt(to);
-    (quiet_above(middle) ? to : from) = middle;
+    (is_rounding_above(middle) ? to : from) = middle;
   }
   return to;
 }
 
 namespace {
 
-// Bisections of the interval between two points: the time of a peak is then exact to 1e-12 of the part.
+// Number of bisections between two points: 40 bisections locate a peak to 1e-12 of the part.
 constexpr int halvings = 40;
 
 ValueBounds bounds_of(const Chebyshev::Values& values, std::size_t stride, bool between) {
@@ -206,18 +206,18 @@ base::PolynomialInterpolation::Values values_along(std::span<const Chebyshev::Va
 
 std::vector<double> peaks_along(std::span<const Chebyshev::Values> f, std::size_t stride, double sign,
                                 double known) {
-  const PeakSearch crests(f, stride, sign);
+  const PeakSearch peaks_of_form(f, stride, sign);
   const Chebyshev::Values& x = Chebyshev::nodes();
   std::vector<double> peaks;
-  PeakPoint before = crests.at(x[0]);
+  PeakPoint before = peaks_of_form.at(x[0]);
   for (std::size_t j = stride; j < Chebyshev::count; j += stride) {
-    const PeakPoint after = crests.at(x[j]);
+    const PeakPoint after = peaks_of_form.at(x[j]);
     const bool turns = before.rate > 0.0 && after.rate <= 0.0;
     if (turns && greatest_below_tangents(before, after, x[j] - x[j - stride]) > sign * known) {
       double rising = x[j - stride], falling = x[j];
       for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (rising + falling);
-        (crests.at(middle).rate > 0.0 ? rising : falling) = middle;
+        (peaks_of_form.at(middle).rate > 0.0 ? rising : falling) = middle;
       }
       peaks.push_back(0.5 * (rising + falling));
     }

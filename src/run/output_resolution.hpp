@@ -52,7 +52,7 @@ class FastModeCutoff {
   const Model& model_;
   double t_end_;
   std::vector<double> changes_;  // times at which the fastest acting load changes, ascending
-  std::vector<double> fastest_;  // rate of this load: before changes_[0], then from each changes_[i] on
+  std::vector<double> fastest_;  // rate of that load: [0] before changes_[0], [i + 1] from changes_[i] on
   double load_rate_ = 0.0;       // rate of the fastest load in the step, at least 1/t_end
 };
 

@@ -24,10 +24,10 @@ class OutputSampler {
 
   /// The next output time or frame time; infinity after the last time.
   [[nodiscard]] double next() const;
-  /// Records the row at t = next(). ahead: the works after t that the auditor has received already.
+  /// Records the row at t = next(). ahead: the work done after t, which the auditor has received already.
   void emit(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
             const contact::ContactStates& states, const motion::Point& point);
-  /// Sample at t; its pointers u and v are valid until the next call. ahead: the works after t, as in emit().
+  /// Sample at t; its pointers u and v are valid until the next call. ahead: the work done after t, as in emit().
   [[nodiscard]] Sample sample(double t, const motion::WorkIntegrals& ahead, const motion::Forcing& forcing,
                               const contact::ContactStates& states, const motion::Point& point);
 

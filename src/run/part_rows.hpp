@@ -37,8 +37,8 @@ struct PartShare {
   std::size_t contacts = 0, columns = 0;  ///< numbers of contacts and of drawn columns in the whole model
   std::vector<std::size_t> numbers = {};  ///< for each contact of the part: its index in the whole model
   std::shared_ptr<const std::vector<double>> grid = nullptr;  ///< output times; null: those of the RunSpec
-  std::function<void(double t, const Energy&)> energies =
-      {};  ///< receives the part's energies at the rows that a picture needs
+  /// Receives the part's energies at the rows that a picture needs.
+  std::function<void(double t, const Energy&)> energies = {};
 
   [[nodiscard]] bool whole() const { return parts == 1; }
   [[nodiscard]] std::size_t number(std::size_t k) const { return whole() ? k : numbers[k]; }

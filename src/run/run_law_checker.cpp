@@ -290,7 +290,8 @@ void RunLawChecker::instant(const Instant& now) {
   record.forgiven = d.tolerated_violation;
   record.eigenvector_condition = now.eigenvector_condition;
   if (has_constraints_)
-    held_forces_ = std::max(held_forces_, law_checker_.constraint_force_terms(record.after));
+    max_constraint_force_terms_ =
+        std::max(max_constraint_force_terms_, law_checker_.constraint_force_terms(record.after));
   for (std::size_t k = 0; k < observed_peaks_.size(); ++k)
     observed_peaks_[k].surface = std::max(observed_peaks_[k].surface, std::abs(record.before.driven[k].s));
   for (const std::size_t turns : {0U, 1U})
@@ -384,7 +385,7 @@ void RunLawChecker::peaks(double t, const std::vector<Peak>& recorded) {
     const double force =
         (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
         (rounding::elimination + law_check::tolerance_factor * tol.rtol) * (p.most.N + p.most.T) +
-        (c.normal_spring() ? 0.0 : rounding::elimination * held_forces_) +
+        (c.normal_spring() ? 0.0 : rounding::elimination * max_constraint_force_terms_) +
         law_check::tolerance_factor * tol.force;
     const auto check = [&](double farthest, double recorded_value, double limit, const Unit& unit) {
       if (farthest - recorded_value > limit)
@@ -402,12 +403,12 @@ void RunLawChecker::store_violations(std::vector<Violation> found) {
   ++law_checks_.checked;
   law_checks_.violated += static_cast<long>(found.size());
   for (Violation& v : found) {
-    if (v.unexplained && law_violated_.empty()) {
+    if (v.unexplained && unexplained_violation_.empty()) {
       Violation shown = v;
       shown.t = model::time_in_scene_units(model_, v.t);
       shown.value = model::in_scene_units(model_, v.value, v.unit);
       shown.limit = model::in_scene_units(model_, v.limit, v.unit);
-      law_violated_ = sentence_of(shown, model_);
+      unexplained_violation_ = sentence_of(shown, model_);
     }
     if (law_checks_.violations.size() < max_stored_violations) law_checks_.violations.push_back(std::move(v));
   }

@@ -49,8 +49,8 @@ class CheckedMotion {
  public:
   CheckedMotion(const Model& model, const CheckedEngine& engine);
 
-  /// Updates the largest displacements and velocities. Called at instants only: values between two instants are hardly
-  /// larger, or not larger than the scene's scales.
+  /// Updates the largest displacements and velocities. Called at instants only: between two instants the values are hardly
+  /// larger, or stay below the scene's scales.
   void update_maxima(const law_check::LawChecker& witness, const Vector& u, const Vector& v);
   /// Value of CheckedSide::acceleration_terms for the acceleration a. dependence: StepFacts::eigenvector_condition.
   [[nodiscard]] std::array<double, 2> acceleration_terms(const law_check::LawChecker& witness,
@@ -72,17 +72,18 @@ class CheckedMotion {
   double step_;                      // LawLimits::step
   std::vector<std::size_t> driven_;  // contacts whose surface motion or given normal force may change
   std::vector<double> jerk_;         // |s'''| of each surface just after the last instant
-  // Largest |u_i|, |v_i|: translations, rotations.
+  // Largest |u_i| and |v_i| so far: [0] of translations, [1] of rotations.
   std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};
   double energy_ = 0.0;  // largest LawChecker::twice_energy
   // Largest v^T M v, if motions are sums over modes.
   double kinetic_ = 0.0;
-  // For each contact: LawChecker::speed_per_energy_root, and this * sqrt(energy_).
+  // For each contact: LawChecker::speed_per_energy_root, and its product with sqrt(energy_).
   std::vector<double> lightness_, speeds_;
   std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // LawChecker::modal_size
 };
 
-inline constexpr std::size_t max_stored_violations = 100;  // further violations are counted, but not stored
+/// Limit of the number of stored violations; further violations are only counted.
+inline constexpr std::size_t max_stored_violations = 100;
 
 /// Position of a contact at the start, and its largest distances from this position.
 struct ObservedPeak {
@@ -118,8 +119,8 @@ class RunLawChecker {
   /// Checks, at the end of the run, that no observed value exceeds the recorded peaks.
   void peaks(double t, const std::vector<Peak>& recorded);
 
-  /// Message about the first violation without an explanation, for which the run must end; empty: no such violation.
-  [[nodiscard]] const std::string& unexplained() const { return law_violated_; }
+  /// Message about the first unexplained violation, after which the run must end; empty: no such violation.
+  [[nodiscard]] const std::string& unexplained() const { return unexplained_violation_; }
   /// Violations so far, in the units of the computed model.
   [[nodiscard]] LawCheckSummary& law_checks() { return law_checks_; }
 
@@ -137,13 +138,14 @@ class RunLawChecker {
   std::vector<ObservedPeak> observed_peaks_;
   std::array<double, 2> reached_ = {0.0, 0.0};  // largest CheckedSide::max_u
   bool has_constraints_ = false;                // some contact has no spring: its forces enforce constraints
-  double held_forces_ = 0.0;  // largest LawChecker::constraint_force_terms; 0 without such a contact
+  double max_constraint_force_terms_ =
+      0.0;  // largest LawChecker::constraint_force_terms; 0 without such a contact
   LawCheckSummary law_checks_;
-  std::string law_violated_;
+  std::string unexplained_violation_;
 };
 
-/// Sentence about a violation, with the values of `violation` unconverted: "the structure violates a law (momentum) at
-/// t = 0.1: error 12.6, allowed 3e-12".
+/// Sentence about a violation, in the units of `violation`: "the structure violates a law (momentum) at t = 0.1: error 12.6,
+/// allowed 3e-12".
 [[nodiscard]] std::string sentence_of(const Violation& violation, const Model& model);
 /// Sentence about the first violation, with the number of violations if there are several.
 [[nodiscard]] std::string sentence_of(const LawCheckSummary& law_checks, const Model& model);

@@ -9,42 +9,43 @@
 namespace signorini::run {
 namespace {
 
-// A bouncing ball comes to rest after 2000 events if e = 0.99, and after 20000 events, in a longer time, if e = 0.999.
-constexpr int watched_events = 10000;
-constexpr double least_progress = 1e-5;          // least duration of watched_events, as a fraction of the run
+// Number of events between two checks of progress. A bouncing ball has 2000 events before rest if e = 0.99; with e = 0.999 it
+// has 20000 events, but in a longer time.
+constexpr int events_per_check = 10000;
+constexpr double least_progress = 1e-5;  // least duration of events_per_check, as a fraction of the run
 constexpr double resolutions_of_instant = 10.0;  // duration of one instant, in resolutions of the clock
 
 }  // namespace
 
 std::optional<std::string> StallDetector::count(double t, double resolution,
                                                 const std::vector<std::size_t>& contacts) {
-  after_mark_.insert(contacts.begin(), contacts.end());
+  contacts_since_check_.insert(contacts.begin(), contacts.end());
   if (auto reason = slow_progress(t)) return reason;
-  if (at_once_ == 0 || t - cluster_ > resolutions_of_instant * resolution) {
+  if (events_in_cluster_ == 0 || t - cluster_ > resolutions_of_instant * resolution) {
     cluster_ = t;
-    at_once_ = 0;
+    events_in_cluster_ = 0;
     in_cluster_.clear();
   }
   in_cluster_.insert(contacts.begin(), contacts.end());
-  if (++at_once_ <= max_at_once_) return std::nullopt;
+  if (++events_in_cluster_ <= max_at_once_) return std::nullopt;
   contacts_ = in_cluster_;
   return fmt::format("{} events at one instant; time does not advance", max_at_once_);
 }
 
 std::optional<std::string> StallDetector::slow_progress(double t) {
-  if (++since_mark_ < watched_events) return std::nullopt;
-  const double advanced = t - mark_;
-  since_mark_ = 0;
-  mark_ = t;
-  contacts_ = std::exchange(after_mark_, {});
+  if (++events_since_check_ < events_per_check) return std::nullopt;
+  const double advanced = t - last_check_t_;
+  events_since_check_ = 0;
+  last_check_t_ = t;
+  contacts_ = std::exchange(contacts_since_check_, {});
   if (advanced >= least_progress * t_end_) return std::nullopt;
-  return fmt::format("{} events within {:.3g} of time; the motion does not advance", watched_events,
+  return fmt::format("{} events within {:.3g} of time; the motion does not advance", events_per_check,
                      advanced * unit_);
 }
 
 namespace {
 
-constexpr double large = 0.25;  // rad; 1 - cos is 3 %. Chosen value
+constexpr double large = 0.25;  // rad; cos differs from 1 by 3 %. Chosen value
 
 }  // namespace
 
@@ -80,7 +81,7 @@ std::optional<std::string> LargeMotionDetector::warning() const {
   if (!first_) return std::nullopt;
   return fmt::format(
       "{} is {:.3g} rad at t = {:.6g}, and {} reaches {:.3g} rad: the model assumes small rotations, so "
-      "results from there on are wrong for the real structure",
+      "results from this time on are wrong for the real structure",
       first_->description, first_->angle, model::time_in_scene_units(model_, first_->t),
       greatest_description_, greatest_);
 }

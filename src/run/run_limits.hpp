@@ -35,10 +35,10 @@ class StallDetector {
   int max_at_once_;
   double unit_;
   double cluster_ = 0.0;  // time of the first of the current simultaneous events
-  int at_once_ = 0;
-  double mark_ = 0.0;  // time of the last check of progress
-  int since_mark_ = 0;
-  Contacts in_cluster_, after_mark_, contacts_;
+  int events_in_cluster_ = 0;
+  double last_check_t_ = 0.0;  // time of the last check of progress
+  int events_since_check_ = 0;
+  Contacts in_cluster_, contacts_since_check_, contacts_;
 };
 
 // Detects motions beyond the range of small rotations.

@@ -107,7 +107,7 @@ void RunRecord::rows(const RunStep& step) {
   }
 }
 
-/// Records a row at t. Before the call, works_ must contain the works from t to the end of the step.
+/// Records a row at t. Before the call, works_ must contain the work from t to the end of the step.
 void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
   samples_.emit(t, works_, step.forcing, step.decision.states, point);
   if (response_.has_outputs()) {
@@ -187,7 +187,7 @@ void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std
   curves_.add(t, point.u, last_energy_);
 }
 
-/// Adds a row of curves at t. step: the step that contains t, if the auditor has received its works already.
+/// Adds a row of curves at t. step: the step that contains t, if the auditor has received the work of this step already.
 void RunRecord::add_curves(double t, const contact::ContactStates& states, const motion::Point& point,
                            const RunStep* step) {
   works_.clear();

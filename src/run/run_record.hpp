@@ -1,6 +1,6 @@
 // run_record.hpp: listener that records rows, events, extremes, pictures, audit and law-check data of a run.
 //
-//   a step       works of the whole step, so that output times do not change the results; rows inside the step;
+//   a step       work in the whole step, so that output times do not change the results; rows inside the step;
 //                extremes of outputs; rows for pictures and peaks; the end of the step
 //   an instant   outputs before the instant, audit, event log, law check; a row at this time shows the side after it
 //
@@ -46,7 +46,7 @@ class RunRecord final : public RunListener {
   void loads_changed() { response_.loads_changed(); }
   /// Sample for a steering recorder, valid until the next row.
   [[nodiscard]] Sample sample(const RunPoint& point);
-  /// Message about a violated law without an explanation, for which the run must end; empty: no such violation.
+  /// Message about the first unexplained violation of a law, after which the run must end; empty: no such violation.
   [[nodiscard]] const std::string& law_violated() const { return law_checker_.unexplained(); }
   /// Energy after the last decision.
   [[nodiscard]] const Energy& energy() const { return last_energy_; }

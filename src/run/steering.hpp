@@ -10,7 +10,7 @@
 
 namespace signorini::run {
 
-/// Applies requests for other loads, given in the scene's units, to the computed model.
+/// Replaces load histories of the computed model on request. set_load() takes histories in the scene's units.
 class LoadChanges final : public Steering {
  public:
   /// All arguments must outlive the object.
@@ -25,7 +25,7 @@ class LoadChanges final : public Steering {
   struct Change {
     bool any = false, jump = false;
   };
-  /// Makes the requests since the last call the change at the current instant.
+  /// Turns the requests since the last call into the change at the current instant.
   void apply() { change_ = std::exchange(requested_, {}); }
   /// Change at the current instant.
   [[nodiscard]] const Change& change() const { return change_; }
@@ -43,8 +43,8 @@ class LoadChanges final : public Steering {
 // Breakpoints: times at which the forcing of a model is not smooth; integrators stop at these times.
 
 /// Breakpoints of all forcing in (0, t_end), ascending; `jump` is set if a value jumps. Breakpoints closer than the
-/// resolution of the clock are merged into one at the last of their times, so that every history is on its next piece.
-/// If one history has several of these breakpoints, `jump` is set if its values before and after differ.
+/// resolution of the clock are merged into one at the last of their times, so that every history has reached its next piece. If
+/// one history has several of these breakpoints, `jump` is set if its values before and after differ.
 [[nodiscard]] std::vector<Breakpoint> breakpoints(const Model& model, double t_end);
 
 /// Breakpoints of a run, in ascending order.

@@ -2,7 +2,7 @@
 //
 // At its last touch a contact has exactly g = 0; afterwards rounding accumulates in the gap.
 //
-//   last touch of k = last instant at which contact k was closed, before or after it, or had an impulse; 0: none
+//   last touch of k = last instant with contact k closed just before or just after it, or with an impulse; 0: none
 #pragma once
 
 #include <limits>
@@ -60,7 +60,7 @@ class ZeroTracker {
   [[nodiscard]] std::vector<double> zero_durations(double t,
                                                    const std::vector<decide::TriggeredGuard>& fired) const {
     std::vector<double> result;
-    if (layout_.contacts() == 0) return result;  // not updated yet
+    if (layout_.contacts() == 0) return result;  // update() has not been called yet
     for (const decide::TriggeredGuard& f : fired)
       for (std::size_t slot = layout_.guard(f.contact); slot < layout_.guard_end(f.contact); ++slot) {
         if (!f.never_positive || kinds_[slot] != f.guard || !(since_[slot] < t)) continue;

@@ -16,13 +16,13 @@
 namespace signorini::run {
 namespace {
 
-// Limit for the phase angle a of a load in one step, in rad: the impulse of a half wave has the relative error a^2 / 12.
+// Limit of the phase angle a of a load in one step, in rad: the impulse of a half wave has the relative error a^2 / 12.
 constexpr double max_turned = 1.0;
 constexpr double much_energy = 1e-3;  // an error above this fraction of the exchanged energy is reported
 // An error below this fraction of force scale * length scale, or of the initial energy, is rounding of a structure at
 // rest and is not reported.
 constexpr double least_energy = 1e-9;
-constexpr int max_warnings_of_a_kind = 5;  // further warnings of the same kind are omitted
+constexpr int max_warnings_of_a_kind = 5;  // limit; further warnings of the same kind are omitted
 
 }  // namespace
 
@@ -101,26 +101,27 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
       "from t = {1:.6g} on {0} prevent the same motion: the motion is unique, but the friction forces are "
       "not; those with the least sum of squares within the friction limits are taken",
       names.size() > 1 ? "contacts " + base::join_quoted(names, 5)
-                       : "contact " + base::join_quoted(names, 5) + " and others",
+                       : "contact " + base::join_quoted(names, 5) + " and other contacts",
       t);
 }
 
-std::string left_at_once(const Model& model, std::size_t c, double t) {
+std::string release_warning(const Model& model, std::size_t c, double t) {
   return fmt::format(
       "contact '{}' released at t = {:.9g}, because no continuous motion exists there: its massless parts "
       "jumped to their equilibrium without the contact; with mass or a damper their motion takes time",
       model.contacts[c].name, t);
 }
 
-std::string rest_at_limit(const Model& model, const decide::ContactAtLimit& found, double t) {
+std::string limit_warning(const Model& model, const decide::ContactAtLimit& found, double t) {
   const Contact& c = model.contacts[found.contact];
   return fmt::format(
       "contact '{}' sticks at its friction limit from t = {:.9g} on: the required force is {:.2g} {} {} the "
-      "limit, and its rounding error is {:.2g} {}, so sticking and slip cannot be distinguished{}; it counts "
-      "as sticking",
+      "limit, and its rounding error is {:.2g} {}, so stick and slip cannot be distinguished{}; the contact "
+      "is treated as sticking",
       c.name, t, model::in_scene_units(model, std::abs(found.margin), unit::force), model.units.force,
       found.margin < 0.0 ? "above" : "below", model::in_scene_units(model, found.noise, unit::force),
-      model.units.force, c.friction.has_static_drop() ? ", and there friction drops to the kinetic one" : "");
+      model.units.force,
+      c.friction.has_static_drop() ? ", although friction drops at the start of slip" : "");
 }
 
 }  // namespace
@@ -128,14 +129,14 @@ std::string rest_at_limit(const Model& model, const decide::ContactAtLimit& foun
 void DecisionWarnings::add(double t, const decide::Decision& decision, std::vector<std::string>& warnings) {
   const double at = model::time_in_scene_units(model_, t);
   for (const std::size_t c : decision.released)
-    if (++releases_ <= max_warnings_of_a_kind) warnings.push_back(left_at_once(model_, c, at));
+    if (++releases_ <= max_warnings_of_a_kind) warnings.push_back(release_warning(model_, c, at));
   if (!shared_motion_reported_)
     if (auto sentence = shared_motion(model_, decision, at)) {
       warnings.push_back(std::move(*sentence));
       shared_motion_reported_ = true;
     }
   for (const decide::ContactAtLimit& found : decision.at_limit)
-    if (++at_limit_ <= max_warnings_of_a_kind) warnings.push_back(rest_at_limit(model_, found, at));
+    if (++at_limit_ <= max_warnings_of_a_kind) warnings.push_back(limit_warning(model_, found, at));
   if (decision.impact_gains && ++gains_ <= max_warnings_of_a_kind)
     warnings.push_back(impact_gain(at, model::in_scene_units(model_, -decision.impact_loss, unit::energy)));
 }

@@ -6,7 +6,8 @@ namespace signorini::scene {
 namespace {
 
 constexpr std::string_view against_key = "against";
-constexpr double beside = 1e-9;  // relative to the segment's length; covers rounding of coordinates in a file
+// Tolerance relative to the segment's length, for coordinates rounded in a file.
+constexpr double beside = 1e-9;
 
 std::string node_name(Table& contact, const toml::node& item, const NameScope& space,
                       const std::string& node) {

@@ -80,7 +80,7 @@ struct NamedMotion {
   return std::nullopt;
 }
 
-// The counterpart of a contact, if not the ground: a node, or a point on a segment.
+// The counterpart of a contact that does not touch the ground: a node, or a point on a segment.
 //
 //   u_b = sum_j w_j u_j,   segment B-C:  w = (1 - x, x),  x = (P - B).(C - B) / |C - B|^2,  0 <= x <= 1
 //

@@ -15,9 +15,10 @@
 namespace signorini::scene {
 namespace {
 
-constexpr std::size_t most_parts = 16;  // much deeper than any key of a scene
+// Limit of the number of parts of a path; keys of scenes have far fewer.
+constexpr std::size_t most_parts = 16;
 
-/// Pairs of keys that exclude each other and give the same quantity: places_of() writes both by the first name.
+/// Pairs of keys that exclude each other and give the same quantity: places_of() always writes the first one.
 constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
                                                                 {"alpha", "alpha_over_omega1"},
                                                                 {"omega", "frequency"},
@@ -130,7 +131,7 @@ class Change {
     fail("the value is not TOML, expected a number, a word, \"text\", [...] or { ... }");
   }
 
-  /// TOML text of a value that the path enters and the file lacks: the default if that is a list, else an empty table.
+  /// TOML text of a table or list on the path that the file lacks: the key's default if it is a list, else an empty table.
   std::string left_out(Segments rest) const {
     const Key* key = rest.size() == segments_.size() ? find_key("", rest[0]) : nullptr;
     const bool numbers = key != nullptr && key->default_value.starts_with('[');
@@ -140,13 +141,13 @@ class Change {
   void into_table(toml::table& table, Segments rest) {
     const toml::key key(rest[0], place_);
     if (rest.size() == 1) {
-      const auto erase_conflicting_key =
-          [&](const auto& pairs) {  // keeping the other key would be a contradiction
-            for (const auto& [a, b] : pairs) {
-              if (rest[0] == a) table.erase(b);
-              if (rest[0] == b) table.erase(a);
-            }
-          };
+      // The other key of a pair is erased, because the scene must not contain both.
+      const auto erase_conflicting_key = [&](const auto& pairs) {
+        for (const auto& [a, b] : pairs) {
+          if (rest[0] == a) table.erase(b);
+          if (rest[0] == b) table.erase(a);
+        }
+      };
       erase_conflicting_key(alternatives);
       erase_conflicting_key(instead);
       give([&](toml::node&& value) { table.insert_or_assign(key, std::move(value)); });

@@ -26,8 +26,8 @@ void visit_quantities(Scene& scene, const std::function<void(double&, const Unit
 /// Calls `visit` for all numbers of a history whose values have the unit `of`.
 void visit_numbers(History& history, const Unit& of, const std::function<void(double&, const Unit&)>& visit);
 
-/// All quantities times the factors of their units; Scene::resolved stays unchanged. Exact where the factors
-/// are powers of two and nothing leaves the range of a double.
+/// All quantities times the factors of their units; Scene::resolved stays unchanged. Exact if the factors are powers of two and
+/// no product exceeds the range of doubles.
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);
 /// The settings of a run times the factors of their units.
 [[nodiscard]] RunSpec rescaled(RunSpec run, const Factors& factors);

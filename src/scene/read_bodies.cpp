@@ -140,7 +140,7 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
         *std::min_element(scene.nodes.begin() + static_cast<std::ptrdiff_t>(first),
                           scene.nodes.begin() + static_cast<std::ptrdiff_t>(end),
                           [&](const Node& a, const Node& b) { return distance(a) < distance(b); });
-    // Relative to the body's size: places in a scene are written with six digits or more.
+    // Tolerance of positions, relative to the body's size: scenes give positions with six digits or more.
     constexpr double digits = 1e-6;
     if (distance(nearest) > digits * size)
       points.fail(entry.name, fmt::format("no node is at this place, the nearest is {} at [{:.9g}, {:.9g}]: "

@@ -25,7 +25,7 @@ struct VaryingFriction {
   std::span<const char* const> others;
   const char* apart;  // message that refuses `others`
 
-  [[nodiscard]] bool is_meant(const Table& table) const {
+  [[nodiscard]] bool has_key_in(const Table& table) const {
     return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); });
   }
   void read(Table& table, Friction& friction) const {
@@ -38,21 +38,22 @@ struct VaryingFriction {
   }
 };
 
-constexpr std::array others_of_rising = {"static", "kinetic", "stribeck_velocity"};
-constexpr std::array others_of_force = {"static", "kinetic", "stribeck_velocity", "slow", "fast", "velocity"};
+constexpr std::array keys_refused_with_rising = {"static", "kinetic", "stribeck_velocity"};
+constexpr std::array keys_refused_with_force = {"static", "kinetic", "stribeck_velocity",
+                                                "slow",   "fast",    "velocity"};
 
 constexpr VaryingFriction rising = {
     {"slow", "fast", "velocity"},
     &Friction::velocity,
     " (required for friction that rises with the slip rate)",
-    others_of_rising,
+    keys_refused_with_rising,
     "cannot be combined with slow, fast or velocity: use static, kinetic and stribeck_velocity "
     "(friction falls with the slip rate), or slow, fast and velocity (friction rises)"};
 constexpr VaryingFriction by_force = {
     {"light", "heavy", "force"},
     &Friction::force,
     " (required for friction that depends on the normal force)",
-    others_of_force,
+    keys_refused_with_force,
     "cannot be combined with light, heavy or force: friction depends on the slip rate or on the "
     "normal force, not on both"};
 
@@ -83,9 +84,9 @@ Friction read_friction(Table& contact) {
   const toml::node* node = contact.raw("friction");
   if (node && node->is_table()) {
     Table table = contact.child("friction");
-    by_force.is_meant(table) ? by_force.read(table, friction)
-    : rising.is_meant(table) ? read_rising_friction(table, friction)
-                             : read_falling_friction(table, friction);
+    by_force.has_key_in(table) ? by_force.read(table, friction)
+    : rising.has_key_in(table) ? read_rising_friction(table, friction)
+                               : read_falling_friction(table, friction);
     table.finish();
   } else {
     const std::string expected = describe_type(*find_key("contacts[]", "friction"));

@@ -30,7 +30,7 @@ void read_ratios(Table& table, DampingSpec& damping) {
   const auto [f1, f2] = read_pair(table, "frequencies", false);
   if (f1 == f2) table.wrong("frequencies", "two different frequencies");
   const double w1 = 2.0 * std::numbers::pi * f1, w2 = 2.0 * std::numbers::pi * f2;
-  // A difference of rounding size is set to zero: the damping is by mass or by stiffness alone.
+  // A difference of rounding size is set to zero; the damping is then by mass or by stiffness alone.
   const auto difference = [](double a, double b) {
     return std::abs(a - b) <= rounding::few_operations * std::max(a, b) ? 0.0 : a - b;
   };

@@ -256,7 +256,8 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
 
 /// Reads the file's values in the scene's units, or in g if the scene has `unit`.
 void read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
-  constexpr std::size_t most_inline_rows = 10'000;  // for a larger table run.toml refers to the file
+  // Limit of the rows in run.toml; for a larger table run.toml names the file.
+  constexpr std::size_t most_inline_rows = 10'000;
   for (const char* other : {"times", "values"}) {
     if (table.has(other)) table.fail(other, "cannot be combined with file; give only one of them");
   }

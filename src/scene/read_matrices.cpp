@@ -14,7 +14,8 @@ namespace signorini::scene {
 
 namespace {
 
-constexpr int most_inline_rows = 100;  // for larger matrices run.toml refers to the file
+// Limit of the rows in run.toml; for a larger matrix run.toml names the file.
+constexpr int most_inline_rows = 100;
 
 MatrixSpec from_file(const Table& table, std::string_view key, const std::filesystem::path& path) {
   std::ifstream in = open_data_file(table, key, path);

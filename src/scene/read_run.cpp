@@ -155,8 +155,8 @@ std::vector<double> RunSpec::grid() const {
   const double dt_out = output_dt.value_or(t_end / 1000.0);
   if (!(t_end / dt_out <= scene::most_output_rows))
     throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
-  // Row k has the time k dt, a product and not a sum, so that rounding errors do not accumulate. A product that equals
-  // t_end up to rounding is t_end.
+  // Row k has the time k dt, a product and not a sum, so that rounding errors do not accumulate. If the last product equals
+  // t_end up to rounding, the last time is t_end.
   times.reserve(static_cast<std::size_t>(t_end / dt_out) + 2);
   for (long k = 0; static_cast<double>(k) * dt_out < t_end - 1e-6 * dt_out; ++k) {
     times.push_back(static_cast<double>(k) * dt_out);

@@ -36,7 +36,7 @@ std::size_t end_of_string(const std::string& text, std::size_t i) {
 /// Refuses deep nesting: the parser handles a.a.a = { a.a.a = ... } recursively, and would overflow the stack.
 void check_depth(const std::string& text, const std::string& file) {
   constexpr int deepest = 1000;
-  std::vector<int> outer;  // for each open bracket: parts of its key, plus one
+  std::vector<int> outer;  // for each open bracket: number of parts of its key, plus one
   int parts = 0, depth = 0, line = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];

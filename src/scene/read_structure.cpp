@@ -13,7 +13,8 @@ namespace signorini::scene {
 namespace {
 
 constexpr int most_elements = 1'000'000;
-constexpr int elements_of_arc = 8;  // for a quarter circle; the chords are 0.16 % shorter than the arc
+// Elements of a quarter circle; the chords are then 0.16 % shorter than the arc.
+constexpr int elements_of_arc = 8;
 
 void check_pieces(const Table& table, const Scene& scene, const std::vector<std::size_t>& nodes) {
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
@@ -224,7 +225,7 @@ double ring(double thickness, double inner_diameter) {
 }
 
 /// Reads a wall thickness; refuses a wall that does not fit within `width`.
-double wall_within(Table& table, const char* key, double width, const char* of) {
+double read_wall(Table& table, const char* key, double width, const char* of) {
   const double wall = table.number(key);
   if (!(2.0 * wall < width))
     table.fail(key, fmt::format("found {}, expected less than half the {} {}", base::format_number(wall), of,
@@ -233,7 +234,7 @@ double wall_within(Table& table, const char* key, double width, const char* of) 
 }
 
 Shape read_pipe(Table& table, Section& section) {
-  const double outer = table.number("diameter"), wall = wall_within(table, "wall", outer, "diameter");
+  const double outer = table.number("diameter"), wall = read_wall(table, "wall", outer, "diameter");
   const double inner = outer - 2.0 * wall;
   Shape shape;
   shape.area = ring(wall, inner);
@@ -259,14 +260,14 @@ Shape read_round(Table& table) {
 Shape read_box(Table& table) {
   const double b = table.number("width"), h = table.number("height");
   if (!table.has("wall")) return {b * h, b * h * h * h / 12.0, 0.5 * h};
-  const double t = wall_within(table, "wall", std::min(b, h), b < h ? "width" : "height");
+  const double t = read_wall(table, "wall", std::min(b, h), b < h ? "width" : "height");
   const double inside = b - 2.0 * t, between = h - 2.0 * t;
   return {b * h - inside * between, (b * h * h * h - inside * between * between * between) / 12.0, 0.5 * h};
 }
 
 Shape read_i(Table& table) {
   const double b = table.number("width"), h = table.number("height");
-  const double t = wall_within(table, "flange", h, "height"), s = table.number("web"), between = h - 2.0 * t;
+  const double t = read_wall(table, "flange", h, "height"), s = table.number("web"), between = h - 2.0 * t;
   if (!(s <= b))
     table.fail("web", fmt::format("found {}, expected at most the width {}", base::format_number(s),
                                   base::format_number(b)));

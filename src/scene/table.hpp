@@ -4,7 +4,7 @@
 //   spec.gap = contact.number("gap");      // type, range and default from the key table
 //   contact.finish();                      // refuses keys that were not read
 //
-// Unknown keys are refused at once, with a suggestion. A known key that was not read has no meaning in its context
+// Unknown keys are refused immediately, with a suggestion. A known key that was not read has no meaning in its context
 // (normal_stiffness of a slider); finish() reports it.
 #pragma once
 
@@ -98,7 +98,7 @@ class Table {
 
 /// Refuses names that cannot be a column of a CSV file or part of a --set path.
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path);
-/// Refuses what cannot be a reference: a name as in check_name(), or BODY.NUMBER for a node of a mesh.
+/// Refuses text that cannot be a reference, which is a name as in check_name(), or BODY.NUMBER for a node of a mesh.
 void check_reference(const std::string& name, const SourcePlace& place, const std::string& path);
 
 /// Names in the order of the file, with fast search.

@@ -258,7 +258,7 @@ TEST_CASE("cli: a gnuplot that floods is ended, and the run is there") {
   shell.write("belt.toml", belt(5));
   fake_gnuplot(shell, "exec yes 'warning: all is well' >&2");
   CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\" $SIGNORINI run belt.toml >.out 2>.err") == 0);
-  CHECK(has(shell.read(".err"), "it printed more than 64 kB and was stopped"));
+  CHECK(has(shell.read(".err"), "gnuplot printed more than 64 kB and was stopped"));
   CHECK(shell.read(".err").size() < 1000);
   CHECK(json::parse(shell.read("belt-run/summary.json"))["outcome"]["kind"] == "done");
 }
@@ -347,7 +347,7 @@ TEST_CASE("cli: a gnuplot that hangs is ended after a minute, and the run is the
   shell.write("belt.toml", belt(5));
   fake_gnuplot(shell, "exec sleep 1000");
   CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\" timeout 100 $SIGNORINI run belt.toml >.out 2>.err") == 0);
-  CHECK(has(shell.read(".err"), "it ran longer than 60 s and was stopped"));
+  CHECK(has(shell.read(".err"), "gnuplot ran longer than 60 s and was stopped"));
 }
 
 TEST_SUITE_END();

@@ -75,10 +75,9 @@ TEST_CASE(
     return plan_of(scene_of("engine = \"newmark\"\ncompanion = \"finer\"\ndt = " + dt)).limitation;
   };
   CHECK(half_of("0.0099").empty());
-  CHECK(
-      half_of("0.0101") ==
-      "dt = 0.0101 s does not resolve the fastest oscillation, 100 rad/s, so a run with half of it may have "
-      "the same error; use companion = \"exact\", or a dt of 0.01");
+  CHECK(half_of("0.0101") ==
+        "dt = 0.0101 s does not resolve the fastest oscillation, 100 rad/s, so a run with dt / 2 may have "
+        "the same error; use companion = \"exact\", or a dt of 0.01");
 }
 
 TEST_CASE("companion: rebounds rest below the run's own velocity in all") {

@@ -82,7 +82,7 @@ TEST_CASE("guards stand where each of them, with all its terms, is positive") {
     const bool all = std::all_of(guards.begin(), guards.end(),
                                  [](const law_check::GuardValue& guard) { return guard.value >= 0.0; });
     // Of a contact that may be inside it is not told.
-    const bool stands = law_check::guards_hold(drawn.c, 0, drawn.mode[0], drawn.side());
+    const bool stands = law_check::guards_are_satisfied(drawn.c, 0, drawn.mode[0], drawn.side());
     CAPTURE(seed);
     CHECK(stands == (all && drawn.mode[0].state != State::inside));
     ++(stands ? standing : falling);
@@ -96,7 +96,7 @@ TEST_CASE("rows stand, and a force that is off by 1e-9 of itself does not") {
     Drawn drawn(seed);
     drawn.put_in_rows();
     CAPTURE(seed);
-    CHECK(law_check::rows_hold(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
+    CHECK(law_check::rows_are_satisfied(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
     const State state = drawn.mode[0].state;
     const bool of_rows_N = drawn.c.normal_force_given() || drawn.c.normal_spring() || is_open(state);
     const bool of_rows_T = state != State::stick || drawn.c.tangential_stiffness.has_value();
@@ -104,12 +104,12 @@ TEST_CASE("rows stand, and a force that is off by 1e-9 of itself does not") {
       if (!(force == 0 ? of_rows_N : of_rows_T)) continue;
       const double is = drawn.forces[force];
       drawn.forces[force] += 1e-9 * std::abs(is) + (is == 0.0 ? 1e-300 : 0.0);
-      CHECK_FALSE(law_check::rows_hold(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
+      CHECK_FALSE(law_check::rows_are_satisfied(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
       drawn.forces[force] = is;
     }
     if (of_rows_T) continue;
     drawn.driven[0].ds += 1e-11;  // what sticks rigidly has the speed of its surface
-    CHECK_FALSE(law_check::rows_hold(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
+    CHECK_FALSE(law_check::rows_are_satisfied(drawn.c, 0, drawn.mode[0], drawn.side(), 1e-12));
   }
 }
 

@@ -103,7 +103,8 @@ TEST_SUITE("unit/report/load_cases") {
     CHECK(report::load_cases_csv(cases).find("\nshoe <1>,residual slip,m,0,,0,,\n") != std::string::npos);
     const auto doubts = report::load_case_warnings(cases);
     REQUIRE(doubts.size() == 1);
-    CHECK(doubts[0] == "case cut ended at t = 0.25 of 2 (interrupted); it governs no row");
+    CHECK(doubts[0] ==
+          "case cut ended at t = 0.25 of 2 (interrupted); its values are not used as governing values");
     const std::string page = report::load_cases_html(cases);
     CHECK(page.find("<td>run.t_end=1, a&lt;b=0</td><td>exact</td><td><b>interrupted</b></td>") !=
           std::string::npos);

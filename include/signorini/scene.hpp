@@ -43,11 +43,7 @@ struct Unit {
 
 enum class HistoryType { constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table };
 
-<<<<<<< HEAD
 /// f(t) = offset + amplitude * shape(t). For loads offset is 0 and amplitude 1; LoadSpec::amplitude scales the history.
-=======
-/// f(t) = offset + amplitude * shape(t). In a load's history offset is 0 and amplitude 1; LoadSpec has the load's amplitude.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct HistorySpec {
   HistoryType type = HistoryType::constant;
   double offset = 0.0;
@@ -59,13 +55,8 @@ struct HistorySpec {
   std::vector<double> coefficients = {};        ///< polynomial: ascending powers of (t - start)
   std::vector<double> times = {}, values = {};  ///< table
   bool steffen = false;                         ///< table: interpolation = "steffen"
-<<<<<<< HEAD
   bool start_given = false;                     ///< false: a constant that has always acted
   bool hold = false;                            ///< table: after the last time the last value continues
-=======
-  bool start_given = false;  ///< false: a constant has always acted
-  bool hold = false;         ///< table: the last value stays after the last time
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   double shift = 0.0;                           ///< delay of the whole history
   double period = 0.0;                          ///< > 0: the shape restarts after each period, `rounds` times
   int rounds = 1;
@@ -90,33 +81,18 @@ struct Direction {
   std::vector<std::pair<std::string, double>> against = {};
 };
 
-<<<<<<< HEAD
 /// newmark: locates an event in time. root: repeats the step until the guard is zero at its end; linear: only once.
 enum class Refine { root, linear };
 /// newmark: doubling searches for a step size such that doubling it changes the result by less than the tolerance.
-=======
-/// newmark: method of locating an event in time. root: the step is repeated until the guard at its end is zero; linear:
-/// the step is repeated once, up to the interpolated time.
-enum class Refine { root, linear };
-/// newmark: doubling adapts the step: a step of twice the size must change the result by less than the tolerance.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 enum class StepControl { fixed, doubling };
 /// exact: method that computes the motion between events.
 enum class Flow { automatic, modal, taylor };
-<<<<<<< HEAD
 /// Certification of a run (certify.hpp); automatic: only if the companion run is cheap.
-=======
-/// Certification of a run (certify.hpp); automatic: the run is certified if this costs little.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 enum class Certify { automatic, yes, no };
 /// Type of companion run: with the exact flow, or with the same engine and a finer setting. automatic: chosen by cost.
 enum class Companion { automatic, exact, finer };
 
-<<<<<<< HEAD
 /// Absolute tolerances; absent: rtol times a scale of the scene.
-=======
-/// Absolute tolerances; the default of each is rtol times a scale of the scene.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct Tolerances {
   std::optional<double> displacement, velocity, force;
 };
@@ -129,15 +105,9 @@ struct RunSpec {
   std::optional<double> output_dt = {};  ///< times of output: 0, dt, 2 dt, ..., t_end
   std::optional<std::vector<double>> output_times = {};
   std::vector<double> frames = {};    ///< times of deformed shapes, strictly ascending, in [0, t_end]
-<<<<<<< HEAD
   std::optional<int> max_order = {};  ///< ida: 1 to 5; absent: the program chooses ("auto")
   int max_events_at_once = 100;       ///< limit for rounds of state changes at one instant
   /// newmark, friction-iteration: the time step; with doubling: the largest time step
-=======
-  std::optional<int> max_order = {};  ///< ida: 1 to 5; absent: "auto"
-  int max_events_at_once = 100;       ///< rounds of state changes at one instant before the run stops
-  /// newmark, friction-iteration: the step; with step = doubling: the largest step
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   std::optional<double> dt = {};
   Refine refine = Refine::root;
   StepControl step = StepControl::fixed;
@@ -203,11 +173,7 @@ struct SavedState {
     double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
   };
   std::vector<FinalContact> final_contacts;  ///< empty: contacts.csv has no such rows
-<<<<<<< HEAD
   /// Scales (displacement, rotation, velocity, angular velocity, force) of the saved run, so that tolerances stay the same.
-=======
-  /// Scales that keep the tolerances and the rest limit of the run: displacement, rotation, velocity, angular velocity, force.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   std::optional<std::array<double, 5>> scales;
   std::optional<Prestress> prestress;  ///< static forces of the saved run, if it had run.geometric
   /// Normal forces of pendulums that are part of K in the saved run, by name of the contact.
@@ -216,12 +182,8 @@ struct SavedState {
   std::vector<std::string> structure_differences;
 };
 
-<<<<<<< HEAD
 /// Initial state: "static", "frictional", the state of another run, or explicit values. Explicit values are given per degree
 /// of freedom in the order of [matrices] dofs, or per node.
-=======
-/// Initial state: "static", "frictional", the state of another run, or values by node or by [matrices] dofs (in this order).
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct InitialSpec {
   bool is_static = false;
   bool is_frictional = false;
@@ -237,12 +199,8 @@ struct InitialSpec {
   SourcePlace place = {};
 };
 
-<<<<<<< HEAD
 /// C = alpha M + beta K. alpha_over_omega1 means alpha = alpha_over_omega1 * omega1. The reader converts damping ratios at
 /// two frequencies to alpha and beta.
-=======
-/// C = alpha M + beta K; alpha_over_omega1, if given: alpha / omega1. The reader converts damping ratios to alpha and beta.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct DampingSpec {
   double alpha = 0.0;
   double beta = 0.0;
@@ -252,7 +210,6 @@ struct DampingSpec {
 
 /// A trial run with one cutoff, during the search for the cutoff that meets a tolerance.
 struct CutoffTrial {
-<<<<<<< HEAD
   double cutoff_omega = 0.0;  ///< in rad per unit of time
   int modes = 0;              ///< kept
   /// Contribution of the left-out modes to the response, relative to the response (study/reduction).
@@ -260,13 +217,6 @@ struct CutoffTrial {
   /// Largest difference of displacements from the next trial, relative; 0: there is no next trial.
   double moved = 0.0;
   /// Error bound: `moved` plus the error of the next trial; `missed` if there is no next trial.
-=======
-  double cutoff_omega = 0.0;  ///< rad per time
-  int modes = 0;              ///< number of kept modes
-  double missed = 0.0;  ///< relative contribution of the omitted modes to the response (study/reduction)
-  double moved = 0.0;  ///< largest relative difference of displacements from the next trial; 0: no next trial
-  /// Error bound: `moved` plus the error bound of the next trial; `missed` if there is no next trial.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   double error = 0.0;
 };
 
@@ -280,13 +230,8 @@ struct ReductionSpec {
 
 struct Section {
   std::string name;
-<<<<<<< HEAD
   double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI = 0: the section is for bars only
   double area = 0.0, modulus = 0.0;                  ///< stresses: N / area, M / modulus; 0: unknown
-=======
-  double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI = 0: only for bars
-  double area = 0.0, modulus = 0.0;                  ///< stresses are N / area, M / modulus; 0: unknown
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   double pipe_radius = 0.0, pipe_wall = 0.0;         ///< mean radius and wall of a pipe; 0: not a pipe
 };
 
@@ -317,11 +262,7 @@ struct Member {
   SourcePlace place = {};
   std::vector<std::string> release = {};             ///< end nodes with a hinge: first, last or both
   double thermal_expansion = 0.0;                    ///< strain per temperature
-<<<<<<< HEAD
   HistorySpec temperature = HistorySpec::zero();     ///< temperature above that of the undeformed state
-=======
-  HistorySpec temperature = HistorySpec::zero();     ///< difference from the undeformed state
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: elongation
   std::optional<Bend> bend = {};                     ///< absent: straight pieces
 };
@@ -335,21 +276,12 @@ struct BodySpec {
   bool plane_strain = false;  ///< true: plane strain; false: plane stress
   MassKind mass = MassKind::consistent;
   double thermal_expansion = 0.0;                 ///< strain per temperature
-<<<<<<< HEAD
   HistorySpec temperature = HistorySpec::zero();  ///< temperature above that of the undeformed state
   std::vector<int> massless = {};  ///< nodes whose mass is moved to other nodes (contact_mass = "none")
   SourcePlace place = {};
 };
 
 /// A node of a boundary in a scene of [matrices]: position, and names of its degrees of freedom; empty: fixed.
-=======
-  HistorySpec temperature = HistorySpec::zero();     ///< difference from the undeformed state
-  std::vector<int> massless = {};  ///< nodes whose mass is moved to others (contact_mass = "none")
-  SourcePlace place = {};
-};
-
-/// A node of a boundary in a scene of [matrices]: coordinates, and names of its degrees of freedom; empty name: fixed.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct SurfaceNode {
   double x = 0.0, y = 0.0;
   std::string ux = {}, uy = {};
@@ -361,11 +293,7 @@ struct SurfaceSpec {
   SourcePlace place = {};
 };
 
-<<<<<<< HEAD
 /// A node of a seam; there is one contact in Scene::contacts for each node, in the same order.
-=======
-/// A node of a seam. The i-th node of a seam belongs to Scene::contacts[first_contact + i].
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct SeamNode {
   int node = 0;                            ///< index into Scene::nodes, or Scene::surface_nodes
   std::array<double, 2> at{0.0, 0.0};      ///< place of the node
@@ -381,11 +309,7 @@ struct SeamSpec {
   SourcePlace place = {};
 };
 
-<<<<<<< HEAD
 /// A node whose displacements follow other nodes along x and y, u = sum_l w_l u_l; from a seam with law = "tied".
-=======
-/// A node tied to master nodes, u = sum_l w_l u_l along x and y; the reader makes it from a seam with law = "tied".
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct TieSpec {
   std::string seam = {};
   int node = 0;                                     ///< index into Scene::nodes
@@ -424,11 +348,7 @@ struct Support {
   std::string node = {};
   bool ux = false, uy = false, rz = false;
   SourcePlace place = {};
-<<<<<<< HEAD
   /// Prescribed motion of the only fixed degree of freedom; absent: the support does not move.
-=======
-  /// Prescribed motion of the single fixed degree of freedom; absent: no motion.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   std::optional<HistorySpec> motion = {};
   bool motion_is_acceleration = false;  ///< true: `motion` is the acceleration; motion starts from rest
   std::string key = "supports";         ///< scene key for messages, "supports.3"
@@ -457,19 +377,11 @@ struct Friction {
   [[nodiscard]] bool has_static_drop() const {
     return static_ > kinetic && !is_rate_dependent() && !is_load_dependent();
   }
-<<<<<<< HEAD
   /// Velocity constant of the exponential; only valid if is_rate_dependent().
   [[nodiscard]] double decay_velocity() const { return velocity ? *velocity : stribeck_velocity.value(); }
 };
 
 /// A constant of friction in addition to the two coefficients: its key in the table `friction`, its member and its unit.
-=======
-  /// Velocity constant of the exponential. Precondition: is_rate_dependent().
-  [[nodiscard]] double decay_velocity() const { return velocity ? *velocity : stribeck_velocity.value(); }
-};
-
-/// A constant of friction besides the two coefficients: its key in the table `friction`, its member and its unit.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 struct FrictionConstant {
   std::string_view key;
   std::optional<double> Friction::*value;
@@ -500,13 +412,8 @@ struct ContactSpec {
   HistorySpec normal_force = HistorySpec::zero();      ///< slider: compression, >= 0
   HistorySpec surface_velocity = HistorySpec::zero();  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
-<<<<<<< HEAD
   double restitution = 0.0;  ///< rigid: Newton's coefficient, 0 to 1
   /// rigid: a rebound slower than this velocity comes to rest; absent: the limit follows from the tolerances
-=======
-  double restitution = 0.0;  ///< rigid: Newton's coefficient of restitution, 0 to 1
-  /// rigid: a contact with a slower rebound stays closed; absent: the limit follows from the tolerances
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   std::optional<double> capture_velocity = {};
   SourcePlace place = {};
   /// Surface of a friction pendulum. Its stiffness nominal_force / radius is an entry of Scene::springs.
@@ -523,11 +430,7 @@ struct ContactSpec {
   [[nodiscard]] ContactLawPtr contact_law() const {
     return user_law ? ContactLawPtr(user_law) : ContactLawPtr(law);
   }
-<<<<<<< HEAD
   /// Direction along which N acts; nullptr if the scene gives N itself, or no direction.
-=======
-  /// The direction along which N acts; nullptr if the scene gives N as a history, or gives no direction.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   [[nodiscard]] const Direction* bearing_normal() const {
     return normal && !capabilities().normal_force_given ? &*normal : nullptr;
   }
@@ -553,11 +456,7 @@ struct LoadSpec {
   double amplitude = 0.0;
   HistorySpec history = {};
   SourcePlace place = {};
-<<<<<<< HEAD
   std::string name = {};  ///< name in results and stages; empty: "load" and the number of the load, "load 1"
-=======
-  std::string name = {};  ///< name in results and stages; empty: "load NUMBER"
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
   LoadType type = LoadType::force;
   std::vector<std::string> pieces = {};  ///< distributed: each two consecutive nodes bound a piece
   bool member_axes = false;  ///< distributed: direction in the axes of the piece (along, to the left)
@@ -579,11 +478,7 @@ enum class OutputKind : unsigned char {
   contact,
   combination
 };
-<<<<<<< HEAD
 /// Quantity of an output. Members have N, V, M and stress; bodies have xx, yy and xy; contacts have N, T, gap, slip and loss.
-=======
-/// Quantity of an output. Members have N, V, M and stress; bodies xx, yy and xy; contacts N, T, gap, slip and loss.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress, xx, yy, xy };
 /// True if the quantity is a component of the stress at a node of a body.
 [[nodiscard]] constexpr bool is_of_body(OutputQuantity q) {
@@ -695,16 +590,10 @@ struct Override {
   std::string shown_as = {};
 };
 
-<<<<<<< HEAD
 /// Reads, checks and completes a scene. Errors: SceneError (with place and key); FileError; UsageError for an invalid
 /// override.
 [[nodiscard]] Scene read_scene(const std::string& path, const std::vector<Override>& overrides = {});
 /// Same for a scene in memory. `file` is used in messages, and matrix files are searched in its directory.
-=======
-/// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError, UsageError for a wrong override.
-[[nodiscard]] Scene read_scene(const std::string& path, const std::vector<Override>& overrides = {});
-/// Reads, checks and completes a scene in memory. `file` names it in messages; matrix files are relative to its folder.
->>>>>>> 2f0335913af57ff41a58f7571793d8ef9aea4f9f
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& file,
                                 const std::vector<Override>& overrides = {});
 

@@ -23,7 +23,7 @@ double largest(const SparseMatrix& a) {
 
 SparseMatrix read(const MatrixSpec& spec, int n, const std::string& key) {
   SparseMatrix a(n, n);
-  if (spec.size == 0 && spec.entries.empty()) return a;  // absent: zero
+  if (spec.size == 0 && spec.entries.empty()) return a;  // a missing matrix is zero
   if (spec.size != n)
     throw SceneError(
         spec.place, key,
@@ -35,7 +35,7 @@ SparseMatrix read(const MatrixSpec& spec, int n, const std::string& key) {
   return a;
 }
 
-/// Other programs print symmetric matrices with rounded digits, so small differences are averaged.
+/// Other programs print symmetric matrices with rounded digits, so entries a_ij and a_ji that differ slightly are averaged.
 SparseMatrix read_symmetric(const MatrixSpec& spec, int n, const std::string& key) {
   const SparseMatrix a = read(spec, n, key);
   const SparseMatrix transposed = a.transpose();
@@ -72,7 +72,7 @@ struct Builder {
   const Scene& scene;
   const DofMap& map;
   Triplets mass, dampers, stiffness;
-  Vector weight, weight_size;  // weight_size: sum of the magnitudes of terms
+  Vector weight, weight_size;  // weight_size: sum of the magnitudes of the terms of each entry
   std::vector<Vector> base;    // one per base motion
   std::vector<SupportColumns> moving;
 
@@ -112,7 +112,8 @@ struct Builder {
                   [&](int n, double force) { map.add(base[i], n, force); });
   }
 
-  /// Adds W^T m W. W maps rigid translations to themselves, so weight and base motion act on the whole mass.
+  /// Adds the mass matrix W^T m W, W = moved.weights. W maps rigid translations to themselves, so weight and base motion act
+  /// on the whole mass.
   void add_moved_mass(const element::ElementMatrix& m, const element::MovedMass& moved) {
     std::vector<int> numbers;
     element::ElementVector gravity(static_cast<Eigen::Index>(2 * moved.nodes.size()));
@@ -152,7 +153,8 @@ struct Builder {
       if (std::abs(weight[i]) <= rounding::few_operations * weight_size[i]) weight[i] = 0.0;
   }
 
-  /// Calls add_to(number, force) for each entry of forces = M r a, where r a is the acceleration of all translations.
+  /// Calls add_to(number, force) for each unknown of an element. forces: mass matrix times an acceleration that is equal at
+  /// all nodes.
   template <class Add>
   void add_inertia(const element::ElementVector& forces, const std::vector<int>& numbers, const Add& add_to) {
     for (std::size_t i = 0; i < numbers.size(); ++i) add_to(numbers[i], forces[static_cast<Eigen::Index>(i)]);
@@ -192,7 +194,7 @@ struct Builder {
     add(dampers, &SupportColumns::dampers, Eigen::Matrix2d(s.rotation_damping * turning), turns);
   }
 
-  /// Adds k a a^T, where a is the form of the elongation; terms of a that cancel add no stiffness.
+  /// Adds k a a^T for a spring of stiffness k, where a is the form of its elongation; terms of a that cancel add no stiffness.
   void add_tied_spring(const Spring& s, const std::array<double, 2>& d, const std::array<int, 3>& na,
                        const std::array<int, 3>& nb) {
     const double length = std::hypot(d[0], d[1]);

@@ -152,7 +152,7 @@ void refuse_missing_rotation(const SourcePlace& place, const std::string& key, c
   throw SceneError(
       place, key,
       fmt::format(
-          "node '{}' has no rotation: there is no beam without a hinge, no inertia and no rotational spring",
+          "node '{}' has no rotation: no beam without a hinge, no inertia and no rotational spring acts on it",
           node));
 }
 
@@ -288,14 +288,14 @@ Combination combination(const DofMap& map, const Direction& direction, const std
       form.add(d, weight * (unit ? vector[c] / length : vector[c]));
       if (unit && (map.moving[static_cast<std::size_t>(node)][c] >= 0 || form.follows_support()))
         throw SceneError(direction.place, key,
-                         fmt::format("a support moves node '{}' in {}; the node of a contact must be free or "
-                                     "fixed there: connect it to the moving node by a spring",
+                         fmt::format("a support moves node '{}' in {}, but the node of a contact must be free or "
+                                     "fixed: use another node, connected to the moving node by a spring",
                                      name, c == 0 ? "x" : "y"));
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,
             fmt::format(
-                "node '{}' has no degree of freedom in {}: there is no member, mass, spring or contact", name,
+                "node '{}' has no degree of freedom in {}: no member, mass, spring or contact acts there", name,
                 c == 0 ? "x" : "y"));
     }
   };
@@ -335,7 +335,7 @@ SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof) {
 
 namespace {
 
-constexpr double at_rest = 1e-3;  // relative to the largest motion: smaller motions are zero
+constexpr double at_rest = 1e-3;  // relative to the largest motion: smaller motions are treated as zero
 
 struct NodeMotion {
   const element::MeshNode* node;
@@ -405,7 +405,7 @@ bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double sh
 /// True if all nodes translate by the same vector without rotating.
 bool translates(const std::vector<NodeMotion>& nodes, double size) {
   const NodeMotion& first = nodes.front();
-  double turning = 0.0, extent = 0.0;  // a rotation that moves every node by less than at_rest is ignored
+  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest * size is ignored
   for (const NodeMotion& m : nodes) {
     if (std::hypot(m.x - first.x, m.y - first.y) > at_rest * size) return false;
     turning = std::max(turning, std::abs(m.turn));

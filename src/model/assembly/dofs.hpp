@@ -49,7 +49,7 @@ struct DofMap {
   std::vector<element::AxialForces> axial_forces;
   /// Per rigid body: geometric stiffness of its prestress (prestress.hpp); empty without prestress.
   std::vector<double> body_stiffness;
-  std::vector<TiedDof> tied;  ///< for the numbers size(), size() + 1, ...
+  std::vector<TiedDof> tied;  ///< tied motions, whose numbers are size(), size() + 1, ...
   std::vector<signorini::Column> columns;
   double shown_length = 1.0;  ///< factor from internal lengths to lengths in names of motions
 
@@ -70,7 +70,7 @@ struct DofMap {
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
   /// form += factor times the motion with this number; terms of moving supports are dropped.
   void add(Vector& form, int n, double factor) const;
-  /// Value of motion n if the degrees of freedom have the values x, of length size(), and moving supports are at zero.
+  /// Value of the motion with number n if the degrees of freedom have the values x, of length size(), and moving supports are at zero.
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// For each component of a node: its number, `fixed`, `absent`, or the code of a moving support.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
@@ -93,7 +93,7 @@ struct DofMap {
 
 /// Numbers the degrees of freedom of a scene with nodes.
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
-/// Same, with a given mesh: that of the scene, or one with additional element types.
+/// Same as number_nodes(scene), with a given mesh: that of the scene, or a mesh with additional element types.
 [[nodiscard]] DofMap number_nodes(const Scene& scene, element::Mesh mesh);
 /// Throws the error for a moment or a rotation at a node without rotation.
 [[noreturn]] void refuse_missing_rotation(const SourcePlace& place, const std::string& key,

@@ -21,11 +21,11 @@ namespace signorini::assembly {
 
 /// Name of the velocity of a support's motion: "support A.ux" -> "support A.vx".
 [[nodiscard]] std::string rate_of(const std::string& support_motion);
-/// Name of one of [[loads]], counted from 1: its given name, or "load 1".
+/// Name of a load: its given name, otherwise "load 1", "load 2", ... number: position in [[loads]], from 1.
 [[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
 /// Name of a member's strain load: temperature or initial strain.
 [[nodiscard]] std::string name_of_strain(LoadKind kind, int member);
-/// Force on a node, for a unit amplitude.
+/// Force on a mesh node for a unit amplitude of the load.
 struct NodeForce {
   int node = 0;
   std::array<double, 2> force{0.0, 0.0};
@@ -33,7 +33,7 @@ struct NodeForce {
 /// Nodal forces of a traction or pressure with unit amplitude.
 [[nodiscard]] std::vector<NodeForce> traction_forces(const Scene& scene, const element::Mesh& mesh,
                                                      const LoadSpec& spec);
-/// Name of a spring's preload, springs counted from 0.
+/// Name of the preload of a spring. spring: index into Scene::springs.
 [[nodiscard]] std::string name_of_preload(std::size_t spring);
 /// Load::history_unit of loads of this type.
 [[nodiscard]] Unit unit_of_history(LoadType type);
@@ -43,7 +43,7 @@ struct NodeForce {
 
 /// Prescribed motion of support i of DofMap::supports; a continued run begins at the support's last position.
 [[nodiscard]] History motion_of_support(const Scene& scene, const DofMap& map, int i);
-/// Same for a moving support of Scene::supports.
+/// Prescribed motion of a moving support of Scene::supports.
 [[nodiscard]] History motion_of_support(const Scene& scene, const Support& support);
 
 /// Appends the loads that velocities and accelerations of supports cause; to be called when the damping is known.

@@ -68,7 +68,7 @@ class Parts {
 //
 //   S = [e_i1 e_i2 ...],   S^T A S = A(i, i),   S x scatters x to its original positions
 
-/// S, n x m, m being the number of indices.
+/// Selection matrix S, n x m, where m is the number of indices.
 [[nodiscard]] SparseMatrix selection(const std::vector<int>& indices, int n);
 
 /// Selection S of the degrees of freedom with mass > 0, or of those without mass.

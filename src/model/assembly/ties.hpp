@@ -46,7 +46,7 @@ void tie(const std::vector<BodyMotion>& bodies, DofMap& map);
 [[nodiscard]] std::vector<std::pair<int, std::size_t>> constrained_components(const Scene& scene,
                                                                               const DofMap& map, int body);
 
-/// A form on degrees of freedom and moving supports.
+/// Elongation of a spring as a form on degrees of freedom and moving supports.
 struct Elongation {
   std::vector<int> numbers;
   Vector factors;
@@ -78,7 +78,7 @@ class TiedForm {
 /// The unknowns of an element with tied nodes: T times degrees of freedom and motions of supports.
 struct TiedElement {
   TiedElement(const DofMap& map, const int* numbers, std::size_t count);
-  std::vector<int> numbers;  ///< degrees of freedom, codes of moving supports
+  std::vector<int> numbers;  ///< degrees of freedom, or codes of moving supports (DofMap::support_code)
   Eigen::MatrixXd t;         ///< T, size: number of the element's unknowns x numbers.size()
 
   /// T^T A T for symmetric A, bitwise symmetric; entries that are zero up to rounding become zero.

@@ -252,10 +252,10 @@ class GmshReader {
                                     [number](const GmshType& t) { return t.number == number; });
     if (found != gmsh_types.end()) return *found;
     const std::string hint = number == 10 ? " (nine nodes: set Mesh.SecondOrderIncomplete = 1 in Gmsh)" : "";
-    words_.fail(fmt::format(
-        "element {} has type {}{}, expected points (15), lines (1, 8), triangles (2, 9) or "
-        "quadrilaterals (3, 16)",
-        element, number, hint));
+    words_.fail(
+        fmt::format("element {} has type {}{}, expected points (15), lines (1, 8), triangles (2, 9) or "
+                    "quadrilaterals (3, 16)",
+                    element, number, hint));
   }
 
   void read_element(const GmshType& type, long number, std::vector<long> physical) {
@@ -490,7 +490,8 @@ void check_elements(PlaneMesh& mesh, const std::string& key) {
         element.place, key,
         fmt::format("element {} is {}: expected nodes that run counter-clockwise around a convex shape",
                     element.number,
-                    most < 0.0 ? "inverted (its nodes run clockwise, those of other elements do not)" : "folded or flat"));
+                    most < 0.0 ? "inverted (its nodes run clockwise, those of other elements do not)"
+                               : "folded or flat"));
   }
 }
 

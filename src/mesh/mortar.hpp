@@ -30,7 +30,7 @@ struct MortarNode {
   double length = 0.0;                              ///< D_k
   PlanePoint normal{0.0, 0.0};                      ///< n_k
   std::vector<std::pair<int, double>> master = {};  ///< w_kl
-  double gap = 0.0;                                 ///< g0_k; exactly zero if below the rounding of coordinates
+  double gap = 0.0;  ///< g0_k; exactly zero if below the rounding of coordinates
 };
 
 /// Result: nodes of the slave that the master covers, in order along the slave.

@@ -29,7 +29,7 @@ struct ComplianceSplit {
   };
   std::vector<Row> rows;       ///< one entry for each column of S
   SparseMatrix shifts;         ///< S
-  SparseMatrix displacements;  ///< u = this * u'
+  SparseMatrix displacements;  ///< u = displacements * u'
 };
 
 /// Changes K, loads and contacts (law and stiffnesses). To be called after the loads, before the initial

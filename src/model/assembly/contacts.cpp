@@ -32,7 +32,8 @@ void check_gap(const ContactSpec& spec, const Contact& contact) {
     throw SceneError(spec.place, spec.key("normal"),
                      fmt::format("a {} contact needs a normal", contact::to_string(spec.law)));
   if (contact.normal.terms.empty())
-    throw SceneError(spec.place, spec.key("normal"), "a support fixes all motion along the normal; remove the contact or the support");
+    throw SceneError(spec.place, spec.key("normal"),
+                     "a support fixes all motion along the normal; remove the contact or the support");
   if (contact.has_friction() && contact.tangent.terms.empty())
     throw SceneError(spec.place, spec.key("tangent"),
                      "a support fixes all motion along the tangent; remove the friction or the support");
@@ -69,8 +70,10 @@ void check_own(const ContactSpec& spec, const Scene& scene) {
   if (!spec.capabilities().normal_spring)
     refuse("a user-defined law replaces the law of a compliant contact only");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
-    refuse("found friction or dampers in addition to a user-defined law; remove them here, and include them in the rows of "
-           "the law");
+    refuse(
+        "found friction or dampers in addition to a user-defined law; remove them here, and include them in "
+        "the rows of "
+        "the law");
   if (scene.initial.is_static || scene.initial.is_frictional) {
     if (law.name.empty()) refuse("a static start is available for built-in laws only");
     throw SceneError(spec.place, spec.key("law"),

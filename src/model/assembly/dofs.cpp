@@ -149,11 +149,10 @@ std::array<double, 2> sliding_direction(const ContactSpec& contact) {
 }
 
 void refuse_missing_rotation(const SourcePlace& place, const std::string& key, const std::string& node) {
-  throw SceneError(
-      place, key,
-      fmt::format(
-          "node '{}' has no rotation: no beam without a hinge, no inertia and no rotational spring acts on it",
-          node));
+  throw SceneError(place, key,
+                   fmt::format("node '{}' has no rotation: no beam without a hinge, no inertia and no "
+                               "rotational spring acts on it",
+                               node));
 }
 
 DofMap number_nodes(const Scene& scene) { return number_nodes(scene, element::make_mesh(scene)); }
@@ -287,16 +286,17 @@ Combination combination(const DofMap& map, const Direction& direction, const std
       const int d = map.number[static_cast<std::size_t>(node)][c];
       form.add(d, weight * (unit ? vector[c] / length : vector[c]));
       if (unit && (map.moving[static_cast<std::size_t>(node)][c] >= 0 || form.follows_support()))
-        throw SceneError(direction.place, key,
-                         fmt::format("a support moves node '{}' in {}, but the node of a contact must be free or "
-                                     "fixed: use another node, connected to the moving node by a spring",
-                                     name, c == 0 ? "x" : "y"));
+        throw SceneError(
+            direction.place, key,
+            fmt::format("a support moves node '{}' in {}, but the node of a contact must be free or "
+                        "fixed: use another node, connected to the moving node by a spring",
+                        name, c == 0 ? "x" : "y"));
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,
             fmt::format(
-                "node '{}' has no degree of freedom in {}: no member, mass, spring or contact acts there", name,
-                c == 0 ? "x" : "y"));
+                "node '{}' has no degree of freedom in {}: no member, mass, spring or contact acts there",
+                name, c == 0 ? "x" : "y"));
     }
   };
   add(direction.node, 1.0);

@@ -70,7 +70,8 @@ struct DofMap {
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
   /// form += factor times the motion with this number; terms of moving supports are dropped.
   void add(Vector& form, int n, double factor) const;
-  /// Value of the motion with number n if the degrees of freedom have the values x, of length size(), and moving supports are at zero.
+  /// Value of the motion with number n if the degrees of freedom have the values x, of length size(), and moving supports are
+  /// at zero.
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// For each component of a node: its number, `fixed`, `absent`, or the code of a moving support.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;

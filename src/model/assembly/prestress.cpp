@@ -185,7 +185,8 @@ class PrestressAssembly {
     for (const auto& [name, weight] : at->against) add(name, force, -weight);
   }
 
-  /// Coordinate at which supports of a body fix component c: x for ux, y for uy. Without such a support: the coordinate of the centre.
+  /// Coordinate at which supports of a body fix component c: x for ux, y for uy. Without such a support: the coordinate of
+  /// the centre.
   [[nodiscard]] double origin(std::size_t number, std::size_t c, const Plane& total,
                               const Plane& size) const {
     const RigidBody& body = scene_.rigid[number];
@@ -197,10 +198,11 @@ class PrestressAssembly {
     for (const auto& [node, component] : constrained_components(scene_, map_, static_cast<int>(number))) {
       if (component != c) continue;
       if (held && *held != at(node) && std::abs(total[c]) > no_force * size[c])
-        throw SceneError(scene_.run.geometric_place, "run.geometric",
-                         fmt::format("several supports of rigid body '{}' fix its {}, so their reactions and "
-                                     "the geometric stiffness of the body are undetermined; keep only one of them",
-                                     body.name, scene::plane_components[c].displacement));
+        throw SceneError(
+            scene_.run.geometric_place, "run.geometric",
+            fmt::format("several supports of rigid body '{}' fix its {}, so their reactions and "
+                        "the geometric stiffness of the body are undetermined; keep only one of them",
+                        body.name, scene::plane_components[c].displacement));
       if (!held) held = at(node);
     }
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));

@@ -25,7 +25,7 @@ Combination form_of(const Vector& x) {
   return form;
 }
 
-/// Converts a form on the physical degrees of freedom to the computed ones.
+/// Converts a form on the physical degrees of freedom to a form on the computed degrees of freedom.
 Combination computed(const Vector& x, const Model& model) {
   if (model.reduction) return form_of(model.reduction->shapes.transpose() * x);
   if (model.basis) return form_of(model.basis->transpose() * x);
@@ -103,8 +103,8 @@ class Maker {
     for (const PhysicalRow::CurvedContact& bowl : row.curved_contacts) restore(bowl, output);
   }
 
-  /// Internal forces of a reduced structure balance the loads only without the terms that the reduced equation of motion
-  /// neglects: inertia of massless shapes, and damping of massless shapes that respond immediately.
+  /// Removes terms that the reduced equation of motion neglects: inertia of massless shapes, and damping of massless shapes
+  /// that respond immediately. Internal forces balance the loads only without these terms.
   void balance(const PhysicalRow& row, Output& output) const {
     const Reduction& reduction = *model_.reduction;
     Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
@@ -190,7 +190,7 @@ class Maker {
         if (numbers[c] == assembly::DofMap::absent)
           refuse(spec, "at",
                  fmt::format(
-                     "node '{}' has no degree of freedom {}: there is no member, mass, spring or contact",
+                     "node '{}' has no degree of freedom {}: no member, mass, spring or contact acts there",
                      spec.at[i],
                      c == 0   ? "in x"
                      : c == 1 ? "in y"
@@ -207,7 +207,7 @@ class Maker {
     return {piece, backwards};
   }
 
-  /// row += requested quantity at the position x on the k-th element of the path.
+  /// row += requested quantity at a point of the path. at: element k on the path, and position x in it, 0 to 1.
   void cut(const OutputSpec& spec, const char* key, const MemberPath& way, std::pair<std::size_t, double> at,
            const SectionQuantity& wanted, PhysicalRow& row) const {
     const MemberForces cuts(scene_, map_);
@@ -233,7 +233,7 @@ class Maker {
                       factors);
   }
 
-  /// The requested quantity at one point of a path.
+  /// Output of the requested quantity at one point of a path.
   Output point(const OutputSpec& spec, const char* key, const MemberPath& way,
                std::pair<std::size_t, double> at, const SectionQuantity& wanted) const {
     Output linear;
@@ -376,10 +376,11 @@ class Maker {
       const Output& term = named(part.name, before);
       const double factor = part.factor;
       if (!scene::same_unit(scene::product_of_units(term.unit, part.unit),
-                            // units can differ only in a scene made in code
+                            // the units can differ only in a scene that a program creates
                             output.unit))
         refuse(spec, "terms",
-               fmt::format("'{}' has another unit than '{}'", part.name, spec.terms.front().name));
+               fmt::format("'{}' has another unit than '{}'; expected terms of one unit", part.name,
+                           spec.terms.front().name));
       add(output.u, term.u, factor);
       add(output.v, term.v, factor);
       add(output.a, term.a, factor);

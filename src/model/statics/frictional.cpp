@@ -116,7 +116,8 @@ class LoadingPath {
       refuse_stage("the stiffness is indefinite");
     const std::string name =
         null.cols() > 0 ? assembly::describe_motion(null.col(0), map_) : std::string("structure");
-    refuse_stage(fmt::format("nothing restrains the {}, so the loading cannot continue in equilibrium", name));
+    refuse_stage(
+        fmt::format("nothing restrains the {}, so the loading cannot continue in equilibrium", name));
   }
 
   /// Errors: SceneError if other contacts prevent the slip of a contact at its limit: its force would be undetermined.
@@ -131,7 +132,8 @@ class LoadingPath {
       if (is_also_constrained(rows, slips, static_cast<std::size_t>(unknown.row)))
         refuse_stage(fmt::format(
             "contact '{}' reaches its friction limit while other contacts restrain the same motion; a "
-            "frictional start does not share friction between contacts. Give them a tangential_stiffness or law "
+            "frictional start does not share friction between contacts. Give them a tangential_stiffness or "
+            "law "
             "= \"compliant\", or start without the load and apply it during the run",
             contacts_[unknown.contact].name));
     }
@@ -289,10 +291,11 @@ class LoadingPath {
           rates);
       if (!shared.undetermined.empty()) doubt(shared);
       if (found->ambiguous)
-        doubt(fmt::format(
-            "at load factor {:.4g} of stage '{}' {} may continue in several ways that all satisfy the contact laws; "
-            "the start takes the smallest slips and openings",
-            part_, stage_->name, names_of_unknowns(unknowns)));
+        doubt(
+            fmt::format("at load factor {:.4g} of stage '{}' {} may continue in several ways that all "
+                        "satisfy the contact laws; "
+                        "the start takes the smallest slips and openings",
+                        part_, stage_->name, names_of_unknowns(unknowns)));
       refuse_shares(rows, unknowns, shared.moves);
       take_states(unknowns, shared.moves);
     }

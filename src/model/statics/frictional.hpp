@@ -4,8 +4,8 @@
 //   K u + sum_k ( n_k N_k + t_k T_k ) = P(l),    P(l) = P_before + l dP,   0 <= l <= 1
 //   n . u - N / kn = -gap,   t . u - T / kt = p   on closed contacts; 1 / k = 0 on rigid ones
 //
-// For given contact states all quantities are linear in l, so a contact changes its state at the zero of a linear function. At a
-// change, the rates along l determine the next states, with the opening rate x and the slip rate p' = a - b:
+// For given contact states all quantities are linear in l, so a contact changes its state at the zero of a linear function.
+// At a change, the rates along l determine the next states, with the opening rate x and the slip rate p' = a - b:
 //
 //   touching, N = 0        -N'           _|_ x >= 0
 //                          -f N' -+ T'   _|_ a, b >= 0

@@ -93,14 +93,15 @@ constexpr double static_pivot_limit = 1e-3;  // smallest accepted pivot, relativ
 constexpr double holds = 1e-6;
 // Stiffness of a row, as a multiple of the negative stiffness of K that the row balances; sufficient even for two of them.
 constexpr double firmly = 4.0;
-constexpr double weak_share = 1e-10;  // weak support, relative to the diagonal of K: keeps six digits in the sum
+constexpr double weak_share =
+    1e-10;  // weak support, relative to the diagonal of K: keeps six digits in the sum
 // A smaller work, relative to the largest load times the motion, does not drive a free motion.
 constexpr double undriven = 1e-9;
 // Degrees of freedom up to which a structure is solved as a whole; larger structures are solved part by part.
 constexpr int together_up_to = 300;
 
-/// Returns unit rows that complete `rows` (p x m, independent) to m independent rows. Each row takes the first column with a sufficient pivot, so
-/// that a contact fixes the horizontal motion rather than a combination with a rotation.
+/// Returns unit rows that complete `rows` (p x m, independent) to m independent rows. Each row takes the first column with a
+/// sufficient pivot, so that a contact fixes the horizontal motion rather than a combination with a rotation.
 Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {

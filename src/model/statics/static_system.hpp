@@ -70,7 +70,7 @@ struct StaticProblem {
   const std::vector<Contact>& contacts;
   const assembly::DofMap& map;
   double rigid_stiffness_factor = 1.0;  ///< stiffness of rigid contacts / structural_stiffness()
-  bool forces = false;                  ///< true: the forces of the weak support are removed from the solution
+  bool forces = false;  ///< true: the forces of the weak support are removed from the solution
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return !contacts[k].normal_force_given(); }
@@ -111,8 +111,8 @@ struct ConstrainedState {
                                                  const std::vector<FreeMotion>& held);
 
 /// Work of the loads on a free motion, at the displacement u of solve_constrained(); zero in equilibrium. k and p: matrix()
-/// and right_side() of the problem. Work below rounding, or below 1e-9 of the largest load
-/// times the largest displacement, is set to zero.
+/// and right_side() of the problem. Work below rounding, or below 1e-9 of the largest load times the largest displacement, is
+/// set to zero.
 [[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
                                   const Vector& motion, const Vector& u);
 

@@ -13,8 +13,9 @@
 namespace signorini::statics {
 namespace {
 
-constexpr double only_touches = 1e-13;  // smaller gaps, relative to the largest translation, are rounding errors
-constexpr double no_reaction = 1e-9;    // relative to the largest load: smaller reactions drive no motion
+constexpr double only_touches =
+    1e-13;  // smaller gaps, relative to the largest translation, are rounding errors
+constexpr double no_reaction = 1e-9;  // relative to the largest load: smaller reactions drive no motion
 
 struct Trial {
   std::vector<FreeMotion> held;
@@ -96,11 +97,12 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   if (gripped.driven >= 0) {
     const std::string name = assembly::describe_motion(gripped.driven_motion().motion, problem.map);
     const int holder = gripped.driven_motion().contact_index;
-    const std::string hold = holder < 0 ? "nothing restrains this motion"
-                                        : fmt::format(
-                                              "only friction at contact '{}' could prevent this motion, and initial "
-                                              "= \"static\" has no friction; use initial = \"frictional\"",
-                                              problem.contacts[static_cast<std::size_t>(holder)].name);
+    const std::string hold = holder < 0
+                                 ? "nothing restrains this motion"
+                                 : fmt::format(
+                                       "only friction at contact '{}' could prevent this motion, and initial "
+                                       "= \"static\" has no friction; use initial = \"frictional\"",
+                                       problem.contacts[static_cast<std::size_t>(holder)].name);
     throw SceneError(place, key,
                      fmt::format("no static equilibrium: the static loads drive the {} with {:.4g} {}; {}",
                                  name, gripped.force, unit, hold));

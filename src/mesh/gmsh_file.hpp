@@ -33,7 +33,7 @@ class GmshTokenizer {
 
   /// Reads the next "$Name"; returns false at the end of the file.
   bool next_section(std::string& name);
-  /// Skips to "$EndName".
+  /// Skips all words up to and including "$EndName".
   void skip_section(const std::string& name);
   /// Reads "$EndName"; any other word is an error.
   void end_section(const std::string& name);

@@ -12,7 +12,7 @@ namespace {
 /// Regular lattice of nodes in u and v. For quadratic elements a lattice step is half an element.
 struct Lattice {
   const GridSpec& grid;
-  bool closed;  // the nodes at v = 1 are those at v = 0
+  bool closed;  // full ring: nodes at v = 1 coincide with those at v = 0
   int step, columns, rows;
   std::vector<int> index;  // node at each lattice point; -1: no node
   PlaneMesh mesh;

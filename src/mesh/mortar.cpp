@@ -109,7 +109,7 @@ struct NodeSums {
   double length = 0.0;
   Point2 outward{0.0, 0.0};
   std::map<int, double> master;  // M_kl
-  std::optional<Point2> edge;    // normal of the previous edge
+  std::optional<Point2> edge;    // normal of the edge that was added before
   bool corner = false;
 };
 

@@ -38,7 +38,7 @@ struct IntegrationPoint {
 /// Gauss rule that integrates the mass of elements with straight edges exactly: 3 points (t3), 6 (t6), 2 x 2 (q4), 3 x 3 (q8).
 [[nodiscard]] std::span<const IntegrationPoint> integration_points(PlaneShape shape);
 
-/// A point at which stresses of an element are most accurate: its centre (t3), 3 (t6), 2 x 2 (q4, q8).
+/// A point at which stresses of an element are most accurate: its centre (t3), one of 3 (t6) or 2 x 2 points (q4, q8).
 struct StressPoint {
   double a = 0.0, b = 0.0;
 };

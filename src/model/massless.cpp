@@ -69,7 +69,9 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
     s[i] = 1.0 / std::sqrt(diagonal);
     position[static_cast<std::size_t>(i)] = heavy++;
   }
-  if (heavy == 0) throw SceneError(assembly::place_of_structure(scene), "", "nothing in the scene has mass");
+  if (heavy == 0)
+    throw SceneError(assembly::place_of_structure(scene), "",
+                     "nothing in the scene has mass; give masses, densities or mass_per_length");
   // After scaling to a unit diagonal the pivots are dimensionless.
   const assembly::SymmetricSolver solver(block(assembly.mass, position, heavy, s));
   if (!solver.ok() || solver.smallest_pivot() <= rounding::many_operations * heavy)

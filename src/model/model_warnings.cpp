@@ -94,7 +94,8 @@ class ModelWarnings {
 
  private:
   void warn_of_loads_without_effect() {
-    if (scene_.run.geometric) return;  // fixed loads may still compress members and bodies
+    if (scene_.run.geometric)
+      return;  // loads on fixed degrees of freedom may still compress members and bodies
     for (const Load& load : model_.loads) {
       if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support ||
           load.kind == LoadKind::support_rate)
@@ -266,10 +267,10 @@ class ModelWarnings {
     if (!scene_.initial.saved) return;
     const std::string& run = scene_.initial.saved->run;
     if (const std::string why = run.empty() ? "" : base::unchecked_reason(run); !why.empty())
-      found_.push_back("continues from the run in " + why);
+      found_.push_back("this run continues from the run in " + why);
     if (scene_.initial.saved->structure_differences.empty()) return;
     found_.push_back(fmt::format(
-        "continues from a run in {} whose scene has other {}: its displacements, velocities and "
+        "this run continues from a run in {} whose scene has other {}: its displacements, velocities and "
         "shears are used unchanged",
         scene_.initial.saved->run, base::join_texts(scene_.initial.saved->structure_differences)));
   }

@@ -50,14 +50,15 @@ double min_damping_ratio(const Model& model) {
 
 namespace {
 
-constexpr int all_up_to = 100, most = 400;  // limits of degrees of freedom; chosen for a few 0.1 s
+constexpr int all_up_to = 100,
+              most = 400;  // limits of the number of degrees of freedom; chosen for a few 0.1 s
 // Results are valid up to this fraction of the highest frequency; above, truncated modes would contribute.
 constexpr double of_window = 0.5;
 constexpr double rigid = 1e4;  // stiffness of rigid contacts / stiffness of the structure along the normal
 // Smallest growth, relative to |lambda| or sigma: rounding splits a double eigenvalue by sqrt(eps) = 1.5e-8.
 constexpr double no_growth = 1e-6;
 
-/// A slipping contact: its normal and friction force N (n - s f t) acts along `push` = n - s f t.
+/// A slipping contact. push = n - s f t: direction of the sum of its normal and friction force.
 struct Drive {
   Vector normal, push;
   double stiffness, damping;

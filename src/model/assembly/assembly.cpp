@@ -41,7 +41,9 @@ SparseMatrix read_symmetric(const MatrixSpec& spec, int n, const std::string& ke
   const SparseMatrix transposed = a.transpose();
   const SparseMatrix difference = a - transposed;
   if (largest(difference) > printed_digits * largest(a))
-    throw SceneError(spec.place, key, "the matrix is not symmetric");
+    throw SceneError(
+        spec.place, key,
+        "the matrix is not symmetric; expected entries ij and ji that agree to 1e-9 of the largest entry");
   return 0.5 * (a + transposed);
 }
 
@@ -175,7 +177,9 @@ struct Builder {
   void add_spring(const Spring& s, const std::string& key) {
     const auto d = clean_direction(s.direction);
     const double length = std::hypot(d[0], d[1]);
-    if (!(length > 0.0)) throw SceneError(s.place, key + ".direction", "a spring needs a direction");
+    if (!(length > 0.0))
+      throw SceneError(s.place, key + ".direction",
+                       "found a direction of length zero, expected the direction of the spring");
     const auto na = map.numbers_at(element::find_node(map.mesh, s.node, s.place, key));
     std::array<int, 3> nb{-1, -1, -1};
     if (!s.against.empty()) nb = map.numbers_at(element::find_node(map.mesh, s.against, s.place, key));

@@ -95,8 +95,8 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
                                  contact.normal_force.value(t), t));
 }
 
-/// Removes friction at a node of a seam that a support fixes along the tangent (a plane of symmetry): there
-/// is no slip, and the support carries T.
+/// Removes the friction of a seam's contact if a support fixes its node along the tangent (a plane of symmetry): the node
+/// cannot slip, and the support carries T.
 void leave_out_held_friction(const Scene& scene, std::size_t k, Contact& contact) {
   const bool of_seam = std::any_of(scene.seams.begin(), scene.seams.end(), [k](const SeamSpec& seam) {
     return k >= seam.first_contact && k < seam.first_contact + seam.nodes.size();

@@ -80,7 +80,7 @@ void add_columns(DofMap& map) {
   }
 }
 
-/// Lets the single component that support i fixes follow the support's motion.
+/// Support i has a motion and fixes one component of its node: makes this component follow the motion.
 void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool, 3>& fix) {
   const std::string key = s.key + ".motion";
   auto& moving = map.moving[static_cast<std::size_t>(element::find_node(map.mesh, s.node, s.place, key))];

@@ -37,7 +37,7 @@ struct DofMap {
 
   element::Mesh mesh;                      ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
-  /// Numbers of elements' internal unknowns, by element and index into unknowns().
+  /// Number of each internal unknown of an element; key: element, index into its unknowns().
   std::map<std::pair<std::size_t, std::size_t>, int> internal;
   /// Per mesh node and component: index into `supports` of the support that moves the component, or `absent`.
   std::vector<std::array<int, 3>> moving;
@@ -51,7 +51,7 @@ struct DofMap {
   std::vector<double> body_stiffness;
   std::vector<TiedDof> tied;  ///< tied motions, whose numbers are size(), size() + 1, ...
   std::vector<signorini::Column> columns;
-  double shown_length = 1.0;  ///< factor from internal lengths to lengths in names of motions
+  double shown_length = 1.0;  ///< factor from internal lengths to lengths in messages
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool is_matrix_scene() const { return number.empty(); }
@@ -63,12 +63,12 @@ struct DofMap {
   [[nodiscard]] bool within_body(const element::FiniteElement& e) const;
   /// True if all mesh nodes of the list move with one rigid body.
   [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
-  /// Makes component c of a mesh node the sum of `terms`.
+  /// Ties component c of a mesh node: the component becomes the sum of `terms`.
   void tie(int node, std::size_t c, std::vector<TiedTerm> terms);
   /// The motion with this number as a combination of degrees of freedom and moving supports; empty if fixed
   /// or absent.
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
-  /// form += factor times the motion with this number; terms of moving supports are dropped.
+  /// form += factor times the motion with number n; terms of moving supports are dropped.
   void add(Vector& form, int n, double factor) const;
   /// Value of the motion with number n if the degrees of freedom have the values x, of length size(), and moving supports are
   /// at zero.
@@ -96,7 +96,7 @@ struct DofMap {
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
 /// Same as number_nodes(scene), with a given mesh: that of the scene, or a mesh with additional element types.
 [[nodiscard]] DofMap number_nodes(const Scene& scene, element::Mesh mesh);
-/// Throws the error for a moment or a rotation at a node without rotation.
+/// Throws the SceneError for a moment or a prescribed rotation at a node without rotation.
 [[noreturn]] void refuse_missing_rotation(const SourcePlace& place, const std::string& key,
                                           const std::string& node);
 /// Numbers the degrees of freedom of matrices from files.

@@ -292,7 +292,7 @@ std::vector<NodeForce> traction_forces(const Scene& scene, const element::Mesh& 
             dy += v.derivatives[i] * mesh.node(own[i].node).y;
           }
           const double ds = std::hypot(dx, dy);
-          const std::array<double, 2> q =  // into the body: (-dy, dx) / ds
+          const std::array<double, 2> q =  // the unit normal into the body is (-dy, dx) / ds
               spec.pressure ? std::array{-dy, dx}
                             : std::array{ds * spec.direction.vector[0], ds * spec.direction.vector[1]};
           for (std::size_t i = 0; i < own.size(); ++i)

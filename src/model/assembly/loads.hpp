@@ -51,7 +51,7 @@ struct NodeForce {
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
                        double beta, std::vector<Load>& loads);
 
-/// Adds the geometric stiffness to the support loads -K_fs s: one column for each of DofMap::supports.
+/// Adds the geometric stiffness to the support loads -K_fs s. columns: its columns, one for each of DofMap::supports.
 void add_geometric_supports(const Scene& scene, const DofMap& map, const std::vector<Vector>& columns,
                             std::vector<Load>& loads);
 

@@ -24,7 +24,7 @@ namespace signorini::assembly {
 /// A component of a body's motion that a support fixes, with the coordinate perpendicular to the component.
 struct BodyConstraint {
   double coordinate = 0.0;            ///< coordinate of the supported node: y for ux, x for uy
-  int moving = DofMap::absent;        ///< index into DofMap::supports
+  int moving = DofMap::absent;        ///< index into DofMap::supports; absent: the support has no motion
   std::size_t support = 0, node = 0;  ///< index into Scene::supports, mesh node
 };
 

@@ -180,7 +180,7 @@ BarElement::Ends BarElement::slope(double /*part*/) const {
 
 namespace {
 
-/// T^T A T with T from the scene's axes to the beam's.
+/// Returns T^T A T, where T transforms from the scene's axes to the beam's axes.
 BeamMatrix turned(const BeamMatrix& local, double c, double s) {
   BeamMatrix t = BeamMatrix::Zero();
   for (int end = 0; end < 6; end += 3) {

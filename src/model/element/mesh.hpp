@@ -13,7 +13,7 @@ namespace signorini::element {
 
 struct MeshNode {
   std::string name;
-  double x = 0.0, y = 0.0;  ///< length
+  double x = 0.0, y = 0.0;  ///< unit: length
   bool listed = true;       ///< true: the node has columns in history.csv; false inside a body's mesh
 };
 

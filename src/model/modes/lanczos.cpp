@@ -15,7 +15,7 @@ namespace signorini::modes {
 namespace {
 
 constexpr int most_restarts = 300;
-constexpr double ritz_tolerance = 1e-12;  // residual of a Ritz value, relative
+constexpr double ritz_tolerance = 1e-12;  // relative residual of a Ritz value
 
 /// Operator interface for Spectra.
 class Products {

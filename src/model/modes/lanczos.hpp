@@ -35,7 +35,7 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 // block Krylov iteration, M-orthogonal to the known modes (Golub and Van Loan, Matrix Computations, section 10.3.6),
 // with blocks as wide as the number of missing modes.
 
-/// Subtracts from x its part along the M-orthonormal columns of the basis, twice because of rounding.
+/// Subtracts from x its part along the M-orthonormal columns of the basis; does so twice because of rounding.
 void deflate(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x);
 
 /// The `below` lowest modes that are not free motions, and the next mode: omega^2 ascending, and M-orthonormal shapes,

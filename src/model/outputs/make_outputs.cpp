@@ -132,8 +132,8 @@ class Maker {
     output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
-  /// Adds N u / R minus N_0 u / R, where N_0 / R is the scene's spring, whose force is already in the row. The stiffness
-  /// N_K / R in the model's K is damped by beta.
+  /// Adds the restoring force N u / R of a pendulum minus N_0 u / R, the force of the scene's spring, which the row already
+  /// contains. Adds the damping by beta of the stiffness N_K / R in the model's K.
   void restore(const PhysicalRow::CurvedContact& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
     const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].pendulum_surface;
@@ -162,7 +162,7 @@ class Maker {
     }
   }
 
-  /// rate: 0 displacement, 1 velocity, 2 acceleration.
+  /// Adds a displacement (rate 0), velocity (1) or acceleration (2) to the row.
   void motion(const OutputSpec& spec, int rate, PhysicalRow& row) {
     const double u = rate == 0 ? 1.0 : 0.0, v = rate == 1 ? 1.0 : 0.0, a = rate == 2 ? 1.0 : 0.0;
     if (map_.is_matrix_scene()) {
@@ -222,7 +222,7 @@ class Maker {
     cut(spec, "at", along, MemberForces::place_of(along, spec.station), wanted, row);
   }
 
-  /// Stress in axes along d = `direction` = (c, s) and across: xx = d . sigma d, yy across, xy = d . sigma (-s, c).
+  /// Stress in axes along d = `direction` = (c, s) and across d: xx = d . sigma d, yy across d, xy = d . sigma (-s, c).
   void body_stress(const OutputSpec& spec, PhysicalRow& row) {
     const int node = map_.mesh.by_name.at(spec.at[0]);
     const auto [c, s] = spec.direction.vector;

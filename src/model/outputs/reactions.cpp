@@ -78,7 +78,8 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
 
 namespace {
 
-constexpr double usual_variability = 0.25;  // limit of the piping codes MSS SP-58 and ASME B31.1
+constexpr double usual_variability =
+    0.25;  // limit of variability() in the piping codes MSS SP-58 and ASME B31.1
 
 }  // namespace
 

@@ -18,7 +18,7 @@ namespace signorini::outputs {
 struct PhysicalRow {
   explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u), rayleigh(u) {}
   Vector u, v, a;
-  Vector rayleigh;  ///< part of v that comes from alpha M + beta K in a force
+  Vector rayleigh;  ///< part of v that is due to the damping alpha M + beta K
   std::vector<Output::ContactForces> forces;
   std::vector<Output::Given> given;
   double constant = 0.0;
@@ -37,8 +37,7 @@ class StructureRows {
 
   /// row += cu u + (cv + rayleigh) v + ca a for the motion `number` (DofMap::numbers_at()).
   void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca, double rayleigh = 0.0) const;
-  /// Adds the acceleration of the base, minus gravity, times the factor x along x and y along y.
-  /// gravity = false: without gravity.
+  /// Adds x a_x + y a_y, where a is the acceleration of the base minus gravity; gravity = false: without gravity.
   void add_base_acceleration(PhysicalRow& row, double x, double y, bool gravity = true) const;
   /// Adds a section force of an element. cut: its factors (element/element.hpp).
   void add_section_force(PhysicalRow& row, std::size_t element, const element::SectionForce& cut) const;

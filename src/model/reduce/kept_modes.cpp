@@ -213,7 +213,7 @@ double compliance_of_kept(const KeptModes& modes, const Vector& f) {
   return sum;
 }
 
-/// Subtracts from x its part along the K-orthonormal columns of the basis, twice because of rounding.
+/// Subtracts from x its part along the K-orthonormal columns of the basis; does so twice because of rounding.
 Vector rest_of(const Vector& x, const Eigen::MatrixXd& basis, const SparseMatrix& k) {
   Vector rest = x;
   for (int round = 0; round < 2 && basis.cols() > 0; ++round)

@@ -34,7 +34,7 @@ struct KeptModes {
   Eigen::MatrixXd shapes;        ///< n x m, M-orthonormal; free motions first, then ascending
   Eigen::VectorXd squares;       ///< omega^2, m; exactly 0 for free motions
   int free = 0;                  ///< number of free motions among the kept modes
-  int truncated_modes = 0;       ///< modes with mass above the cutoff
+  int truncated_modes = 0;       ///< number of modes with mass above the cutoff
   double first_truncated = 0.0;  ///< frequency of the first truncated mode, rad per time; 0: none
   double shift = 0.0;            ///< makes K + shift M regular; far below omega^2 of truncated modes
 };
@@ -77,7 +77,7 @@ class ResidualFlexibility {
 /// A direction along which a force acts.
 struct ActingForce {
   ComplianceShare share;    ///< label: set by the caller; compliances: set by static_shapes()
-  Vector force;             ///< n
+  Vector force;             ///< length n
   bool needs_mass = false;  ///< true: the static shape of this direction must have mass
 };
 

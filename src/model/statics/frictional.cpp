@@ -161,7 +161,7 @@ class LoadingPath {
                     pulled.size() == 1 ? "contact" : "contacts", base::join_quoted(pulled)));
   }
 
-  /// Checks K u + sum(N n + T t) = P.
+  /// Errors: SceneError unless K u + sum(N n + T t) = P up to rounding.
   void check_equilibrium() const {
     Vector rest = stiffness_ * u_ - load_, size = stiffness_.cwiseAbs() * u_.cwiseAbs() + load_.cwiseAbs();
     for (std::size_t k = 0; k < contacts_.size(); ++k) {

@@ -35,7 +35,7 @@ struct Stage {
 };
 
 struct FrictionalEquilibrium {
-  Vector u;                    ///< n
+  Vector u;                    ///< length n
   std::vector<double> shears;  ///< T of each contact
   StaticStart start;
   std::vector<LimitMargin> margins;  ///< one per contact

@@ -47,7 +47,7 @@ std::vector<RateUnknowns> rate_unknowns_of(const std::vector<Unknown>& unknowns)
   return all;
 }
 
-/// z with the chosen conditions zero and all other conditions satisfied; nullopt if there is no unique such z.
+/// Returns z for one choice of alternatives; nullopt if z is not unique, or does not satisfy the conditions.
 std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
                                           const std::vector<RateUnknowns>& contacts,
                                           const std::vector<std::size_t>& choice) {

@@ -47,7 +47,7 @@ struct LimitMargin {
   State state = State::open;
   double gap = 0.0, N = 0.0, T = 0.0;
   double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
-  /// Rate of the given gap, without displacements, while an interference is applied.
+  /// Rate of the gap without displacements; nonzero only while an interference is applied.
   double given_gap_rate = 0.0;
   int normal = -1, tangent = -1;  ///< indices of the constraint rows of N and T; -1: no active row
 };

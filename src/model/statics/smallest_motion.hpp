@@ -58,7 +58,7 @@ struct SmallestSlips {
   std::vector<bool> moves;  ///< one per unknown: true if the contact moves in the direction of this unknown
   /// Contacts at their limits whose slips the data do not determine, in the order of their rows.
   std::vector<std::size_t> undetermined;
-  Vector motion;  ///< a motion without resistance; n
+  Vector motion;  ///< a motion without resistance; length n
 };
 
 /// Adds the motion Z c with the smallest slips to the rates (n).

@@ -91,7 +91,7 @@ namespace {
 constexpr double static_pivot_limit = 1e-3;  // smallest accepted pivot, relative to the row's largest entry
 // A contact can fix a motion of size 1 only if the motion causes at least this slip at the contact.
 constexpr double holds = 1e-6;
-// Stiffness of a row, as a multiple of the negative stiffness of K that the row balances; sufficient even for two of them.
+// Stiffness of a row / negative stiffness of K that the row must balance; sufficient even if the row balances two of them.
 constexpr double firmly = 4.0;
 constexpr double weak_share =
     1e-10;  // weak support, relative to the diagonal of K: keeps six digits in the sum

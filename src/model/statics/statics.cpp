@@ -171,8 +171,8 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
   // A closed contact without force could displace a free motion, so the contact opens, once. If its gap is then
   // negative, it closes again and stays closed.
   std::vector<bool> opened(contacts.size(), false);
-  // closed_supports() adds a weak support. Without this support, a contact that barely touches may change its state in
-  // every round: after 20 rounds either state is acceptable.
+  // The weak support of closed_supports() is absent here, so a contact that barely touches may change its state in every
+  // round; after 20 rounds either state is acceptable.
   for (int round = 0;; ++round) {
     const Trial trial = attempt(problem, closed);
     if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force, search.key);

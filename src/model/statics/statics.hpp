@@ -27,7 +27,7 @@
 namespace signorini::statics {
 
 struct Equilibrium {
-  Vector u;                  ///< n
+  Vector u;                  ///< length n
   StaticStart start;         ///< reactions -N >= 0 of each contact, names of free motions
   std::vector<bool> closed;  ///< one per contact
 };

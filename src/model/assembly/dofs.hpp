@@ -4,8 +4,8 @@
 //
 // A degree of freedom exists only if a member, mass, spring or contact needs it. Beams need ux, uy and rz of
 // all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the components of
-// their directions. Supports fix existing degrees of freedom. Numbers follow the order of the nodes; then the
-// rotations of members' hinged ends follow. Moving supports are numbered separately. Numbers from size() on
+// their directions. Supports fix existing degrees of freedom. Numbers follow the order of the nodes; the
+// rotations of members' hinged ends come last. Moving supports are numbered separately. Numbers from size() on
 // are tied: motions of a rigid body's nodes and of seams (ties.hpp).
 #pragma once
 

@@ -3,12 +3,12 @@
 //   P(t) = sum_i d_i f_i(t)
 //
 //   force, moment    on the node's own degrees of freedom
-//   distributed      q on an element of length L, in its axes:  q_x L/2, q_y L/2, +- q_y L^2/12 at its ends
+//   distributed      q on an element of length L, in the element's axes:  q_x L/2, q_y L/2, +- q_y L^2/12 at its ends
 //   traction q on an edge of a body  t int N q ds;  pressure p: q = -p nu, nu outward
 //   preload F of a spring            -F d at its node, F d at the other end
 //   temperature T, initial strain    EA alpha T (-e, e), EA strain (-e, e), e along the element
 //   weight, base     M r g, -M r a(t)
-//   support s(t)     -K_fs s;   its rates: -C_fs s' - M_fs s'',   C = D + alpha M + beta K
+//   support s(t)     -K_fs s;   velocity and acceleration: -C_fs s' - M_fs s'',   C = D + alpha M + beta K
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// ties.hpp: tied motions: nodes of rigid bodies, which move with a centre (small rotations), and nodes of
-// seams.
+// ties.hpp: tied motions: nodes of a rigid body follow its centre (small rotations), nodes of a tied seam follow the nodes of
+// its master.
 //
 //   ux_P = ux_C - rz (y_P - y_C),   uy_P = uy_C + rz (x_P - x_C),   rz_P = rz_C          u = T q
 //

@@ -6,8 +6,7 @@
 //   V(x) =  f_ay + int_0^x p_y            V = dM/dx
 //   M(x) = -m_a  + int_0^x V              positive: tension on the right-hand side, y < 0
 //
-// With axial prestress (run.geometric) N v' is added to V, which is normal to the deformed axis, so that
-// V = dM/dx.
+// With axial prestress (run.geometric), V is the force normal to the deformed axis: N v' is added, so that V = dM/dx.
 //
 // Loads between the ends are the distributed load q and, with a consistent mass, -rho times the acceleration. The
 // acceleration is interpolated like displacements: linear along the line (for a bar also across), cubic across. A

@@ -12,7 +12,7 @@
 // Psi is K-orthogonal to G_res f_h, and f_h . Psi = (G_res f_h)^T K Psi = 0: a direction that needs mass is never
 // coupled to a massless shape.
 //
-// C is R^T C R with R = (Phi, Psi_h, Psi), without the part alpha M on Psi, whose mass is neglected as well.
+// The reduced C is R^T C R with R = (Phi, Psi_h, Psi), without the part alpha M on Psi, whose mass is neglected as well.
 // Psi is rotated so that the dampers give each shape its own time constant, or none.
 //
 // beta K acts on Psi only if it overdamps every truncated mode. A truncated mode,

@@ -12,11 +12,11 @@
 //   at its limit, T = s f |N|    -f N' - s T'  _|_ s p' >= 0
 //
 // This is one linear complementarity problem of all contacts that touch or are at their limit
-// (quasi_static_rates.hpp). If there is no solution, or a motion without stiffness, the continuation would be
+// (quasi_static_rates.hpp). If there is no solution, or if a motion has no stiffness, the continuation would be
 // dynamic, and the start is refused. If several solutions are found, the smallest one is taken and reported.
 //
-// If closed contacts at their limits do not resist some motion, many slips are possible with the same forces.
-// The smallest slips are taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
+// If closed contacts at their limits do not resist some motion, many slips are possible with the same forces. The
+// smallest slips are taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
 #pragma once
 
 #include <vector>

@@ -290,10 +290,8 @@ void check_unique_forces(const Scene& scene, Model& model) {
   if (most < 1.0) return;
   model.warnings.push_back(
       fmt::format("the forces of the {} rigid contacts without mass may not be unique while all of them "
-                  "slide in the same direction: this run "
-                  "takes one of the solutions; they are unique with {:.3g} times their friction, with mass "
-                  "at these contacts, or with law = "
-                  "\"compliant\"",
+                  "slide in the same direction: this run takes one of the solutions; they are unique with "
+                  "{:.3g} times their friction, with mass at these contacts, or with law = \"compliant\"",
                   f.contacts.size(), 1.0 / most));
 }
 

@@ -124,8 +124,7 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
                     describe(null), energy));
   throw SceneError(place, "",
                    fmt::format("the {} is undetermined: it moves no mass, and no stiffness, damping or "
-                               "contact restrains it; add one of "
-                               "these",
+                               "contact restrains it; add one of these",
                                describe(null)));
 }
 

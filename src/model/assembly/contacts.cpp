@@ -72,8 +72,7 @@ void check_own(const ContactSpec& spec, const Scene& scene) {
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
     refuse(
         "found friction or dampers in addition to a user-defined law; remove them here, and include them in "
-        "the rows of "
-        "the law");
+        "the rows of the law");
   if (scene.initial.is_static || scene.initial.is_frictional) {
     if (law.name.empty()) refuse("a static start is available for built-in laws only");
     throw SceneError(spec.place, spec.key("law"),

@@ -133,8 +133,7 @@ class LoadingPath {
         refuse_stage(fmt::format(
             "contact '{}' reaches its friction limit while other contacts restrain the same motion; a "
             "frictional start does not share friction between contacts. Give them a tangential_stiffness or "
-            "law "
-            "= \"compliant\", or start without the load and apply it during the run",
+            "law = \"compliant\", or start without the load and apply it during the run",
             contacts_[unknown.contact].name));
     }
   }
@@ -293,8 +292,7 @@ class LoadingPath {
       if (found->ambiguous)
         doubt(
             fmt::format("at load factor {:.4g} of stage '{}' {} may continue in several ways that all "
-                        "satisfy the contact laws; "
-                        "the start takes the smallest slips and openings",
+                        "satisfy the contact laws; the start takes the smallest slips and openings",
                         part_, stage_->name, names_of_unknowns(unknowns)));
       refuse_shares(rows, unknowns, shared.moves);
       take_states(unknowns, shared.moves);

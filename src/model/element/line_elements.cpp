@@ -82,7 +82,7 @@ SectionForce LineElement::section_force(OutputQuantity quantity, const PlaneVect
   PlaneVector load;
   LineShapes shapes;
   double dx = -s, dy = c,
-         sign = -1.0;  // (dx, dy): direction of the section force; sign of rho a
+         sign = -1.0;  // (dx, dy): direction of the section force; sign: sign of rho a
   if (quantity == OutputQuantity::N) {
     forces << -c, -s, 0.0, 0.0, 0.0, 0.0;
     load = {-x * c, -x * s};

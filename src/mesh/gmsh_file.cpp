@@ -36,7 +36,7 @@ std::string GmshTokenizer::token() {
       fail("found a word of more than 200 characters, expected a mesh of Gmsh in ASCII");
     text += static_cast<char>(c);
   }
-  if (c != EOF) in_.unget();  // keep the end of the line for the next word
+  if (c != EOF) in_.unget();  // token() counts this line break when it reads the next word
   return text;
 }
 
@@ -127,14 +127,14 @@ struct GmshContent {
   std::unordered_map<long, int> by_number;
   std::vector<RawElement> elements;
   std::map<Tag, std::string> names;              // names of physical groups
-  std::map<Tag, std::vector<long>> of_entities;  // groups of each entity (version 4.1)
+  std::map<Tag, std::vector<long>> of_entities;  // tags of the physical groups of each entity (format 4.1)
 
   [[nodiscard]] std::string name(int dimension, long tag) const {
     const auto known = names.find({dimension, tag});
     if (known != names.end()) return known->second;
     constexpr std::array kinds = {"point", "curve", "surface", "volume"};
     return kinds[static_cast<std::size_t>(dimension)] +
-           std::to_string(tag);  // a name of digits alone would name a node
+           std::to_string(tag);  // the digits alone would be the name of a node
   }
 };
 
@@ -252,10 +252,10 @@ class GmshReader {
                                     [number](const GmshType& t) { return t.number == number; });
     if (found != gmsh_types.end()) return *found;
     const std::string hint = number == 10 ? " (nine nodes: set Mesh.SecondOrderIncomplete = 1 in Gmsh)" : "";
-    words_.fail(fmt::format(
-        "found an element ({}) of type {}{}, expected points (15), lines (1, 8), triangles (2, 9) or "
-        "quadrilaterals (3, 16)",
-        element, number, hint));
+    words_.fail(
+        fmt::format("element {} has type {}{}, expected points (15), lines (1, 8), triangles (2, 9) or "
+                    "quadrilaterals (3, 16)",
+                    element, number, hint));
   }
 
   void read_element(const GmshType& type, long number, std::vector<long> physical) {
@@ -264,7 +264,7 @@ class GmshReader {
       const long node = words_.integer("the number of a node");
       const auto known = content_.by_number.find(node);
       if (known == content_.by_number.end())
-        words_.fail(fmt::format("element {} has node {}, which $Nodes does not have", number, node));
+        words_.fail(fmt::format("element {} has node {}, which is not in $Nodes", number, node));
       element.nodes.push_back(known->second);
     }
     content_.elements.push_back(std::move(element));
@@ -304,7 +304,7 @@ class GmshReader {
   double z_ = 0.0;
 };
 
-/// Builds a body with its groups.
+/// Builds the mesh of one body, with its groups of edges and nodes.
 class BodyBuilder {
  public:
   BodyBuilder(const GmshContent& content, const std::string& file, const std::string& key)
@@ -330,12 +330,12 @@ class BodyBuilder {
       if (!used[i])
         throw SceneError(
             content_.nodes[i].place, key_,
-            fmt::format("node {} belongs to no element: leave it out of the mesh", content_.nodes[i].number));
+            fmt::format("node {} belongs to no element: remove it from the mesh", content_.nodes[i].number));
   }
 
   void add_elements(const std::vector<std::string>& surfaces) {
     std::set<std::string> there, used;
-    std::set<std::vector<int>> known;  // version 2 repeats elements that are in two groups
+    std::set<std::vector<int>> known;  // format 2.2 lists an element once per group
     for (const RawElement& raw : content_.elements) {
       if (!raw.type->shape) continue;
       bool wanted = surfaces.empty();
@@ -384,7 +384,7 @@ class BodyBuilder {
     std::vector<int> nodes;
     for (const int n : raw.nodes) {
       const int own = index_[static_cast<std::size_t>(n)];
-      if (own < 0) return;  // an element of another body
+      if (own < 0) return;  // the line or point belongs to another body
       nodes.push_back(own);
     }
     const SharedEdge* edge = nullptr;
@@ -401,14 +401,14 @@ class BodyBuilder {
       PlaneMesh::Group& g = group(name);
       if (edge && edge->elements > 1)
         inside_.try_emplace(name, &raw);
-      else if (edge && taken_.insert({name, edge}).second)  // version 2 repeats lines that are in two groups
+      else if (edge && taken_.insert({name, edge}).second)  // format 2.2 lists a line once per group
         g.edges.push_back({edge->nodes});
       for (const int n : edge ? edge->nodes : nodes)
         if (in_group_.insert({name, n}).second) g.nodes.push_back(n);
     }
   }
 
-  /// Refuses a line that is not an edge of an element: a part of the boundary would be missing.
+  /// Errors: SceneError if a line of a physical curve is not an edge of an element; the boundary would have a hole there.
   void check_is_edge(const RawElement& line) const {
     for (const RawElement& raw : content_.elements) {
       if (!raw.type->shape) continue;
@@ -422,12 +422,13 @@ class BodyBuilder {
       return content_.nodes[static_cast<std::size_t>(line.nodes[i])].number;
     };
     throw SceneError(line.place, key_,
-                     fmt::format("line {} from node {} to node {} is no edge of an element: expected lines "
-                                 "along edges of the mesh",
+                     fmt::format("line {} from node {} to node {} is not an edge of an element: expected "
+                                 "lines along edges of the mesh",
                                  line.number, number(0), number(1)));
   }
 
-  /// Errors: SceneError for a curve that lies only partly inside the body: inside, a curve is a set of nodes.
+  /// Errors: SceneError if a physical curve lies partly on the boundary and partly inside the body. Inside the body, a curve
+  /// only selects nodes.
   void check_boundaries() const {
     for (const PlaneMesh::Group& g : mesh_.groups)
       if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())
@@ -487,9 +488,10 @@ void check_elements(PlaneMesh& mesh, const std::string& key) {
     if (least > 0.0) continue;
     throw SceneError(
         element.place, key,
-        fmt::format("element {} is {}: expected nodes that run counter-clockwise round a convex shape",
+        fmt::format("element {} is {}: expected nodes that run counter-clockwise around a convex shape",
                     element.number,
-                    most < 0.0 ? "inverted, its nodes run clockwise while others do not" : "folded or flat"));
+                    most < 0.0 ? "inverted (its nodes run clockwise, those of other elements do not)"
+                               : "folded or flat"));
   }
 }
 

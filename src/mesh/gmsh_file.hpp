@@ -1,9 +1,9 @@
 // gmsh_file.hpp: plane meshes of Gmsh, .msh 4.1 and 2.2, ASCII.
 //
-//   $PhysicalNames   dimension tag "name"        groups: of surfaces, curves and points
+//   $PhysicalNames   dimension tag "name"        names of groups of surfaces, curves and points
 //   elements         1 line2  8 line3  15 point  2 t3  9 t6  3 q4  16 q8; others are refused
 //
-// A body consists of the elements of some physical surfaces, or of all. Its groups are the physical curves
+// A body consists of the elements of some or of all physical surfaces. Its groups are the physical curves
 // and points with nodes of these elements. Nodes that the body does not use are omitted; a node that no
 // element of the file uses is refused. If all elements run clockwise, they are reversed. If only some of them run
 // clockwise, or a Jacobian is not positive at a node, the mesh folds and is refused.
@@ -24,7 +24,8 @@ namespace signorini::mesh {
 //
 //   GmshTokenizer words(in, file, key);   while (words.next_section(name)) ... words.integer() ... words.number()
 
-/// `what` names the expected word in messages; `key` is the scene's key that names the file.
+/// Splits a mesh file into words. Argument `what` of its functions: description of the expected word, for messages. key: the
+/// key of the scene that names the mesh file.
 class GmshTokenizer {
  public:
   GmshTokenizer(std::istream& in, std::string file, std::string key)
@@ -32,24 +33,24 @@ class GmshTokenizer {
 
   /// Reads the next "$Name"; returns false at the end of the file.
   bool next_section(std::string& name);
-  /// Skips to "$EndName".
+  /// Skips all words up to and including "$EndName".
   void skip_section(const std::string& name);
   /// Reads "$EndName"; any other word is an error.
   void end_section(const std::string& name);
 
-  /// The next word as an integer. Errors of all reads: SceneError at the line of the file.
+  /// Reads the next word as an integer. All functions that read throw a SceneError at the line of the file.
   [[nodiscard]] long integer(const char* what);
-  /// The next word as an integer >= 0, at most `most_entries`.
+  /// Reads the next word as an integer from 0 to 10 million.
   [[nodiscard]] long count(const char* what);
   [[nodiscard]] double number(const char* what);
-  /// The next text in quotes, without the quotes.
+  /// Reads the next text in quotes; returns it without the quotes.
   [[nodiscard]] std::string quoted(const char* what);
 
   [[nodiscard]] SourcePlace place() const { return {file_, line_, 0}; }
   [[noreturn]] void fail(const std::string& message) const { throw SceneError(place(), key_, message); }
 
  private:
-  /// The next word; empty at the end of the file.
+  /// Reads the next word; returns "" at the end of the file.
   std::string token();
 
   std::istream& in_;
@@ -57,8 +58,8 @@ class GmshTokenizer {
   int line_ = 1;
 };
 
-/// Reads a mesh. surfaces: names of physical surfaces that form the body; empty: all surfaces. Errors: SceneError at the
-/// line of the file; `key` begins the message.
+/// Reads the mesh of a body. surfaces: names of the physical surfaces that form the body; empty: all surfaces. Errors:
+/// SceneError at the line of the file, with a message that begins with `key`.
 [[nodiscard]] PlaneMesh read_gmsh(std::istream& in, const std::string& file, const std::string& key,
                                   const std::vector<std::string>& surfaces);
 

@@ -9,10 +9,10 @@
 namespace signorini::mesh {
 namespace {
 
-/// Lattice of nodes over u and v; quadratic elements have half steps.
+/// Regular lattice of nodes in u and v. For quadratic elements a lattice step is half an element.
 struct Lattice {
   const GridSpec& grid;
-  bool closed;  // the nodes at v = 1 are those at v = 0
+  bool closed;  // full ring: nodes at v = 1 coincide with those at v = 0
   int step, columns, rows;
   std::vector<int> index;  // node at each lattice point; -1: no node
   PlaneMesh mesh;
@@ -42,7 +42,7 @@ struct Lattice {
       }
   }
 
-  /// Coordinates 0 to 1 of the lattice points along one axis; middle nodes are half-way between ends.
+  /// Coordinates 0 to 1 of the lattice points along one axis. A middle node is half-way between two corners.
   [[nodiscard]] std::vector<double> parts(std::size_t axis) const {
     const int n = grid.elements[axis];
     const double q = n > 1 ? std::pow(grid.grading[axis], 1.0 / (n - 1)) : 1.0;

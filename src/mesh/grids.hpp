@@ -20,12 +20,12 @@ struct GridSpec {
   std::array<double, 2> grading{1.0, 1.0};
 };
 struct RectangleSpec {
-  std::array<double, 2> from{0.0, 0.0}, size{1.0, 1.0};  ///< length
+  std::array<double, 2> from{0.0, 0.0}, size{1.0, 1.0};  ///< unit: length
   double angle = 0.0;                                    ///< rad, about `from`
 };
 struct RingSpec {
   std::array<double, 2> centre{0.0, 0.0};
-  double inner = 0.0, outer = 0.0;  ///< length
+  double inner = 0.0, outer = 0.0;  ///< radii; unit: length
   double start = 0.0, end = 0.0;    ///< rad, end > start
 };
 

@@ -32,7 +32,7 @@ struct MeshQuality {
 
 // The edges of a mesh, each once, with the number of adjacent elements.
 //
-//   1: on the boundary,   2: inside
+//   1 element: edge on the boundary,   2 elements: edge inside the mesh
 
 struct SharedEdge {
   /// Two ends, then the middle node if there is one. The element from which the edge was added first is on its left.
@@ -42,7 +42,7 @@ struct SharedEdge {
 /// Edges by the numbers of their ends, the smaller one first.
 using SharedEdges = std::map<std::pair<int, int>, SharedEdge>;
 
-/// Adds the edges of these elements.
+/// Adds the edges of `elements` to `edges`, and counts the elements at each edge.
 inline void add_edges(const std::vector<PlaneMesh::Element>& elements, SharedEdges& edges) {
   for (const PlaneMesh::Element& element : elements)
     for (std::size_t i = 0; i < corner_count(element.shape); ++i) {

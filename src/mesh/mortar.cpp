@@ -16,10 +16,9 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-/// Smallest covered fraction of an edge; an edge with less coverage counts as uncovered. If the fraction d of
-/// an edge is covered, the matrix int N_i N_j has the condition number 1/d^2: at 1e-5 the weights of the
-/// master keep six of sixteen digits. Overlaps from coordinates that a file rounds to six digits are below
-/// this limit.
+/// An edge of which a smaller fraction is covered is treated as uncovered. If the fraction d of an edge is covered, the
+/// matrix int N_i N_j has the condition number 1/d^2: at d = 1e-5 the weights of the master keep six of sixteen digits.
+/// Overlaps that only result from coordinates rounded to six digits in a file are below this limit.
 constexpr double no_overlap = 1e-5;
 constexpr double cosine_of_corner = 0.70710678118654752;
 
@@ -71,7 +70,7 @@ Curves curves_of(const std::vector<PlaneMesh::Edge>& edges, const NodePosition& 
 }
 
 /// The largest distance of a node from the origin. Each coordinate has an error of eps times this distance, even
-/// a zero coordinate: meshes are rotated and moved as a whole, and cos 90 degrees is 6e-17.
+/// a zero coordinate: meshes are rotated and moved as a whole, and the computed cos 90 degrees is 6e-17.
 double reach_of(std::initializer_list<const Curves*> all) {
   double reach = 0.0;
   for (const Curves* curves : all)
@@ -110,7 +109,7 @@ struct NodeSums {
   double length = 0.0;
   Point2 outward{0.0, 0.0};
   std::map<int, double> master;  // M_kl
-  std::optional<Point2> edge;    // normal of the previous edge
+  std::optional<Point2> edge;    // normal of the edge that was added before
   bool corner = false;
 };
 
@@ -233,7 +232,7 @@ std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master, c
   std::vector<double> breaks{-1.0, 1.0};
   const double from = slave.at[0].dot(slave.chord), to = slave.at[1].dot(slave.chord);
   for (const EdgeCurve& m : master) {
-    if (!(m.outward().dot(slave.outward()) < 0.0)) continue;  // not facing the slave edge
+    if (!(m.outward().dot(slave.outward()) < 0.0)) continue;  // the edges do not face each other
     const double start = m.at[1].dot(slave.chord), end = m.at[0].dot(slave.chord);
     if (end <= from || start >= to) continue;
     facing.push_back(&m);
@@ -307,7 +306,7 @@ MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const Plane
     const double size = reach + std::hypot(point[0], point[1]);
     node.gap = std::abs(gap) <= rounding::many_operations * size ? 0.0 : gap;
   }
-  seam.corners.clear();  // the line gives the normal
+  seam.corners.clear();  // corners do not matter: the normal is that of the line
   return seam;
 }
 

@@ -30,14 +30,14 @@ struct MortarNode {
   double length = 0.0;                              ///< D_k
   PlanePoint normal{0.0, 0.0};                      ///< n_k
   std::vector<std::pair<int, double>> master = {};  ///< w_kl
-  double gap = 0.0;                                 ///< g0_k; exactly zero if only rounding of coordinates
+  double gap = 0.0;  ///< g0_k; exactly zero if below the rounding of coordinates
 };
 
-/// Nodes of the slave that the master covers, in order along the slave.
+/// Result: nodes of the slave that the master covers, in order along the slave.
 struct MortarSeam {
   std::vector<MortarNode> nodes;
-  std::vector<int> negative;  ///< nodes whose D_k <= 0: partly covered quadratic edges
-  std::vector<int> corners;   ///< nodes at which the edges' normals differ by more than 45 degrees
+  std::vector<int> negative;  ///< nodes with D_k <= 0, which partly covered quadratic edges may have
+  std::vector<int> corners;   ///< nodes whose two edges have normals that differ by more than 45 degrees
 };
 
 /// Contact of the slave with the master. outline: all known edges of the slave's body, which give its depth.

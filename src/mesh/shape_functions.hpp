@@ -25,7 +25,7 @@ namespace signorini::mesh {
   return shape == PlaneShape::t6 || shape == PlaneShape::q8;
 }
 
-/// Values of the shape functions, and their derivatives by a and b: nodes x 1, nodes x 2.
+/// Values of the shape functions, and their derivatives with respect to a and b; one row per node.
 struct ShapeValues {
   Eigen::VectorXd values;
   Eigen::MatrixX2d gradients;
@@ -35,10 +35,10 @@ struct ShapeValues {
 struct IntegrationPoint {
   double a = 0.0, b = 0.0, weight = 0.0;
 };
-/// Rule that is exact for the mass of elements with straight edges: 3 points (t3), 6 (t6), 2 x 2 (q4), 3 x 3 (q8).
+/// Gauss rule that integrates the mass of elements with straight edges exactly: 3 points (t3), 6 (t6), 2 x 2 (q4), 3 x 3 (q8).
 [[nodiscard]] std::span<const IntegrationPoint> integration_points(PlaneShape shape);
 
-/// A point at which stresses of an element are most accurate: its centre (t3), 3 (t6), 2 x 2 (q4, q8).
+/// A point at which stresses of an element are most accurate: its centre (t3), one of 3 (t6) or 2 x 2 points (q4, q8).
 struct StressPoint {
   double a = 0.0, b = 0.0;
 };
@@ -52,7 +52,7 @@ struct StressPoint {
 /// The nodes of edge i of an element: two ends, then the middle if there is one.
 [[nodiscard]] std::vector<int> edge_nodes(const PlaneMesh::Element& element, std::size_t i);
 
-/// Shape functions of an edge of two or three nodes, and their derivatives by s; the end nodes come first.
+/// Shape functions of an edge of two or three nodes, and their derivatives with respect to s; the end nodes come first.
 struct EdgeValues {
   std::array<double, 3> values{}, derivatives{};
 };

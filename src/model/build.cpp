@@ -1,4 +1,4 @@
-// build_model: assembles the scene's matrices. Each step needs the results of the steps before:
+// build_model: assembles the scene's matrices. Each step needs the results of the previous steps:
 //
 //   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
 //   -> warnings -> reduction, or separation of undamped massless motions -> shear elements -> outputs
@@ -96,7 +96,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   if (scene.matrices && !loaded)
     throw SceneError(
         scene.initial.place, "run.initial",
-        "initial = \"static\" finds no load: with [matrices], the weight must be given by loads with a "
+        "initial = \"static\" needs a load: with [matrices], the weight must be given by loads with a "
         "constant history; add one");
   statics::Equilibrium found =
       scene.run.geometric
@@ -168,7 +168,7 @@ void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& mode
   if (scene.run.geometric && scene.initial.is_frictional) check_massless(scene, model, map);
 }
 
-/// Finds the initial state and the forces on pendulums together, because they depend on each other.
+/// Finds the initial state and the forces on pendulums together, because each depends on the other.
 void start(const Scene& scene, DofMap& map, Model& model) {
   const bool stands = scene.initial.is_static || scene.initial.is_frictional;
   if (!stands || !has_pressed_pendulums(scene)) {
@@ -264,12 +264,14 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
 
 enum class Extent { structure, without_warnings, all };
 
-/// Builds the model in the units of `scene`. unit: these units of force, length and time, in the units of messages.
+/// Builds the model in the units of `scene`. unit: the scene's units of force, length and time, in the units of messages.
 Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
   DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
   map.shown_length = unit.length;
   if (map.size() == 0)
-    throw SceneError(place_of_structure(scene), "", "the scene has no degree of freedom that could move");
+    throw SceneError(
+        place_of_structure(scene), "",
+        "the scene has no degree of freedom: add a member, mass, spring or contact at a free node");
   if (!scene.matrices) assembly::check_stiffness_range(scene, map);
   Assembly assembly = scene.matrices ? assemble_matrices(scene, map) : assemble_nodes(scene, map);
 
@@ -337,7 +339,8 @@ Model built(const Scene& scene, Extent extent) {
       if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
     return model;
   } catch (const SceneError&) {
-    static_cast<void>(assembled(scene, {}));  // throws the same error, with numbers in the scene's units
+    static_cast<void>(
+        assembled(scene, {}));  // throws the same error again, with numbers in the scene's units
     throw;
   }
 }

@@ -5,7 +5,7 @@
 
 namespace signorini::model {
 
-/// build_model() without model warnings (model_warnings.hpp): these take as long as all other steps together.
+/// build_model() without model warnings (model_warnings.hpp), which take as long as all other steps together.
 [[nodiscard]] Model build_without_warnings(const Scene& scene);
 
 /// Returns M, C and K of build_model() with all degrees of freedom, even if the scene has [reduction]. Not included:

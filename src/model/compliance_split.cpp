@@ -12,7 +12,7 @@
 namespace signorini::model {
 namespace {
 
-// Smallest eigenvalue of B^T B (columns scaled to length 1) at which the columns are linearly independent.
+// The columns of B, scaled to length 1, are linearly independent if the smallest eigenvalue of B^T B is above this value.
 constexpr double independent = 1e-9;
 
 [[noreturn]] void refuse_compliance_split(const Scene& scene, std::size_t k, const char* key,
@@ -84,8 +84,8 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
     const Row& row = rows[static_cast<std::size_t>(most)];
     refuse_compliance_split(
         scene, row.contact, "law",
-        fmt::format("{} has no mass, and other rigid contacts act there, too, so the share of each in the "
-                    "force is undetermined; remove one, or give them law = \"compliant\"",
+        fmt::format("{} has no mass, and several rigid contacts act on it, so the force of each of them is "
+                    "undetermined; remove all but one, or give them law = \"compliant\"",
                     row.dof->displacement));
   }
   square = size.asDiagonal() * square * size.asDiagonal();
@@ -94,7 +94,7 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
   return s;
 }
 
-/// Errors: SceneError if beta K or a damper acts on motions along S.
+/// Errors: SceneError if beta K or a damper acts on motions along the columns of S.
 void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vector<Row>& rows,
                  const SparseMatrix& s) {
   const bool beta = scene.damping.beta > 0.0;
@@ -103,7 +103,7 @@ void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vec
     const Row& row = rows[static_cast<std::size_t>(j)];
     refuse_compliance_split(
         scene, row.contact, "law",
-        fmt::format("{} has no mass, and {}; a rigid contact there needs {}: change this, or "
+        fmt::format("{} has no mass, and {}; a rigid contact there needs {}: remove the damping, or "
                     "give the contact law = \"compliant\"",
                     row.dof->displacement, what, instead));
   };
@@ -113,7 +113,8 @@ void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vec
   }
 }
 
-/// f' = f + K S X S^T f, and the corrections of the displayed displacements and energies for u'.
+/// Replaces the loads f by f' = f + K S X S^T f, and sets Model::load_corrections, which convert displacements u' and energies
+/// to those of u.
 void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::MatrixXd& x, Model& model) {
   std::vector<Vector> pushes;
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
@@ -140,7 +141,7 @@ void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::Mat
   }
 }
 
-/// K + A X A^T, for a sparse A of size n x m and a dense X of size m x m.
+/// Returns K + A X A^T, for a sparse A of size n x m and a dense X of size m x m.
 SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eigen::MatrixXd& x) {
   std::vector<int> touched;
   Vector any = Vector::Zero(a.rows());
@@ -246,8 +247,8 @@ void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& m
   if (!scene.initial.saved) return;
   if (model.saved_contacts.empty())
     throw SceneError(scene.initial.place, "run.initial",
-                     "contacts.csv of the saved run has no rows of these contacts at this time; rigid "
-                     "contacts on parts without mass need them: choose one of the output times of that run");
+                     "contacts.csv of the saved run has no rows at this time for rigid contacts on parts "
+                     "without mass, which need them: choose one of the output times of that run");
   Vector given(springs.shifts.cols());
   for (std::size_t j = 0; j < springs.rows.size(); ++j) {
     const auto [k, normal] = springs.rows[j];
@@ -289,10 +290,8 @@ void check_unique_forces(const Scene& scene, Model& model) {
   if (most < 1.0) return;
   model.warnings.push_back(
       fmt::format("the forces of the {} rigid contacts without mass may not be unique while all of them "
-                  "slide to one side: this run "
-                  "takes one of the solutions; they are unique with {:.3g} times their friction, with mass "
-                  "at these contacts, or with law = "
-                  "\"compliant\"",
+                  "slide in the same direction: this run takes one of the solutions; they are unique with "
+                  "{:.3g} times their friction, with mass at these contacts, or with law = \"compliant\"",
                   f.contacts.size(), 1.0 / most));
 }
 

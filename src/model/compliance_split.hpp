@@ -5,8 +5,8 @@
 //   K' u' = f' + B l,   K' = K + K S X S^T K,   f' = f + K S X S^T f,   l = -L g' where the contact is closed
 //   u = u' + S X S^T (K u' - f),   energy of the structure and work of loads: smaller by f^T S X S^T f / 2
 //
-// Parts without mass respond immediately. So a rigid contact there is a constraint g = 0 on displacements (and a
-// constant ut while it sticks). Its state is the solution of a static complementarity problem without
+// Parts without mass respond immediately. A rigid contact on such a part is therefore a constraint g = 0 on
+// displacements (and a constant ut while it sticks). Its state is the solution of a static complementarity problem without
 // restitution. A compliant contact in series with a stiffer structure has the same equations: a part D of the
 // structure's compliance becomes the springs L of the contact. Gaps, slips, forces and energies are those of
 // the rigid contact for any L. L = 2 sum_j |G_ij| makes L - G positive definite, and K' at most twice as
@@ -29,7 +29,7 @@ struct ComplianceSplit {
   };
   std::vector<Row> rows;       ///< one entry for each column of S
   SparseMatrix shifts;         ///< S
-  SparseMatrix displacements;  ///< u = this * u'
+  SparseMatrix displacements;  ///< u = displacements * u'
 };
 
 /// Changes K, loads and contacts (law and stiffnesses). To be called after the loads, before the initial

@@ -110,7 +110,7 @@ std::string given_for(const assembly::DofMap& map, int tied) {
   return names.empty() ? std::string("none: supports move it") : base::join_quoted(names, 3);
 }
 
-/// nullopt if the component is fixed, or tied at a seam: the given value then has no effect.
+/// Place in u or v of a given component; nullopt if it is fixed, or tied at a seam, so that the given value has no effect.
 std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assembly::DofMap& map) {
   const std::string key = key_of(c);
   const auto named = scene::component_named(c.component);
@@ -126,8 +126,8 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
     return std::nullopt;  // a node of a seam: other nodes determine its motion
   if (map.is_tied(number))
     throw SceneError(c.place, key,
-                     fmt::format("found a motion of node '{}', which follows from other motions because it "
-                                 "is part of a rigid body; expected one of {}",
+                     fmt::format("found a motion of node '{}', which follows from other motions because the "
+                                 "node is part of a rigid body; expected one of {}",
                                  c.node, given_for(map, number)));
   if (number < 0) return std::nullopt;
   return GivenPlace{named->rate, number};
@@ -149,7 +149,7 @@ std::vector<bool> initial_displacement_matters(const Model& model) {
   return result;
 }
 
-/// Warning for a value given for a degree of freedom without mass.
+/// Warning about an initial value of a degree of freedom without mass.
 std::string unused(const Model& model, const GivenPlace& at, double value, const SourcePlace& place,
                    const std::string& key) {
   const Dof& dof = model.dofs[static_cast<std::size_t>(at.dof)];
@@ -204,7 +204,7 @@ namespace {
 // Pendulum forces have converged if the equilibrium computed with them returns the same forces, within this
 // multiple of the magnitudes of summed(). Chosen value.
 constexpr double settled = rounding::many_operations;
-constexpr int rounds = 50;  // each takes one solve with K
+constexpr int rounds = 50;  // limit of the fixed-point iterations, each of which solves with K once
 
 bool is_pressed_pendulum(const ContactSpec& contact) {
   return contact.pendulum_surface && contact.capabilities().normal_spring;
@@ -228,8 +228,8 @@ std::vector<double> first_guess(const Scene& scene, const Model& model) {
   return forces;
 }
 
-/// Magnitude whose rounding is the error of N = kn (g0 + n . u), as a force for each contact: N itself; its two terms,
-/// which are much larger if the structure has moved far along an inclined surface; and the forces K u that balance N.
+/// For each contact, the force whose rounding error is the error of N = kn (g0 + n . u): the sum of N, of its two terms, which
+/// are much larger if the structure has moved far along an inclined surface, and of the largest force K u.
 std::vector<double> summed(const Scene& scene, const Model& model) {
   const Vector forces = model.stiffness.cwiseAbs() * model.u0.cwiseAbs();
   double greatest = 0.0;
@@ -280,9 +280,10 @@ void solve_pendulum_start(const Scene& scene, Model& model, const std::function<
     model = std::move(begun);
     return;
   }
-  throw SceneError(scene.initial.place, "run.initial",
-                   "the static forces on the pendulums do not converge: each equilibrium gives other forces "
-                   "than those with which it was computed");
+  throw SceneError(
+      scene.initial.place, "run.initial",
+      "the iteration for the static forces on the pendulums does not converge; give run.initial as "
+      "displacements and velocities");
 }
 
 std::vector<double> saved_pendulum_forces(const Scene& scene) {
@@ -298,7 +299,7 @@ std::vector<double> saved_pendulum_forces(const Scene& scene) {
 
 namespace {
 
-/// Word with which run.stages names all loads of this kind; empty if stages name such loads one by one.
+/// Word in run.stages for all loads of this kind; empty if each load of this kind is listed by its own name.
 std::string word_of(LoadKind kind) {
   switch (kind) {
     case LoadKind::temperature:

@@ -24,15 +24,15 @@ struct InitialState {
 [[nodiscard]] std::vector<std::string> unused_values(const Scene& scene, const assembly::DofMap& map,
                                                      const Model& model);
 
-// Forces on pendulums that the structure presses, for a start in equilibrium.
+// Forces on pendulums whose compression follows from the structure, for a start in equilibrium.
 //
-//   ( K + sum_k N_k / R_k t_k t_k^T ) u = P - contacts,   N_k = -N of contact k (contact/curved_surface.hpp)
+//   ( K + sum_k N_k / R_k t_k t_k^T ) u = P - contact forces,   N_k = -N of contact k (contact/curved_surface.hpp)
 //
 // N_k depends on u and u on N_k; the fixed-point iteration converges fast, because N_k hardly depends on the
 // lateral stiffness. A continued run uses the N_k of the previous run, so that K, beta K and the stored
 // energy are the same.
 
-/// True if the scene has pendulums that the structure presses.
+/// True if the scene has pendulums whose compression follows from the structure (normal_spring, not a given force).
 [[nodiscard]] bool has_pressed_pendulums(const Scene& scene);
 
 /// Sets the force that each pendulum carries, and adds its stiffness N_k / R_k to K. forces: one number per

@@ -13,7 +13,7 @@ namespace {
 // Limit of the exponents: products of four units (mass = force time^2 / length) then stay in the range of a double.
 constexpr int max_exponent = 120;
 
-// Without stiffness: unit of time as a fraction of the run, 2^-2, the likely duration of one motion. Scales of
+// Exponent of the unit of time of scenes without stiffness: 2^-2 of the run, the likely duration of one motion. Scales of
 // displacement follow from this unit (acceleration time^2). Chosen value; changing it changes the tests of
 // validation/published.
 constexpr int time_unit_exponent = -2;
@@ -34,7 +34,7 @@ class Greatest {
   double most_ = 0.0;
 };
 
-/// The larger of the extents along x and y.
+/// Larger one of the structure's extents along x and y.
 Greatest extent_of(const std::vector<Node>& nodes) {
   Greatest extent;
   if (nodes.empty()) return extent;
@@ -72,7 +72,7 @@ Sizes sizes_of(const Scene& scene, int length) {
     sizes.stiffness.add(std::ldexp(s.EA, -length));
     sizes.mass.add(std::ldexp(s.mass_per_length, length));
   }
-  for (const BodySpec& b : scene.bodies) {  // treated as a square of the extent
+  for (const BodySpec& b : scene.bodies) {  // a body is treated as a square with this extent
     sizes.stiffness.add(b.E * b.thickness);
     sizes.mass.add(std::ldexp(b.density * b.thickness, 2 * length));
   }
@@ -98,7 +98,7 @@ Sizes sizes_of(const Scene& scene, int length) {
   return sizes;
 }
 
-/// Exponent of length for scenes without an extended structure; 0 if the scene has no lengths.
+/// Exponent of the unit of length for scenes whose nodes have no extent; 0 if the scene has no lengths.
 int length_of_motion(const Sizes& sizes, int time, int mass) {
   if (sizes.gap.any()) return sizes.gap.exponent();
   if (sizes.displacement.any()) return sizes.displacement.exponent();
@@ -140,7 +140,7 @@ class Rescaling {
     if (x) (*this)(*x, of);
   }
 
-  /// Conversion factor of displacement i: that of a length, or 1 for a rotation.
+  /// Conversion factor of displacement i: the factor of a length, or 1 for a rotation.
   [[nodiscard]] double of_dof(int i) const {
     return dofs_[static_cast<std::size_t>(i)].rotation ? 1.0 : factors_.length;
   }
@@ -171,7 +171,7 @@ class Rescaling {
         it.valueRef() *= of_dof(static_cast<int>(it.row())) / of_dof(j);
   }
 
-  /// Scales ties; *this must be made for the physical degrees of freedom.
+  /// Scales ties; *this must have been constructed with Ties::dofs.
   void operator()(Ties& ties) const {
     const auto first = static_cast<int>(ties.rows.cols());
     for (int j = 0; j < ties.rows.outerSize(); ++j)
@@ -232,7 +232,7 @@ class Rescaling {
     (*this)(s.force, unit::force);
   }
 
-  /// Scales a reduction; *this must be made for the physical degrees of freedom. Amplitudes of shapes are lengths.
+  /// Scales a reduction; *this must have been constructed with Reduction::dofs. Amplitudes of shapes are lengths.
   void operator()(Reduction& r) const {
     for (int i = 0; i < r.shapes.rows(); ++i) r.shapes.row(i) *= of_dof(i) / factors_.length;
     for (double* omega : {&r.cutoff, &r.highest_kept, &r.first_truncated, &r.highest_massive})

@@ -14,10 +14,10 @@
 namespace signorini::model {
 namespace {
 
-/// Weight of C relative to K if K alone leaves motions free: half of the digits of a double.
+/// Weight of C relative to K if K alone does not resist all motions: half of the digits of a double.
 constexpr double damping_weight = 1e8;
 
-/// Restricts A to the rows and columns i with position[i] >= 0, which become row position[i]; scaled: s_i A_ij s_j.
+/// Block of s_i A_ij s_j for rows and columns with position[i] >= 0; position[i] is the row of i in the block.
 SparseMatrix block(const SparseMatrix& a, const std::vector<int>& position, int size, const Vector& s) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < a.outerSize(); ++k)
@@ -69,7 +69,9 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
     s[i] = 1.0 / std::sqrt(diagonal);
     position[static_cast<std::size_t>(i)] = heavy++;
   }
-  if (heavy == 0) throw SceneError(assembly::place_of_structure(scene), "", "nothing in the scene has mass");
+  if (heavy == 0)
+    throw SceneError(assembly::place_of_structure(scene), "",
+                     "nothing in the scene has mass; give masses, densities or mass_per_length");
   // After scaling to a unit diagonal the pivots are dimensionless.
   const assembly::SymmetricSolver solver(block(assembly.mass, position, heavy, s));
   if (!solver.ok() || solver.smallest_pivot() <= rounding::many_operations * heavy)
@@ -120,11 +122,10 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
         fmt::format("the {} is unstable: it moves no mass and no damper, and its stiffness is negative, "
                     "{:.6g}, contacts included; expected a stiffness > 0, or mass or damping on it",
                     describe(null), energy));
-  throw SceneError(
-      place, "",
-      fmt::format(
-          "the {} is undetermined: it moves no mass, and no stiffness, damping or contact restrains it",
-          describe(null)));
+  throw SceneError(place, "",
+                   fmt::format("the {} is undetermined: it moves no mass, and no stiffness, damping or "
+                               "contact restrains it; add one of these",
+                               describe(null)));
 }
 
 namespace {
@@ -236,7 +237,7 @@ namespace {
 
 constexpr std::size_t rotation = 2, most_listed = 3;
 
-/// For each node: whether elements end there, whether one of them rotates with the node, and whether one is plane.
+/// For each node: whether elements end there, whether one of them rotates with the node, and whether one is a plane element.
 class Turning {
  public:
   explicit Turning(const assembly::DofMap& map) : map_(map), nodes_(map.mesh.nodes.size()) {

@@ -38,10 +38,10 @@ void separate_undamped(Model& model);
 //
 //   node of elements without rz (bodies, bars, hinged ends), with rotational springs or inertia:
 //   J phi'' + c phi' + k phi = M       separate equation of this node, because no element rotates with it
-//   fix = ["rz"] at this node          has no effect; a warning follows if it may be meant to clamp a body of plane
-//                                      elements
+//   fix = ["rz"] at this node          has no effect; a warning is issued if the support may be meant to clamp
+//                                      a body of plane elements
 
-/// Warnings about such rotations, one sentence per table of the scene. map: numbering of the same scene.
+/// Warnings about rotations without a connection to an element, one sentence per table. map: numbering of the same scene.
 [[nodiscard]] std::vector<std::string> unconnected_rotations(const Scene& scene, const assembly::DofMap& map);
 
 }  // namespace signorini::model

@@ -30,8 +30,9 @@ namespace {
 
 constexpr double greatest_friction = 2.0;
 constexpr double min_reported_change =
-    0.01;                       // smallest relative change of a velocity in the run that is reported
-constexpr double along = 1e-9;  // smallest component of a motion along a normal, relative to the motion
+    0.01;  // a smaller relative change of a velocity during the run is not reported
+constexpr double along =
+    1e-9;  // smaller components of a motion along a normal, relative to the motion, are zero
 constexpr std::size_t most_named = 3;
 
 /// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
@@ -41,8 +42,8 @@ std::string names(const Model& model, const std::vector<std::size_t>& contacts) 
   return (list.size() == 1 ? "contact " : "contacts ") + base::join_quoted(list, most_named);
 }
 
-/// True if f has values between the starts of pieces `first` and `last` outside the range of the values before and after.
-/// Times are measured from the start of a piece, because two starts may be rounded to the same time of the run.
+/// True if a value of f between the starts of pieces `first` and `last` lies outside the range of the values just before and
+/// just after. Times are measured from the start of a piece, because two starts may be rounded to the same time of the run.
 bool has_value_outside_limits(const History& f, std::size_t first, std::size_t last) {
   const std::vector<double>& starts = f.starts();
   struct Known {
@@ -93,7 +94,8 @@ class ModelWarnings {
 
  private:
   void warn_of_loads_without_effect() {
-    if (scene_.run.geometric) return;  // fixed loads may still compress members and bodies
+    if (scene_.run.geometric)
+      return;  // loads on fixed degrees of freedom may still compress members and bodies
     for (const Load& load : model_.loads) {
       if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support ||
           load.kind == LoadKind::support_rate)
@@ -200,12 +202,13 @@ class ModelWarnings {
       greatest = std::max(greatest, f);
     }
     if (high.empty()) return;
-    found_.push_back(fmt::format(
-        "friction {:.6g} at {}: coefficients above 2 are unusual; is it an angle or a percentage?", greatest,
-        names(model_, high)));
+    found_.push_back(
+        fmt::format("friction {:.6g} at {}: coefficients above 2 are unusual; check whether it is an angle "
+                    "or a percentage",
+                    greatest, names(model_, high)));
   }
 
-  /// A pulse shorter than the time resolution has no effect.
+  /// Warns of pulses of loads that are shorter than the time resolution of doubles, and therefore have no effect.
   void pulses() {
     for (const Load& load : model_.loads) {
       const std::vector<double>& starts = load.history.starts();
@@ -244,8 +247,8 @@ class ModelWarnings {
     }
   }
 
-  /// Warns of temperatures that act suddenly at t = 0: a static start omits loads whose history is not constant, but a
-  /// temperature that is nonzero at t = 0 was probably meant to be part of the start.
+  /// Warns of temperatures that act suddenly at t = 0. A static start omits loads whose history is not constant, but a nonzero
+  /// temperature at t = 0 was probably meant to be part of the start.
   void sudden_heat() {
     if (scene_.initial.saved || !scene_.initial.stages.empty()) return;
     if (!scene_.initial.is_static && !scene_.initial.is_frictional) return;
@@ -264,10 +267,10 @@ class ModelWarnings {
     if (!scene_.initial.saved) return;
     const std::string& run = scene_.initial.saved->run;
     if (const std::string why = run.empty() ? "" : base::unchecked_reason(run); !why.empty())
-      found_.push_back("continues from the run in " + why);
+      found_.push_back("this run continues from the run in " + why);
     if (scene_.initial.saved->structure_differences.empty()) return;
     found_.push_back(fmt::format(
-        "continues from a run in {} whose scene has other {}: its displacements, velocities and "
+        "this run continues from a run in {} whose scene has other {}: its displacements, velocities and "
         "shears are used unchanged",
         scene_.initial.saved->run, base::join_texts(scene_.initial.saved->structure_differences)));
   }
@@ -337,8 +340,8 @@ namespace {
 /// magnitude.
 constexpr double full_amplitude_duration = 1.0 / 16.0;
 
-/// w t_end of a free motion, whose phase angle in the run is below 1 rad. Chosen value: a load that acts for a
-/// thousandth of the run then has its full amplitude.
+/// Value of w t_end for a free motion, that is a motion whose phase angle in the run is below 1 rad. Chosen value: a load that
+/// acts for a thousandth of the run then has its full amplitude.
 constexpr double free_phase = 64.0;
 
 /// Effective amplitude divided by the full amplitude, for an oscillator of frequency omega.
@@ -347,7 +350,7 @@ double share_at(const History& f, double amplitude, double t_end, double omega) 
       1.0, omega * history::max_impulse(f, t_end, 1.0 / omega) / (full_amplitude_duration * amplitude));
 }
 
-/// Frequencies of oscillations along the static responses to loads; 0 if a load has no static response.
+/// Computes the frequency of an oscillation along the static response to a load; 0 if the load has no static response.
 class HalfPeriods {
  public:
   HalfPeriods(const Model& model, const modes::ContactConstraints& holding) : model_(model) {
@@ -373,7 +376,7 @@ EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::Contac
                                          double omega, double t_end) {
   std::optional<HalfPeriods> swings;
   const auto own = [&](double along) { return along * t_end > 1.0 ? along : free_phase / t_end; };
-  // The share increases with the frequency: if it is 1 at the lowest frequency, it is 1 at all frequencies.
+  // The effective share of a load increases with the frequency: if it is 1 at the lowest frequency, it is always 1.
   const double lowest = std::max(omega, 1.0 / t_end);
   const auto lasts = [&](const History& f, double amplitude) {
     return f.is_constant() || !(amplitude > 0.0) || share_at(f, amplitude, t_end, lowest) == 1.0;

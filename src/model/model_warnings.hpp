@@ -2,7 +2,7 @@
 //
 //   load without effect                 direction . u = 0 for all u
 //   unconnected rotations               massless.hpp
-//   a part leaves all contacts          n . a >= 0 at all contacts; a = Z (Z^T M Z)^-1 Z^T P: acceleration of a part in
+//   a part leaves its contacts          n . a >= 0 at all of them; a = Z (Z^T M Z)^-1 Z^T P: acceleration of a part in
 //                                       free fall (Z: motions without stiffness) under the static loads
 //   weight applied suddenly at t = 0    contacts with zero gap, without a static start
 //   drag                                alpha M acts on rigid-body motions: v ~ exp(-alpha t)
@@ -11,7 +11,7 @@
 //   initial values without mass         equilibrium determines these values (initial_state.hpp)
 //   different structure                 the continued run had another structure
 //   a pulse too short for doubles       shorter than 100 eps (t + t_end)
-//   a support that jumps at t = 0       or whose velocity jumps: the initial state is the one after the jump
+//   a support that jumps at t = 0       or whose velocity jumps: the run starts after the jump
 //   flutter after a frictional start    contacts slip at their limits (slip_growth.hpp); divergence is an error
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace signorini::model {
 
-/// One sentence per warning. The model must be complete (damping and initial state set), but not yet reduced,
+/// Returns the warnings, one sentence each. The model must be complete (damping and initial state set), but not yet reduced,
 /// and without shear elements. Errors: SceneError for divergence of slip at the friction limits.
 [[nodiscard]] std::vector<std::string> model_warnings(const Scene& scene, const assembly::DofMap& map,
                                                       const Model& model);
@@ -43,7 +43,7 @@ namespace signorini::model {
 
 /// Effective amplitude of a load, relative to its largest amplitude.
 struct EffectiveLoad {
-  double share = 1.0;       ///< effective / full amplitude; exactly 1 for lasting loads
+  double share = 1.0;       ///< effective / full amplitude; exactly 1 for loads that act long enough
   double free_share = 1.0;  ///< effective / full amplitude for a free motion: J over the whole run
 };
 

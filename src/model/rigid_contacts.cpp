@@ -18,8 +18,9 @@ namespace signorini::model {
 namespace {
 
 constexpr double takes_part = 1e-9;       // relative to a unit normal: smaller parts are elimination errors
-constexpr double closes_together = 1e-9;  // relative to the gaps: about the number of digits in a scene
-constexpr double dependent = 1e-12;       // remainder of a unit normal after removal of other normals
+constexpr double closes_together = 1e-9;  // relative difference of equal gaps: scenes have about nine digits
+constexpr double dependent =
+    1e-12;  // after subtraction of other normals, a smaller rest of a unit normal is zero
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
   const ContactSpec& spec = scene.contacts[k];
@@ -74,7 +75,7 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
     return true;
   }
   const bool judged_later = scene.initial.saved && scene.reduction && scene.reduction->cutoff_omega > 0.0 &&
-                            !model.reduction;  // checked again after the reduction
+                            !model.reduction;  // the gap is checked again after the reduction
   if (gap < 0.0 && !judged_later) {
     refuse(scene, k, "gap",
            fmt::format("found a gap of {:.6g} {} at the start, expected a gap >= 0: a rigid contact cannot "
@@ -100,8 +101,8 @@ void close_together(Model& model, const std::vector<std::size_t>& contacts) {
   }
 }
 
-/// Errors: SceneError for a redundant contact: its normal is a combination of other normals, and its gap is zero
-/// whenever the other gaps are. If only the normal is a combination, all these contacts never close together.
+/// Errors: SceneError for a redundant contact: its normal is a combination of other normals, and its gap is zero whenever the
+/// other gaps are zero. If only the normal is a combination, these contacts are never all closed at the same time.
 void check_redundance(const Scene& scene, const Model& model, const std::vector<std::size_t>& rigid,
                       std::size_t first) {
   const auto n = static_cast<Eigen::Index>(model.size());
@@ -168,7 +169,7 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
 
 namespace {
 
-constexpr double fastest = 1e-6;  // smallest time constant ct/kt times the highest frequency
+constexpr double fastest = 1e-6;  // smallest product of the time constant ct/kt and the highest frequency
 
 SparseMatrix enlarged(const SparseMatrix& matrix, int size) {
   SparseMatrix result = matrix;

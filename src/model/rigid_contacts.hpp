@@ -10,8 +10,8 @@
 
 namespace signorini::model {
 
-/// Checks these requirements, and sets gaps at u0 to exactly zero if they are zero up to rounding. Errors: SceneError
-/// at the contact's place, which proposes law = "compliant".
+/// Checks the requirements at the top of this file, and sets gaps at u0 to exactly zero if they are zero up to rounding.
+/// Errors: SceneError at the place of the contact; the message proposes law = "compliant".
 void check_rigid_contacts(const Scene& scene, Model& model);
 
 // Contact elements with a tangential dashpot, as parts of the structure.
@@ -22,7 +22,7 @@ void check_rigid_contacts(const Scene& scene, Model& model);
 // The sliding point p becomes a degree of freedom without mass, the element is added to K and C, and the contact acts
 // on p. Friction limits the total force of spring and dashpot, so energy is conserved when N or T jump; the element of
 // an open contact relaxes with its own time constant ct/kt. At the start p is ut - T/kt, or in a continued run the
-// value at the end of the previous run. Friction that rises with the slip rate needs the point even with ct = 0: the
+// value at the end of the previous run. Friction that rises with the slip rate needs the point p even with ct = 0: the
 // rate p' follows from T, and p is its integral.
 
 /// Adds the elements of contacts with tangential_damping > 0, or with a tangential spring and rising

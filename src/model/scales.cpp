@@ -123,7 +123,7 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
       force = std::max(force, effective.compressions[k] * history::magnitude(c.normal_force, t_end));
     if (const auto N = c.resting_force(model.u0)) force = std::max(force, -*N);
   }
-  double held = 0.0;  // forces of constrained deformation (heat, supports), used without other forces
+  double held = 0.0;  // forces of constrained deformation (heat, supports), if there are no others
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     const double most = effective.loads[i].share * history::magnitude(load.history, t_end);
@@ -138,7 +138,7 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
       case LoadKind::force:
         force = std::max(force, force_factor(load.direction, map) * most);
         break;
-      case LoadKind::moment:  // as a couple whose arm is the structure's length
+      case LoadKind::moment:  // equivalent couple whose arm is the length of the structure
         if (const double arm = length_of(map); arm > 0.0)
           force = std::max(force, direction.cwiseAbs().maxCoeff() * most / arm);
         break;
@@ -159,11 +159,11 @@ double force_of(const Model& model, const assembly::DofMap& map, const Effective
   return std::max(force, model.omega_max * greatest_force(model.mass * model.v0, map));
 }
 
-/// Largest static displacement under any one of the given forces; 0 if the stiffness matrix is singular.
+/// Largest static displacements under a single one of the given forces; 0 if the stiffness matrix is singular.
 struct StaticResponse {
   double held = 0.0;
-  /// With springs of the structure's own stiffness in place of constraints: the scale of displacements if constraints
-  /// let nothing move.
+  /// Displacement with springs in place of the constraints: the scale of displacements if the constraints prevent all motion.
+  /// The springs have the stiffness of the structure.
   double gripped = 0.0;
 };
 
@@ -209,7 +209,7 @@ std::vector<Vector> limits_of_friction(const Model& model, const EffectiveAmplit
   return forces;
 }
 
-/// Distance that loads and initial velocity could move the structure without supports during the run.
+/// Distance that loads and initial velocities would move the structure during the run if it had no stiffness.
 double thrown(const Model& model, const assembly::DofMap& map, const EffectiveAmplitudes& effective,
               double t_end) {
   SparseMatrix mass = model.mass;
@@ -280,12 +280,12 @@ Scales find_scales(const Model& model, const assembly::DofMap& map, const std::v
   const double least = min_response(model, map, force);
   const auto answers = [&](double x) { return usable(x) && x > least; };
   if (!answers(displacement)) displacement = 0.0;
-  // Without stiffness a motion would have an unbounded static response; the run is too short to reach large values.
+  // The static response of a very soft motion is nearly unbounded, but the run is too short to reach it.
   if (const double farthest = thrown(model, map, effective, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
   // An initial velocity moves the structure at least as far as the fastest oscillation would.
   if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
-  // A motion driven by friction alone is as large as the deformation by the friction limit.
+  // If only friction drives the motion, displacements are those of a static load equal to the friction limit.
   if (!usable(displacement))
     displacement = find_static_response(limits_of_friction(model, effective, t_end), model, map, rested).held;
   if (!answers(displacement)) displacement = spring_response(model, force);

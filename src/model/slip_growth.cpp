@@ -50,21 +50,22 @@ double min_damping_ratio(const Model& model) {
 
 namespace {
 
-constexpr int all_up_to = 100, most = 400;  // numbers of degrees of freedom; chosen for a few 0.1 s
+constexpr int all_up_to = 100,
+              most = 400;  // limits of the number of degrees of freedom; chosen for a few 0.1 s
 // Results are valid up to this fraction of the highest frequency; above, truncated modes would contribute.
 constexpr double of_window = 0.5;
-constexpr double rigid = 1e4;  // relative to the structure's own stiffness along a normal
+constexpr double rigid = 1e4;  // stiffness of rigid contacts / stiffness of the structure along the normal
 // Smallest growth, relative to |lambda| or sigma: rounding splits a double eigenvalue by sqrt(eps) = 1.5e-8.
 constexpr double no_growth = 1e-6;
 
-/// A slipping contact: its normal force acts along `push` = n - s f t.
+/// A slipping contact. push = n - s f t: direction of the sum of its normal and friction force.
 struct Drive {
   Vector normal, push;
   double stiffness, damping;
 };
 
 struct Slipping {
-  SparseMatrix stiffness;  ///< symmetric part: of the structure and of contacts that do not slip
+  SparseMatrix stiffness;  ///< of the structure and of contacts that do not slip; symmetric
   std::vector<Drive> drives;
   std::vector<std::size_t> contacts;
 };
@@ -118,7 +119,7 @@ Window window(const Model& model, const Slipping& slip, double sigma) {
   return {pairs.vectors.rightCols(all_up_to), of_window * std::sqrt(std::max(0.0, square))};
 }
 
-/// All finite lambda of M x'' + C x' + K x = 0.
+/// Returns all finite lambda of M x'' + C x' + K x = 0.
 std::vector<std::complex<double>> exponents(const Eigen::MatrixXd& m, const Eigen::MatrixXd& c,
                                             const Eigen::MatrixXd& k, double sigma) {
   const Eigen::Index n = m.rows();

@@ -2,8 +2,8 @@
 //
 //   M u'' + C u' + (K + sum kn (n - s f t) n^T + sum_stick kt t t^T) u = 0,   u ~ exp(lambda t)
 //
-// Friction proportional to the normal force makes the stiffness unsymmetric. Pairs of frequencies then may coincide and
-// become lambda = gamma +- i omega, gamma > 0 (flutter), or one may pass through zero (lambda = gamma: divergence).
+// Friction proportional to the normal force makes the stiffness unsymmetric. Two frequencies may then coincide and
+// become lambda = gamma +- i omega, gamma > 0 (flutter), or one frequency may become zero (lambda = gamma: divergence).
 // With 1 / nu = lambda - sigma, sigma > 0 near the frequencies of interest:
 //
 //   nu z = A z,   A = [ -K~^-1 (C + 2 sigma M)   -K~^-1 M ],   K~ = K + sigma C + sigma^2 M
@@ -20,7 +20,7 @@
 
 namespace signorini::model {
 
-// Decay rates of motions, without computation of modes.
+// Bounds of the decay rates of motions, without computation of modes.
 //
 //   by damping alpha M + beta K   alpha + beta omega^2 at the frequency omega, with the damping ratio
 //                                 (alpha / omega + beta omega) / 2
@@ -43,7 +43,7 @@ struct SlipGrowth {
   std::vector<std::size_t> contacts;  ///< slipping contacts with friction proportional to the normal force
 };
 
-/// The fastest growth; nullopt if no motion grows. states: one entry per contact. The model must have its damping, but
+/// The fastest growing motion; nullopt if no motion grows. states: one entry per contact. The model must have its damping, but
 /// must not be reduced and not have shear elements.
 [[nodiscard]] std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<State>& states);
 

@@ -417,7 +417,7 @@ TEST_CASE("what no frictional start can reach is refused by name") {
   CHECK(away.find("'ca', 'cb'") != std::string::npos);
   std::string falls = two_sliders(frictional, push("push", 1.2));
   falls.replace(falls.find("friction = 0.5"), 14, "friction = { static = 0.5, kinetic = 0.4 }");
-  CHECK(refusal(falls).find("falls from static to kinetic") != std::string::npos);
+  CHECK(refusal(falls).find("drops from static to kinetic") != std::string::npos);
   CHECK(refusal(
             two_sliders(frictional + "[[run.stages]]\nname = \"x\"\nloads = [\"psuh\"]\n", push("push", 1.0)))
             .find("did you mean \"push\"") != std::string::npos);

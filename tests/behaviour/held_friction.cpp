@@ -251,7 +251,7 @@ TEST_CASE("slow loads that only shares of friction would bear are refused, not g
     }
     return "";
   };
-  const std::string shares = "does not share friction between them";
+  const std::string shares = "does not share friction between contacts";
   // Limits 5 and 2: both are within them up to 4.
   const auto two_sliders = [](double force, double kinetic) {
     return parts::head +

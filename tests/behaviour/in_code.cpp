@@ -181,7 +181,7 @@ TEST_CASE("what a law of one's own may not be is told with its state") {
       has(message([](UserContactLaw& l, Scene&) { l.states[0].kind = State::inside; }), "expected the kind"));
   CHECK(has(message([](UserContactLaw& l, Scene&) { l.states.clear(); }), "found 0 states"));
   CHECK(has(message([](UserContactLaw&, Scene& s) { s.contacts[0].friction.static_ = 0.4; }),
-            "beside a user-defined law"));
+            "in addition to a user-defined law"));
   CHECK(has(message([](UserContactLaw&, Scene& s) { s.initial = {}, s.initial.is_static = true; }),
             "static start"));
   for (const Engine engine : {Engine::newmark, Engine::friction_iteration})

@@ -464,7 +464,7 @@ stiffness = [)";
     std::string all;
     for (const std::string& warning : build_model(parse_scene(text, "feet.toml")).warnings)
       all += warning + "\n";
-    return all.find("may not be unique while all of them slide to one side") != std::string::npos
+    return all.find("may not be unique while all of them slide in the same direction") != std::string::npos
                ? all
                : std::string();
   };

@@ -23,7 +23,7 @@ double largest(const SparseMatrix& a) {
 
 SparseMatrix read(const MatrixSpec& spec, int n, const std::string& key) {
   SparseMatrix a(n, n);
-  if (spec.size == 0 && spec.entries.empty()) return a;  // absent: zero
+  if (spec.size == 0 && spec.entries.empty()) return a;  // a missing matrix is zero
   if (spec.size != n)
     throw SceneError(
         spec.place, key,
@@ -35,13 +35,15 @@ SparseMatrix read(const MatrixSpec& spec, int n, const std::string& key) {
   return a;
 }
 
-/// Other programs print symmetric matrices with rounded digits, so small differences are averaged.
+/// Other programs print symmetric matrices with rounded digits, so entries a_ij and a_ji that differ slightly are averaged.
 SparseMatrix read_symmetric(const MatrixSpec& spec, int n, const std::string& key) {
   const SparseMatrix a = read(spec, n, key);
   const SparseMatrix transposed = a.transpose();
   const SparseMatrix difference = a - transposed;
   if (largest(difference) > printed_digits * largest(a))
-    throw SceneError(spec.place, key, "the matrix is not symmetric");
+    throw SceneError(
+        spec.place, key,
+        "the matrix is not symmetric; expected entries ij and ji that agree to 1e-9 of the largest entry");
   return 0.5 * (a + transposed);
 }
 
@@ -72,7 +74,7 @@ struct Builder {
   const Scene& scene;
   const DofMap& map;
   Triplets mass, dampers, stiffness;
-  Vector weight, weight_size;  // weight_size: sum of the magnitudes of terms
+  Vector weight, weight_size;  // weight_size: sum of the magnitudes of the terms of each entry
   std::vector<Vector> base;    // one per base motion
   std::vector<SupportColumns> moving;
 
@@ -112,7 +114,8 @@ struct Builder {
                   [&](int n, double force) { map.add(base[i], n, force); });
   }
 
-  /// Adds W^T m W. W maps rigid translations to themselves, so weight and base motion act on the whole mass.
+  /// Adds the mass matrix W^T m W, W = moved.weights. W maps rigid translations to themselves, so weight and base motion act
+  /// on the whole mass.
   void add_moved_mass(const element::ElementMatrix& m, const element::MovedMass& moved) {
     std::vector<int> numbers;
     element::ElementVector gravity(static_cast<Eigen::Index>(2 * moved.nodes.size()));
@@ -152,7 +155,8 @@ struct Builder {
       if (std::abs(weight[i]) <= rounding::few_operations * weight_size[i]) weight[i] = 0.0;
   }
 
-  /// Calls add_to(number, force) for each entry of forces = M r a, where r a is the acceleration of all translations.
+  /// Calls add_to(number, force) for each unknown of an element. forces: mass matrix times an acceleration that is equal at
+  /// all nodes.
   template <class Add>
   void add_inertia(const element::ElementVector& forces, const std::vector<int>& numbers, const Add& add_to) {
     for (std::size_t i = 0; i < numbers.size(); ++i) add_to(numbers[i], forces[static_cast<Eigen::Index>(i)]);
@@ -173,7 +177,9 @@ struct Builder {
   void add_spring(const Spring& s, const std::string& key) {
     const auto d = clean_direction(s.direction);
     const double length = std::hypot(d[0], d[1]);
-    if (!(length > 0.0)) throw SceneError(s.place, key + ".direction", "a spring needs a direction");
+    if (!(length > 0.0))
+      throw SceneError(s.place, key + ".direction",
+                       "found a direction of length zero, expected the direction of the spring");
     const auto na = map.numbers_at(element::find_node(map.mesh, s.node, s.place, key));
     std::array<int, 3> nb{-1, -1, -1};
     if (!s.against.empty()) nb = map.numbers_at(element::find_node(map.mesh, s.against, s.place, key));
@@ -192,7 +198,7 @@ struct Builder {
     add(dampers, &SupportColumns::dampers, Eigen::Matrix2d(s.rotation_damping * turning), turns);
   }
 
-  /// Adds k a a^T, where a is the form of the elongation; terms of a that cancel add no stiffness.
+  /// Adds k a a^T for a spring of stiffness k, where a is the form of its elongation; terms of a that cancel add no stiffness.
   void add_tied_spring(const Spring& s, const std::array<double, 2>& d, const std::array<int, 3>& na,
                        const std::array<int, 3>& nb) {
     const double length = std::hypot(d[0], d[1]);

@@ -21,7 +21,7 @@ struct SupportColumns {
 struct Assembly {
   SparseMatrix mass, dampers, stiffness;
   Vector weight;  ///< P_g: forces, and moments on rotations
-  /// M r for each base motion; r: unit translation of all nodes along it, fixed degrees of freedom included.
+  /// M r for each base motion; r: unit translation of all nodes along the base motion, fixed degrees of freedom included.
   std::vector<Vector> base = {};
   std::vector<SupportColumns> moving = {};  ///< one for each of DofMap::supports
 };

@@ -32,7 +32,8 @@ void check_gap(const ContactSpec& spec, const Contact& contact) {
     throw SceneError(spec.place, spec.key("normal"),
                      fmt::format("a {} contact needs a normal", contact::to_string(spec.law)));
   if (contact.normal.terms.empty())
-    throw SceneError(spec.place, spec.key("normal"), "a support fixes all motion along the normal");
+    throw SceneError(spec.place, spec.key("normal"),
+                     "a support fixes all motion along the normal; remove the contact or the support");
   if (contact.has_friction() && contact.tangent.terms.empty())
     throw SceneError(spec.place, spec.key("tangent"),
                      "a support fixes all motion along the tangent; remove the friction or the support");
@@ -62,14 +63,16 @@ void check_friction_by_force(const ContactSpec& spec) {
   if (spec.tangential_damping != 0.0) refuse("cannot be combined with tangential_damping");
 }
 
-/// Checks the rows and guards of a user law.
+/// Errors: SceneError for a user law with invalid rows or guards, or with keys that cannot be combined with a user law.
 void check_own(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
   const UserContactLaw& law = *spec.user_law;
   if (!spec.capabilities().normal_spring)
     refuse("a user-defined law replaces the law of a compliant contact only");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
-    refuse("found friction or dampers beside a user-defined law, whose rows must contain them");
+    refuse(
+        "found friction or dampers in addition to a user-defined law; remove them here, and include them in "
+        "the rows of the law");
   if (scene.initial.is_static || scene.initial.is_frictional) {
     if (law.name.empty()) refuse("a static start is available for built-in laws only");
     throw SceneError(spec.place, spec.key("law"),
@@ -91,8 +94,8 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
                                  contact.normal_force.value(t), t));
 }
 
-/// Removes friction at a node of a seam that a support fixes along the tangent (a plane of symmetry): there
-/// is no slip, and the support carries T.
+/// Removes the friction of a seam's contact if a support fixes its node along the tangent (a plane of symmetry): the node
+/// cannot slip, and the support carries T.
 void leave_out_held_friction(const Scene& scene, std::size_t k, Contact& contact) {
   const bool of_seam = std::any_of(scene.seams.begin(), scene.seams.end(), [k](const SeamSpec& seam) {
     return k >= seam.first_contact && k < seam.first_contact + seam.nodes.size();

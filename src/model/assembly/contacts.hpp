@@ -11,7 +11,7 @@
 namespace signorini::assembly {
 
 /// Errors: SceneError for a contact that can never act, for friction without tangential stiffness under `compliant`,
-/// and for a normal force that is known to become tensile before t_end.
+/// and for a prescribed normal force that becomes tensile before t_end.
 [[nodiscard]] std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map);
 
 }  // namespace signorini::assembly

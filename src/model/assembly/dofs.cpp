@@ -80,7 +80,7 @@ void add_columns(DofMap& map) {
   }
 }
 
-/// Lets the single component that support i fixes follow the support's motion.
+/// Support i has a motion and fixes one component of its node: makes this component follow the motion.
 void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool, 3>& fix) {
   const std::string key = s.key + ".motion";
   auto& moving = map.moving[static_cast<std::size_t>(element::find_node(map.mesh, s.node, s.place, key))];
@@ -149,11 +149,10 @@ std::array<double, 2> sliding_direction(const ContactSpec& contact) {
 }
 
 void refuse_missing_rotation(const SourcePlace& place, const std::string& key, const std::string& node) {
-  throw SceneError(
-      place, key,
-      fmt::format(
-          "node '{}' has no rotation: there is no beam without a hinge, no inertia and no rotational spring",
-          node));
+  throw SceneError(place, key,
+                   fmt::format("node '{}' has no rotation: no beam without a hinge, no inertia and no "
+                               "rotational spring acts on it",
+                               node));
 }
 
 DofMap number_nodes(const Scene& scene) { return number_nodes(scene, element::make_mesh(scene)); }
@@ -287,16 +286,17 @@ Combination combination(const DofMap& map, const Direction& direction, const std
       const int d = map.number[static_cast<std::size_t>(node)][c];
       form.add(d, weight * (unit ? vector[c] / length : vector[c]));
       if (unit && (map.moving[static_cast<std::size_t>(node)][c] >= 0 || form.follows_support()))
-        throw SceneError(direction.place, key,
-                         fmt::format("a support moves node '{}' in {}; the node of a contact must be free or "
-                                     "fixed there: connect it to the moving node by a spring",
-                                     name, c == 0 ? "x" : "y"));
+        throw SceneError(
+            direction.place, key,
+            fmt::format("a support moves node '{}' in {}, but the node of a contact must be free or "
+                        "fixed: use another node, connected to the moving node by a spring",
+                        name, c == 0 ? "x" : "y"));
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,
             fmt::format(
-                "node '{}' has no degree of freedom in {}: there is no member, mass, spring or contact", name,
-                c == 0 ? "x" : "y"));
+                "node '{}' has no degree of freedom in {}: no member, mass, spring or contact acts there",
+                name, c == 0 ? "x" : "y"));
     }
   };
   add(direction.node, 1.0);
@@ -335,7 +335,7 @@ SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof) {
 
 namespace {
 
-constexpr double at_rest = 1e-3;  // relative to the largest motion: smaller motions are zero
+constexpr double at_rest = 1e-3;  // relative to the largest motion: smaller motions are treated as zero
 
 struct NodeMotion {
   const element::MeshNode* node;
@@ -405,7 +405,7 @@ bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double sh
 /// True if all nodes translate by the same vector without rotating.
 bool translates(const std::vector<NodeMotion>& nodes, double size) {
   const NodeMotion& first = nodes.front();
-  double turning = 0.0, extent = 0.0;  // a rotation that moves every node by less than at_rest is ignored
+  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest * size is ignored
   for (const NodeMotion& m : nodes) {
     if (std::hypot(m.x - first.x, m.y - first.y) > at_rest * size) return false;
     turning = std::max(turning, std::abs(m.turn));

@@ -4,8 +4,8 @@
 //
 // A degree of freedom exists only if a member, mass, spring or contact needs it. Beams need ux, uy and rz of
 // all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the components of
-// their directions. Supports fix existing degrees of freedom. Numbers follow the order of the nodes; then the
-// rotations of members' hinged ends follow. Moving supports are numbered separately. Numbers from size() on
+// their directions. Supports fix existing degrees of freedom. Numbers follow the order of the nodes; the
+// rotations of members' hinged ends come last. Moving supports are numbered separately. Numbers from size() on
 // are tied: motions of a rigid body's nodes and of seams (ties.hpp).
 #pragma once
 
@@ -37,7 +37,7 @@ struct DofMap {
 
   element::Mesh mesh;                      ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< one per mesh node; empty in matrix scenes
-  /// Numbers of elements' internal unknowns, by element and index into unknowns().
+  /// Number of each internal unknown of an element; key: element, index into its unknowns().
   std::map<std::pair<std::size_t, std::size_t>, int> internal;
   /// Per mesh node and component: index into `supports` of the support that moves the component, or `absent`.
   std::vector<std::array<int, 3>> moving;
@@ -49,9 +49,9 @@ struct DofMap {
   std::vector<element::AxialForces> axial_forces;
   /// Per rigid body: geometric stiffness of its prestress (prestress.hpp); empty without prestress.
   std::vector<double> body_stiffness;
-  std::vector<TiedDof> tied;  ///< for the numbers size(), size() + 1, ...
+  std::vector<TiedDof> tied;  ///< tied motions, whose numbers are size(), size() + 1, ...
   std::vector<signorini::Column> columns;
-  double shown_length = 1.0;  ///< factor from internal lengths to lengths in names of motions
+  double shown_length = 1.0;  ///< factor from internal lengths to lengths in messages
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool is_matrix_scene() const { return number.empty(); }
@@ -63,14 +63,15 @@ struct DofMap {
   [[nodiscard]] bool within_body(const element::FiniteElement& e) const;
   /// True if all mesh nodes of the list move with one rigid body.
   [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
-  /// Makes component c of a mesh node the sum of `terms`.
+  /// Ties component c of a mesh node: the component becomes the sum of `terms`.
   void tie(int node, std::size_t c, std::vector<TiedTerm> terms);
   /// The motion with this number as a combination of degrees of freedom and moving supports; empty if fixed
   /// or absent.
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
-  /// form += factor times the motion with this number; terms of moving supports are dropped.
+  /// form += factor times the motion with number n; terms of moving supports are dropped.
   void add(Vector& form, int n, double factor) const;
-  /// Value of motion n if the degrees of freedom have the values x, of length size(), and moving supports are at zero.
+  /// Value of the motion with number n if the degrees of freedom have the values x, of length size(), and moving supports are
+  /// at zero.
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// For each component of a node: its number, `fixed`, `absent`, or the code of a moving support.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
@@ -93,9 +94,9 @@ struct DofMap {
 
 /// Numbers the degrees of freedom of a scene with nodes.
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
-/// Same, with a given mesh: that of the scene, or one with additional element types.
+/// Same as number_nodes(scene), with a given mesh: that of the scene, or a mesh with additional element types.
 [[nodiscard]] DofMap number_nodes(const Scene& scene, element::Mesh mesh);
-/// Throws the error for a moment or a rotation at a node without rotation.
+/// Throws the SceneError for a moment or a prescribed rotation at a node without rotation.
 [[noreturn]] void refuse_missing_rotation(const SourcePlace& place, const std::string& key,
                                           const std::string& node);
 /// Numbers the degrees of freedom of matrices from files.

@@ -80,7 +80,7 @@ History finite(History history, const SourcePlace& place, const std::string& key
   return history;
 }
 
-/// Converts one of [[loads]] to a form and a history.
+/// Converts an entry of [[loads]] to a form and a history. number: position in [[loads]], from 1.
 Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std::size_t number) {
   const std::string key = fmt::format("loads.{}", number);
   Load load;
@@ -181,7 +181,7 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
   }
 }
 
-/// Adds the loads of preloads: a spring in tension pulls its node against the spring's direction.
+/// Adds the loads from preloaded springs: a spring in tension pulls its node against the spring's direction.
 void add_preloads(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& spring = scene.springs[i];
@@ -219,7 +219,7 @@ double jump_of(const History& f, double t_end) {
   return -1.0;
 }
 
-/// Position of the support at the end of the saved run that the scene continues; 0 if there is none.
+/// Position of the support at the end of the saved run that the scene continues; 0 if the scene continues no run.
 double last_motion(const Scene& scene, const std::string& name) {
   return scene.initial.saved ? scene::saved_motion(*scene.initial.saved, name).value_or(0.0) : 0.0;
 }
@@ -248,7 +248,7 @@ SupportMotion support_motion(const Scene& scene, const Support& support) {
   return moving;
 }
 
-/// Adds the load -column f, where f is the derivative of `order` of the support's motion.
+/// Adds the load -column f, where f is the support's motion (order 0), velocity (1) or acceleration (2).
 void add_support_load(const SupportMotion& moving, const char* what, const Vector& column, History f,
                       int order, std::vector<Load>& loads) {
   const int length = moving.turns ? 0 : 1;
@@ -292,7 +292,7 @@ std::vector<NodeForce> traction_forces(const Scene& scene, const element::Mesh& 
             dy += v.derivatives[i] * mesh.node(own[i].node).y;
           }
           const double ds = std::hypot(dx, dy);
-          const std::array<double, 2> q =  // into the body: (-dy, dx) / ds
+          const std::array<double, 2> q =  // the unit normal into the body is (-dy, dx) / ds
               spec.pressure ? std::array{-dy, dx}
                             : std::array{ds * spec.direction.vector[0], ds * spec.direction.vector[1]};
           for (std::size_t i = 0; i < own.size(); ++i)

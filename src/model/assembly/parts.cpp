@@ -175,7 +175,8 @@ class Split {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
   void divide_loads() {
-    std::vector<std::size_t> last(parts_.size(), none);  // last load given to each part
+    std::vector<std::size_t> last(parts_.size(),
+                                  none);  // for each part: index of the last load that was added to the part
     for (std::size_t i = 0; i < model_.loads.size(); ++i) {
       const Load& load = model_.loads[i];
       const auto give = [&](std::size_t part) -> Load& {

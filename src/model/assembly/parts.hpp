@@ -24,7 +24,7 @@ class Part {
 
   [[nodiscard]] const std::vector<int>& dofs() const;
   [[nodiscard]] int size() const { return static_cast<int>(dofs().size()); }
-  /// The rows and columns of this part, n_i x n_i.
+  /// Block of A with the rows and columns of this part, n_i x n_i.
   [[nodiscard]] SparseMatrix matrix(const SparseMatrix& a) const;
   /// Returns the given forms that act on this part, in the same order, with the part's numbers. A form without terms
   /// acts on no part.
@@ -68,7 +68,7 @@ class Parts {
 //
 //   S = [e_i1 e_i2 ...],   S^T A S = A(i, i),   S x scatters x to its original positions
 
-/// S, n x m, m being the number of indices.
+/// Selection matrix S, n x m, where m is the number of indices.
 [[nodiscard]] SparseMatrix selection(const std::vector<int>& indices, int n);
 
 /// Selection S of the degrees of freedom with mass > 0, or of those without mass.
@@ -83,7 +83,7 @@ class Parts {
 //
 // The contacts of one part are coupled with each other; the last part contains everything that is not coupled with a
 // contact. A part has the loads that act on it; loads without effect belong to the first part. A part keeps the
-// scales, frequencies and factors of the whole model, so that a run of the part makes the same decisions.
+// scales, frequencies and Rayleigh factors of the whole model, so that a run of the part makes the same decisions.
 
 struct PartModel {
   Model model;            ///< data needed by a run: without outputs, names of other parts and drawing

@@ -15,7 +15,7 @@
 namespace signorini::assembly {
 namespace {
 
-constexpr double no_force = 1e-9;  // relative to the forces on a body: solver error of a sum that is zero
+constexpr double no_force = 1e-9;  // relative to the forces on a body: smaller resultants are solver errors
 
 using Plane = std::array<double, 2>;
 
@@ -185,7 +185,8 @@ class PrestressAssembly {
     for (const auto& [name, weight] : at->against) add(name, force, -weight);
   }
 
-  /// Coordinate at which supports of a body fix component c: x for ux, y for uy. Without such a support: the centre's.
+  /// Coordinate at which supports of a body fix component c: x for ux, y for uy. Without such a support: the coordinate of
+  /// the centre.
   [[nodiscard]] double origin(std::size_t number, std::size_t c, const Plane& total,
                               const Plane& size) const {
     const RigidBody& body = scene_.rigid[number];
@@ -197,16 +198,18 @@ class PrestressAssembly {
     for (const auto& [node, component] : constrained_components(scene_, map_, static_cast<int>(number))) {
       if (component != c) continue;
       if (held && *held != at(node) && std::abs(total[c]) > no_force * size[c])
-        throw SceneError(scene_.run.geometric_place, "run.geometric",
-                         fmt::format("several supports of rigid body '{}' fix its {}, so their reactions are "
-                                     "undetermined, and with them its geometric stiffness; keep only one",
-                                     body.name, scene::plane_components[c].displacement));
+        throw SceneError(
+            scene_.run.geometric_place, "run.geometric",
+            fmt::format("several supports of rigid body '{}' fix its {}, so their reactions and "
+                        "the geometric stiffness of the body are undetermined; keep only one of them",
+                        body.name, scene::plane_components[c].displacement));
       if (!held) held = at(node);
     }
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));
   }
 
-  /// Geometric stiffness sum F . r of a rigid body, with r from origin(); reactions act there and contribute nothing.
+  /// Geometric stiffness sum F . r of a rigid body. r is measured from origin(), where reactions act, so that reactions
+  /// contribute nothing.
   [[nodiscard]] double body(std::size_t number) const {
     const auto owner = static_cast<int>(number);
     const int centre = map_.mesh.by_name.at(scene_.rigid[number].centre);

@@ -3,7 +3,7 @@
 //   u^T K_g u = sum over elements of int N v'^2 (line_elements.hpp) + sum over rigid bodies of rz^2 sum F . r
 //
 // A point of a body at r from its centre moves by rz x r - rz^2 r/2, so forces with a constant direction have
-// the potential rz^2/2 sum F . r. This sum does not depend on the centre, because the F are in equilibrium. A
+// the potential rz^2/2 sum F . r. This sum does not depend on the centre, because the forces F are in equilibrium. A
 // moment M does the work M rz only and contributes nothing. N and F are the forces under the static loads;
 // they are kept constant (frozen).
 #pragma once

@@ -21,7 +21,7 @@ struct LineSpring {
 /// K plus the stiffness of the springs.
 [[nodiscard]] SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs);
 
-/// Springs of all contacts, as if all of them were closed and sticking.
+/// Normal and tangential springs of all contacts, also of open or sliding ones.
 [[nodiscard]] std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts);
 
 /// The form as a full vector of length n.

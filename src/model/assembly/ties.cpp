@@ -65,9 +65,11 @@ void add_body_constraint(const Scene& scene, const RigidBody& body, const BodyCo
   }
   if (before->moving == hold.moving && before->node == hold.node) return;
   if (before->moving >= 0 || hold.moving >= 0)
-    refuse_hold(scene, hold, body,
-                fmt::format("another support fixes its {}, and one of the two moves; expected one support",
-                            scene::plane_components[c].displacement));
+    refuse_hold(
+        scene, hold, body,
+        fmt::format(
+            "another support also fixes its {}, and one of the two supports moves; expected one support",
+            scene::plane_components[c].displacement));
   if (c < 2 && arm_between(before->coordinate, hold.coordinate) != 0.0) turn = hold;
 }
 
@@ -91,7 +93,9 @@ void find_body_constraints(const Scene& scene, const RigidBody& body, int number
   }
   if (!turn) return;
   if (motion.constraints[2] && motion.constraints[2]->moving >= 0)
-    refuse_hold(scene, *turn, body, "two supports together fix its rz, which another support moves");
+    refuse_hold(
+        scene, *turn, body,
+        "two supports together fix its rz, which another support moves; remove one of these supports");
   motion.constraints[2] = turn;
 }
 
@@ -307,7 +311,10 @@ void mark_slave_dofs(const Scene& scene, DofMap& map) {
     }
     for (const auto& [l, weight] : tie.master)
       if (slaves.contains(l))
-        refuse_tie(tie, map, fmt::format("node '{}' of that master is tied itself", map.mesh.node(l).name));
+        refuse_tie(tie, map,
+                   fmt::format(
+                       "node '{}' of this master is itself a tied node: expected a master without tied nodes",
+                       map.mesh.node(l).name));
   }
 }
 

@@ -1,5 +1,5 @@
-// ties.hpp: tied motions: nodes of rigid bodies, which move with a centre (small rotations), and nodes of
-// seams.
+// ties.hpp: tied motions: nodes of a rigid body follow its centre (small rotations), nodes of a tied seam follow the nodes of
+// its master.
 //
 //   ux_P = ux_C - rz (y_P - y_C),   uy_P = uy_C + rz (x_P - x_C),   rz_P = rz_C          u = T q
 //
@@ -24,7 +24,7 @@ namespace signorini::assembly {
 /// A component of a body's motion that a support fixes, with the coordinate perpendicular to the component.
 struct BodyConstraint {
   double coordinate = 0.0;            ///< coordinate of the supported node: y for ux, x for uy
-  int moving = DofMap::absent;        ///< index into DofMap::supports
+  int moving = DofMap::absent;        ///< index into DofMap::supports; absent: the support has no motion
   std::size_t support = 0, node = 0;  ///< index into Scene::supports, mesh node
 };
 
@@ -46,7 +46,7 @@ void tie(const std::vector<BodyMotion>& bodies, DofMap& map);
 [[nodiscard]] std::vector<std::pair<int, std::size_t>> constrained_components(const Scene& scene,
                                                                               const DofMap& map, int body);
 
-/// A form on degrees of freedom and moving supports.
+/// Elongation of a spring as a form on degrees of freedom and moving supports.
 struct Elongation {
   std::vector<int> numbers;
   Vector factors;
@@ -78,7 +78,7 @@ class TiedForm {
 /// The unknowns of an element with tied nodes: T times degrees of freedom and motions of supports.
 struct TiedElement {
   TiedElement(const DofMap& map, const int* numbers, std::size_t count);
-  std::vector<int> numbers;  ///< degrees of freedom, codes of moving supports
+  std::vector<int> numbers;  ///< degrees of freedom, or codes of moving supports (DofMap::support_code)
   Eigen::MatrixXd t;         ///< T, size: number of the element's unknowns x numbers.size()
 
   /// T^T A T for symmetric A, bitwise symmetric; entries that are zero up to rounding become zero.

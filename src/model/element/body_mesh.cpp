@@ -11,10 +11,10 @@
 namespace signorini::element {
 namespace {
 
-/// Weights of nodes: index and factor.
+/// Weights w_bi: index of the node i, and weight.
 using Shares = std::vector<std::pair<int, double>>;
 
-/// Moves the mass of a node to nodes around it.
+/// Moves the mass of massless nodes of a body to nodes near them; computes the weights w_bi.
 class MassMover {
  public:
   MassMover(const Mesh& mesh, const BodySpec& body) : mesh_(mesh), body_(body) {
@@ -47,7 +47,7 @@ class MassMover {
     throw SceneError(
         body_.place, fmt::format("bodies.{}", body_.name),
         fmt::format("the mass of node '{}' cannot be moved: it needs three nearby nodes with mass that are "
-                    "not on one line; use a finer mesh, or leave contact_mass = \"none\" out",
+                    "not on one line; use a finer mesh, or remove contact_mass = \"none\"",
                     mesh_.node(node).name));
   }
 
@@ -63,7 +63,8 @@ class MassMover {
     }
     a.bottomRows<2>() /= size;
     const Eigen::Matrix3d square = a * a.transpose();
-    // Coordinates are divided by the largest distance. Nodes closer to one line would have weights of some thousands.
+    // Coordinates are divided by the largest distance. Nodes that are closer to a common line would have weights
+    // of some thousands.
     constexpr double flat = 1e-6;
     if (square.determinant() <= flat) return {};
     const Eigen::VectorXd w = a.transpose() * (square.inverse() * Eigen::Vector3d(1.0, 0.0, 0.0));

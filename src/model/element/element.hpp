@@ -66,10 +66,10 @@ class FiniteElement {
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
   [[nodiscard]] int member() const { return member_; }
   [[nodiscard]] virtual std::vector<ElementUnknown> unknowns() const = 0;
-  /// True if an unknown is internal.
+  /// True if at least one unknown is internal.
   [[nodiscard]] virtual bool has_internal_unknowns() const { return false; }
 
-  /// Length of a line, or area. density() is the mass per extent.
+  /// Length of a line element, or area of a plane element. density() is the mass per length or area.
   [[nodiscard]] virtual double extent() const = 0;
   [[nodiscard]] virtual double density() const = 0;
 
@@ -89,7 +89,7 @@ class FiniteElement {
   /// Work that the forces of a unit strain (heat) do on the given motion.
   [[nodiscard]] virtual double strain_work(const ElementVector& motion) const = 0;
 
-  /// A section force at a position along the length. Only elements of members have sections; other elements
+  /// A section force at the position at[0], 0 to 1, along the length. Only elements of members have sections; other elements
   /// return zero factors.
   [[nodiscard]] virtual SectionForce section_force(OutputQuantity quantity, const PlaneVector& at,
                                                    const AxialForces& forces) const;

@@ -30,7 +30,7 @@ void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number);
 /// True if the member's end at this node, an index into Member::nodes, is hinged; false for inner nodes.
 [[nodiscard]] bool is_hinged(const Member& member, std::size_t node);
 
-/// The section that the member names; it must exist.
+/// Returns the section that the member names; the section must exist.
 [[nodiscard]] const Section& section_of(const Scene& scene, const Member& member);
 
 }  // namespace signorini::element

@@ -45,7 +45,7 @@ double LineElement::elongation(const ElementVector& motion) const {
 AxialForces LineElement::axial_forces(const ElementVector& u, double strain, const PlaneVector& load,
                                       const PlaneVector& pull) const {
   const double l = axis().length;
-  PlaneVector along = load;  // load between the ends; a lumped weight acts at the ends
+  PlaneVector along = load;  // load between the ends, without a lumped weight, which acts at the ends
   for (std::size_t c = 0; c < 2; ++c)
     if (data_.mass == MassKind::consistent) along[c] += density() * pull[c];
   const double mean = data_.EA * (elongation(u) / l - strain);
@@ -82,7 +82,7 @@ SectionForce LineElement::section_force(OutputQuantity quantity, const PlaneVect
   PlaneVector load;
   LineShapes shapes;
   double dx = -s, dy = c,
-         sign = -1.0;  // direction of the section force; sign of rho a
+         sign = -1.0;  // (dx, dy): direction of the section force; sign: sign of rho a
   if (quantity == OutputQuantity::N) {
     forces << -c, -s, 0.0, 0.0, 0.0, 0.0;
     load = {-x * c, -x * s};
@@ -99,7 +99,7 @@ SectionForce LineElement::section_force(OutputQuantity quantity, const PlaneVect
     load = {-0.5 * x * x * s, 0.5 * x * x * c};
     shapes = deflection_double_integral(part);
   }
-  if (data_.mass == MassKind::lumped) {  // rho L/2 lies between a and the section
+  if (data_.mass == MassKind::lumped) {  // the mass rho L/2 at a lies between a and the section
     acceleration = -0.5 * density() * l * forces;
     acceleration[2] = 0.0;
   } else {
@@ -180,7 +180,7 @@ BarElement::Ends BarElement::slope(double /*part*/) const {
 
 namespace {
 
-/// T^T A T with T from the scene's axes to the beam's.
+/// Returns T^T A T, where T transforms from the scene's axes to the beam's axes.
 BeamMatrix turned(const BeamMatrix& local, double c, double s) {
   BeamMatrix t = BeamMatrix::Zero();
   for (int end = 0; end < 6; end += 3) {

@@ -6,15 +6,14 @@
 //   V(x) =  f_ay + int_0^x p_y            V = dM/dx
 //   M(x) = -m_a  + int_0^x V              positive: tension on the right-hand side, y < 0
 //
-// With axial prestress (run.geometric) N v' is added to V, which is normal to the deformed axis, so that
-// V = dM/dx.
+// With axial prestress (run.geometric), V is the force normal to the deformed axis: N v' is added, so that V = dM/dx.
 //
 // Loads between the ends are the distributed load q and, with a consistent mass, -rho times the acceleration. The
 // acceleration is interpolated like displacements: linear along the line (for a bar also across), cubic across. A
 // lumped mass is at the ends: N and V jump at the nodes, and no inertia acts between them.
 //
 //   distributed:  q_x L/2, q_y L/2 at both ends, and for beams +- q_across L^2/12 as moments
-//   strain:  EA strain (-e, e), e along it
+//   strain:  EA strain (-e, e), e: unit vector from a to b
 #pragma once
 
 #include "model/element/element.hpp"
@@ -67,7 +66,7 @@ class LineElement : public FiniteElement {
  protected:
   using Ends = Eigen::Matrix<double, 6, 1>;  // ux, uy, rz at a and b
 
-  /// Values at the ends, without rotations that are not unknowns of the element.
+  /// Selects from the values at the ends those that belong to unknowns of the element.
   [[nodiscard]] ElementVector restrict_to_unknowns(const Ends& ends) const;
   /// Elongation of the line by a motion of the unknowns.
   [[nodiscard]] double elongation(const ElementVector& motion) const;
@@ -95,9 +94,9 @@ class LineElement : public FiniteElement {
 //
 //   force N  N/30L [36 3L -36 3L; ...]  for v, rz: the integral of N v'^2, N linear from a to b
 //
-// in its own axes (x from a to b, y to the left), rotated into the scene's axes. Unknowns of an element: ux, uy, rz at
-// a, then at b; rz counter-clockwise. rho: mass per length. A lumped mass puts rho L/2 on ux and uy of both ends and
-// none on the rotations.
+// These matrices are in the beam's axes (x from a to b, y to the left) and are rotated into the scene's axes. Unknowns of an
+// element: ux, uy, rz at a, then at b; rz counter-clockwise. rho: mass per length. A lumped mass puts rho L/2 on ux and uy of
+// both ends and none on the rotations.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.6, 11.3 and 15.2.
 
 using BeamMatrix = Eigen::Matrix<double, 6, 6>;
@@ -134,7 +133,7 @@ class BeamElement final : public LineElement {
 //
 //   K = EA/L [ e e^T  -e e^T; -e e^T  e e^T ],   M = rho L/6 [2 I  I; I  2 I],   e = (dx, dy)/L
 //
-// in the scene's axes. The mass acts in both directions; otherwise a bar would have no rotational inertia. A
+// These matrices are in the scene's axes. The mass acts in both directions; otherwise a bar would have no rotational inertia. A
 // lumped mass is rho L/2 at each end. The matrices have the unknowns of beams, with zero rows and columns for
 // the rotations; the element itself has only ux and uy of both ends.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.4 and 11.2.

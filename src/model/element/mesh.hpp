@@ -1,7 +1,7 @@
 // mesh.hpp: nodes and elements of a node scene.
 //
-// Named nodes come first, then the inner nodes of the members, both in the order of the file: on piece B-D of a member,
-// "B-D.1", "B-D.2", ... from B to D.
+// Named nodes come first, then the inner nodes of the members, both in the order of the file. Inner nodes on piece B-D of a
+// member are named "B-D.1", "B-D.2", ... from B to D.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace signorini::element {
 
 struct MeshNode {
   std::string name;
-  double x = 0.0, y = 0.0;  ///< length
+  double x = 0.0, y = 0.0;  ///< unit: length
   bool listed = true;       ///< true: the node has columns in history.csv; false inside a body's mesh
 };
 

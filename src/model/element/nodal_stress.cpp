@@ -14,13 +14,13 @@
 namespace signorini::element {
 namespace {
 
-// Limits for sum |c_j| >= 1, the factor by which errors at the stress points grow at a node. Chosen values; the
-// tests body_stresses depend on them. At an inner node of squares the sum is 1 (plane) or below 1.5
-// (parabola); at a boundary it is 2 for a line through two evenly spaced points, and 2.5 for a plane at a
-// corner.
+// Limits of sum |c_j| >= 1, the factor by which errors at the stress points grow at a node: `inside` for the node's own
+// elements, most_amplified for neighbours. Chosen values; the tests body_stresses depend on them. At an inner node of squares
+// the sum is 1 (plane) or below 1.5 (parabola); at a boundary it is 2 for a line through two evenly spaced points, and 2.5
+// for a plane at a corner.
 constexpr double inside = 1.5, most_amplified = 10.0;
-constexpr double alike = 1e-6;  // relative difference of sum |c_j| between mirrored patches
-constexpr double met = 1e-9;    // residual of the conditions for c, relative to 1
+constexpr double alike = 1e-6;  // relative difference of sum |c_j| below which two patches are equal
+constexpr double met = 1e-9;    // largest residual of the conditions for c, if a polynomial exists
 
 /// Monomials 1, x, y, for quadratic elements also x^2, x y, y^2.
 Eigen::VectorXd powers(double x, double y, bool quadratic) {
@@ -104,7 +104,7 @@ class BodyStresses {
     return terms;
   }
 
-  /// Fit through the stress points of the elements `ring`; infinite `amplified` if there is no such polynomial.
+  /// Polynomial fit through the stress points of the elements in `ring`; `amplified` is infinite if they do not determine it.
   Fit fitted(int node, const std::vector<std::size_t>& ring) {
     std::vector<const PlaneElement::StressSample*> points;
     std::vector<const PlaneElement*> of;

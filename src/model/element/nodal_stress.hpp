@@ -1,6 +1,6 @@
 // nodal_stress.hpp: stresses of a body at its nodes, from the displacements around them.
 //
-//   sigma(x_k) = sum_j c_j sigma(x_j),   sum_j c_j q(x_j) = q(x_k) for 1, x, y (t3, q4), x^2, x y, y^2 too (t6, q8)
+//   sigma(x_k) = sum_j c_j sigma(x_j),   sum_j c_j q(x_j) = q(x_k),   q: 1, x, y; for t6, q8 also x^2, x y, y^2
 //   c: least norm; this equals evaluating the least-squares polynomial through the sigma(x_j)
 //
 // sigma = (sigma_x, sigma_y, tau_xy), tension positive, force/length^2. x_j: points of the elements around node k at which

@@ -5,7 +5,7 @@
 namespace signorini::element {
 namespace {
 
-/// Rows of (e_x, e_y, g_xy) from the derivatives of shape functions by x and y.
+/// Sets the rows for the strains (e_x, e_y, g_xy) from the derivatives of the shape functions with respect to x and y.
 template <class Rows, class Slopes>
 void fill_strains(const Slopes& slopes, Rows& rows) {
   for (Eigen::Index k = 0; k < slopes.rows(); ++k) {

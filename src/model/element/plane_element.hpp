@@ -7,7 +7,7 @@
 //
 // q4 has two incompatible modes, 1 - a^2 and 1 - b^2, each for ux and uy (QM6). The derivatives of these modes by x, y use
 // the Jacobian at the element's centre and det J_0 / det J. The modes therefore do no work in a constant stress, and
-// distorted patches are exact. The modes have no mass and are eliminated in the element.
+// distorted elements represent a constant stress exactly. The modes have no mass and are eliminated in the element.
 // A lumped mass: row sums for t3 and q4; for t6 and q8 the diagonal, scaled to the total mass, so that no entry is
 // negative.
 // Stresses are evaluated at Barlow's points and extrapolated to the nodes. The error of these stresses has nearly the

@@ -8,7 +8,7 @@
 namespace signorini::modes {
 namespace {
 
-// Compliances below this fraction of the largest one belong to motions that another contact already fixes.
+// Eigenvalues of T^T K^-1 T below this fraction of the largest one belong to motions that other contacts already fix.
 constexpr double fixed_twice = 1e-12;
 
 }  // namespace

@@ -21,7 +21,7 @@ class ConstrainedStructure {
   [[nodiscard]] bool definite() const { return solver_.ok() && solver_.smallest_pivot() > 0.0; }
 
  private:
-  /// One part of the structure: t = T of the forms on this part, correction = K^-1 T (T^T K^-1 T)^-1.
+  /// Constraints of one part of the structure: t: T for the forms on this part; correction = K^-1 T (T^T K^-1 T)^-1.
   struct ConstraintBlock {
     std::vector<int> dofs;
     Eigen::MatrixXd t, correction;
@@ -30,14 +30,14 @@ class ConstrainedStructure {
   std::vector<ConstraintBlock> constraint_blocks_;
 };
 
-/// K with springs along the forms, as stiff as the structure.
+/// Returns K plus springs along the forms; each spring has the stiffness of the structure along its form.
 [[nodiscard]] SparseMatrix with_constraint_springs(const SparseMatrix& k,
                                                    const std::vector<Combination>& forms);
 
 /// Q^T A Q for symmetric A. Entries below the rounding error of their terms are omitted.
 [[nodiscard]] SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q);
 
-/// The forms as columns, n x m.
+/// Matrix with the forms as columns, n x m.
 [[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n);
 
 }  // namespace signorini::modes

@@ -20,11 +20,11 @@ constexpr double without_mass = 1e-12;
 // Values 1/omega^2 below this fraction of the largest one are rounding errors of motions without mass.
 constexpr double massless_share = 1e-13;
 constexpr double negligible_entry = 1e-9;  // smaller entries of a motion, relative to its largest, are zero
-// Shift for free motions, relative to the largest K_ii/M_ii: half of the digits remain.
+// Shift of omega^2 if there are free motions, relative to the largest K_ii/M_ii: half of the digits remain.
 constexpr double shift_of_free = 1e-8;
-// Converged with shifts: relative change of omega^2 in one round.
+// Limit of the relative change of omega^2 in one round, with shifts.
 constexpr double shifted_tolerance = 1e-11;
-// Converged without shifts: change in one round, relative to the largest value, and to each value.
+// Limits of the change of values() in one round, without shifts: relative to the largest value, and to each value.
 constexpr double largest_value_tolerance = 1e-12, each_value_tolerance = 1e-9;
 
 NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
@@ -142,7 +142,7 @@ class Subspace {
       for (Eigen::Index i = 0; i < x_.rows(); ++i) x_(i, j) = uniform(random);
   }
 
-  /// Returns false if the matrices do not allow the iteration.
+  /// Performs one round of the iteration. Returns false if K + shift M is not positive definite on the subspace.
   bool iterate() {
     for (Eigen::Index j = 0; j < x_.cols(); ++j) x_.col(j) = solver_.solve(mass_ * x_.col(j));
     x_ = base::orthonormal(x_);
@@ -167,14 +167,15 @@ class Subspace {
     const Vector lowest = x_.col(x_.cols() - 1);
     return rounding::eps * assembly::term_magnitude(k_, lowest) / lowest.dot(mass_ * lowest);
   }
-  /// Moves the shift to just below the lowest omega^2; distance: about the spacing of the `wanted` lowest ones.
+  /// Moves the shift to just below the lowest omega^2; the distance is about the range of the `wanted` lowest values.
   void approach(Eigen::Index wanted) {
     const Eigen::VectorXd found = squares(wanted);
     const double lowest = found[wanted - 1];
     double gap = std::max(found[0] - lowest, 1e4 * noise());
     for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
       ConstrainedStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
-      if (!closer.definite()) continue;  // the shift is closer than the error of the Ritz values
+      if (!closer.definite())
+        continue;  // the shift is above the lowest omega^2, because Ritz values have errors
       shift_ = gap - lowest;
       solver_ = std::move(closer);
       return;
@@ -263,7 +264,7 @@ ContactConstraints constrain_normals(const std::vector<Contact>& contacts) {
 
 namespace {
 
-constexpr double nearest = 1e-9, farthest = 1e-5;  // relative, of omega^2: range of alternative shifts
+constexpr double nearest = 1e-9, farthest = 1e-5;  // range of alternative shifts, relative to omega^2
 constexpr double accurate = 1e-6;  // backward error of a factorisation whose pivot signs are reliable
 
 /// Checks a factorisation by a trial solution: pivots are not chosen by size, so an unlucky shift may lose all digits.

@@ -22,12 +22,12 @@ struct NaturalMode {
 };
 
 struct Frequencies {
-  int free_motions = 0;            ///< modes with omega = 0, and unstable ones
+  int free_motions = 0;            ///< number of modes with omega = 0, unstable modes included
   int unstable = 0;                ///< number of unstable modes among the free motions: omega^2 < 0
   std::vector<NaturalMode> modes;  ///< the lowest modes with omega > 0, ascending
 };
 
-/// The `count` lowest modes with omega > 0. Shapes: n x n matrices, both triangles stored.
+/// Returns the `count` lowest modes with omega > 0. The matrices are n x n, with both triangles stored.
 [[nodiscard]] Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& damping,
                                              const SparseMatrix& stiffness, const ContactConstraints& holding,
                                              int count);
@@ -35,7 +35,7 @@ struct Frequencies {
 /// Constraints along the normals of all contacts, with free tangents.
 [[nodiscard]] ContactConstraints constrain_normals(const std::vector<Contact>& contacts);
 
-// Number of modes below a frequency, without computing them.
+// Number of modes below a frequency, without computation of the modes.
 //
 //   number of omega_i^2 < s  =  number of negative pivots of  K - s M = L D L^T
 //

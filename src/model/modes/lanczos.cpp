@@ -15,7 +15,7 @@ namespace signorini::modes {
 namespace {
 
 constexpr int most_restarts = 300;
-constexpr double ritz_tolerance = 1e-12;  // residual of a Ritz value, relative
+constexpr double ritz_tolerance = 1e-12;  // relative residual of a Ritz value
 
 /// Operator interface for Spectra.
 class Products {
@@ -85,20 +85,21 @@ base::EigenPairs shift_invert_modes(int count, int width, const SparseMatrix& ma
                    Spectra::SortRule::SmallestAlge);
     if (solver.info() == Spectra::CompInfo::Successful) return {solver.eigenvalues(), solver.eigenvectors()};
   } catch (const std::exception&) {
-    // With few distinct eigenvalues the iteration ends early: the caller has alternatives.
+    // With few distinct eigenvalues the iteration ends early; the caller then uses another method.
   }
   return {Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
 }
 
 namespace {
 
-constexpr double nothing_new = 1e-20;  // relative square of a norm: ten of sixteen digits are lost
+constexpr double nothing_new =
+    1e-20;  // smallest x^T M x after orthogonalisation, relative: ten of sixteen digits lost
 constexpr double vector_tolerance =
     1e-8;  // residual of a Ritz vector; the error of omega^2 is the square of this value
 constexpr int widest_block = 100;
 constexpr int most_rounds = 50;
 
-/// The modes of `pairs` up to the limit, and the next one, sorted.
+/// Returns the modes of `pairs` with omega^2 < limit and the next mode, in ascending order.
 base::EigenPairs sorted(const base::EigenPairs& pairs, double limit) {
   std::vector<Eigen::Index> order;
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j) order.push_back(j);
@@ -122,8 +123,8 @@ base::EigenPairs join(const base::EigenPairs& a, const base::EigenPairs& b) {
   return both;
 }
 
-/// Modes that a single start vector finds. Free motions are removed from each solution, because rounding errors would
-/// otherwise make them dominate.
+/// Modes from a Krylov space with a single start vector. Free motions are removed from each solution, because rounding errors
+/// of free motions would otherwise dominate.
 base::EigenPairs lanczos(int count, const assembly::SymmetricSolver& solver, const SparseMatrix& mass,
                          const Eigen::MatrixXd& free, double shift, int heavies) {
   const Eigen::MatrixXd inertia = mass * free;
@@ -153,7 +154,7 @@ class BlockKrylov {
       for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, j) = uniform(random);
     next_ = image(x);
   }
-  /// Returns false if the space is invariant or has its maximal size.
+  /// Adds a block to the space. Returns false if the space is invariant, or would have more than `greatest` dimensions.
   bool grow(Eigen::Index greatest) {
     Eigen::MatrixXd x = next_;
     const Vector before = (x.transpose() * (mass_ * x)).diagonal();
@@ -170,8 +171,8 @@ class BlockKrylov {
     images_.rightCols(x.cols()) = next_;
     return true;
   }
-  /// Ritz pairs with a converged residual, from the lowest up to the first above the limit, or up to the first that has
-  /// not converged.
+  /// Returns converged Ritz pairs, from the lowest frequency up to the first pair above the limit, or up to the first pair
+  /// that has not converged.
   [[nodiscard]] base::EigenPairs modes(double limit) const {
     const Eigen::MatrixXd h = basis_.transpose() * (mass_ * images_);
     const base::EigenPairs ritz = base::symmetric_eigen(0.5 * (h + h.transpose()));
@@ -193,7 +194,8 @@ class BlockKrylov {
     deflate(known_, mass_, y);
     return y;
   }
-  /// Drops columns that lost nearly all of their norm, `before` = x^T M x: they add no new direction.
+  /// M-orthonormal columns that span x. before: x^T M x of each column before deflation; columns that lost nearly all of it
+  /// are dropped, because they add no new direction.
   [[nodiscard]] Eigen::MatrixXd orthonormalised(const Eigen::MatrixXd& x, const Vector& before) const {
     Eigen::MatrixXd q(x.rows(), 0);
     for (Eigen::Index j = 0; j < x.cols(); ++j) {

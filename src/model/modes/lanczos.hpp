@@ -21,7 +21,7 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// vector finds each repeated eigenvalue once.
 [[nodiscard]] Vector largest_eigenvalues(int n, int count, const Operator& apply);
 
-/// The `count` lowest modes, repeated ones once: omega^2 and M-orthonormal shapes, not sorted, from a Krylov
+/// The `count` lowest modes, each repeated mode once: omega^2 and M-orthonormal shapes, not sorted, from a Krylov
 /// space of dimension `width`; none if the iteration does not converge. `inverse`: (K + shift M)^-1.
 [[nodiscard]] base::EigenPairs shift_invert_modes(int count, int width, const SparseMatrix& mass,
                                                   double shift, const Operator& inverse);
@@ -35,10 +35,10 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 // block Krylov iteration, M-orthogonal to the known modes (Golub and Van Loan, Matrix Computations, section 10.3.6),
 // with blocks as wide as the number of missing modes.
 
-/// Subtracts from x its part along the M-orthonormal columns of the basis, twice because of rounding.
+/// Subtracts from x its part along the M-orthonormal columns of the basis; does so twice because of rounding.
 void deflate(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::MatrixXd& x);
 
-/// The `below` lowest modes that are not free, and the next one: omega^2 ascending, and M-orthonormal shapes,
+/// The `below` lowest modes that are not free motions, and the next mode: omega^2 ascending, and M-orthonormal shapes,
 /// n x (below + 1); fewer columns if some were not found. limit: value between omega^2 of the last two of these
 /// modes. free: all M-orthonormal free motions, n x f; shift: s, with K + s M positive
 /// definite.

@@ -21,7 +21,7 @@ constexpr double digits_of_highest = 1e-4;  // relative error of the highest ome
 
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
-/// Lowest omega; 0 if a motion has no stiffness; nullopt if nothing with mass can move.
+/// Lowest omega, rad per time; 0 if a motion has no stiffness; nullopt if no mass can move.
 using Lowest = std::optional<double>;
 
 Lowest lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
@@ -132,7 +132,7 @@ double highest_frequency(const Model& model) {
 namespace {
 
 constexpr double beside = 0.999;  // fraction of omega1^2: a shift at which K - s M is regular
-constexpr int solves = 4;         // inverse iterations; each reduces the error by some hundred
+constexpr int solves = 4;         // inverse iterations; each reduces the error by a factor of some hundred
 
 }  // namespace
 

@@ -24,8 +24,7 @@ struct ContactConstraints {
   std::vector<assembly::LineSpring> springs;
   std::vector<Combination> fixed;
 
-  /// Adds the normal of a closed contact: its spring, or a fixed form; nothing for a contact with a given
-  /// normal force.
+  /// Adds the normal of a closed contact: its spring, or a fixed form. Does nothing for a contact with a given normal force.
   void add_normal(const Contact& contact);
 };
 
@@ -45,7 +44,7 @@ struct ContactConstraints {
 
 // Accuracy limit of the lowest frequency due to the rounding of the matrices.
 //
-//   delta omega^2 = x^T dK x,   |dK_ij| <= eps/2 |K_ij|, irregular:
+//   delta omega^2 = x^T dK x,   |dK_ij| <= eps/2 |K_ij| with random signs:
 //   delta omega / omega = eps/4 sqrt( sum (x_i K_ij x_j)^2 ) / x^T K x
 //
 // Entries of K are rounded during assembly, and x^T K x is a small difference of large terms: on a mesh of n elements

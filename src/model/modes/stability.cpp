@@ -56,7 +56,7 @@ Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
 
 bool is_definite(const SparseMatrix& a) { return statics::null_motions(a).cols() == 0; }
 
-/// s, and the positive definite matrix K + s K_g plus springs along the fixed forms.
+/// A shift s, and the positive definite matrix K + s K_g plus springs along the fixed forms.
 struct Shift {
   double s = 1.0;
   SparseMatrix matrix;
@@ -78,7 +78,7 @@ std::optional<Shift> find_shift(const Pencil& pencil, const std::vector<Combinat
   return std::nullopt;
 }
 
-/// Load factors s + 1/nu from unsorted nu, ascending.
+/// Returns the load factors s + 1/nu > s, ascending. nu: eigenvalues, unsorted.
 std::vector<double> factors_of(double s, const Vector& nu) {
   std::vector<double> factors;
   const double most = nu.size() == 0 ? 0.0 : nu.cwiseAbs().maxCoeff();
@@ -112,7 +112,7 @@ std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatr
   if (!shift) return {0.0};
   const assembly::CholeskyFactor factor(shift->matrix);
   if (!factor.ok()) return {0.0};
-  Eigen::MatrixXd across = form_columns(fixed, n);  // F^-1 T, orthonormal
+  Eigen::MatrixXd across = form_columns(fixed, n);  // orthonormal columns that span F^-1 T
   for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j) = factor.solve_factor(Vector(across.col(j)));
   if (across.cols() > 0) across = base::orthonormal(across);
   const auto along = [&](const Vector& y) -> Vector { return y - across * (across.transpose() * y); };
@@ -152,8 +152,8 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
 
 namespace {
 
-constexpr double no_inertia = 1e-14;  // inertia, relative to the terms of x.Mx: rounding
-constexpr double no_faster = 1e-9;    // relative change of a converged rate
+constexpr double no_inertia = 1e-14;  // smaller inertias, relative to the terms of x.Mx, are rounding errors
+constexpr double no_faster = 1e-9;    // relative change of the rate at which the iteration has converged
 
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = statics::null_motions(k);  // includes motions of negative energy

@@ -17,7 +17,7 @@
 
 namespace signorini::modes {
 
-/// The `count` lowest lambda, ascending. A single 0 if the structure is unstable under arbitrarily small
+/// Returns the `count` lowest load factors lambda, ascending; a single 0 if the structure is unstable under arbitrarily small
 /// forces.
 [[nodiscard]] std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
                                                const ContactConstraints& holding, int count);
@@ -26,8 +26,8 @@ namespace signorini::modes {
 //
 //   K x = -sigma^2 M x,   u ~ exp(sigma t)
 //
-// Only matrices from files and prestress (run.geometric) lead to such a K; members, springs and contacts have
-// no negative energy.
+// Only matrices from files and prestress (run.geometric) can make a structure unstable; members, springs and contacts have no
+// negative energy.
 
 struct Growth {
   double rate = 0.0;  ///< sigma; infinite if the motion has no mass

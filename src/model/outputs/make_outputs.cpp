@@ -25,7 +25,7 @@ Combination form_of(const Vector& x) {
   return form;
 }
 
-/// Converts a form on the physical degrees of freedom to the computed ones.
+/// Converts a form on the physical degrees of freedom to a form on the computed degrees of freedom.
 Combination computed(const Vector& x, const Model& model) {
   if (model.reduction) return form_of(model.reduction->shapes.transpose() * x);
   if (model.basis) return form_of(model.basis->transpose() * x);
@@ -103,8 +103,8 @@ class Maker {
     for (const PhysicalRow::CurvedContact& bowl : row.curved_contacts) restore(bowl, output);
   }
 
-  /// Internal forces of a reduced structure balance the loads only without the terms that the reduced equation of motion
-  /// neglects: inertia of massless shapes, and damping of massless shapes that respond immediately.
+  /// Removes terms that the reduced equation of motion neglects: inertia of massless shapes, and damping of massless shapes
+  /// that respond immediately. Internal forces balance the loads only without these terms.
   void balance(const PhysicalRow& row, Output& output) const {
     const Reduction& reduction = *model_.reduction;
     Vector v = reduction.shapes.transpose() * row.v, a = reduction.shapes.transpose() * row.a;
@@ -132,8 +132,8 @@ class Maker {
     output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
-  /// Adds N u / R minus N_0 u / R, where N_0 / R is the scene's spring, whose force is already in the row. The stiffness
-  /// N_K / R in the model's K is damped by beta.
+  /// Adds the restoring force N u / R of a pendulum minus N_0 u / R, the force of the scene's spring, which the row already
+  /// contains. Adds the damping by beta of the stiffness N_K / R in the model's K.
   void restore(const PhysicalRow::CurvedContact& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
     const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].pendulum_surface;
@@ -162,7 +162,7 @@ class Maker {
     }
   }
 
-  /// rate: 0 displacement, 1 velocity, 2 acceleration.
+  /// Adds a displacement (rate 0), velocity (1) or acceleration (2) to the row.
   void motion(const OutputSpec& spec, int rate, PhysicalRow& row) {
     const double u = rate == 0 ? 1.0 : 0.0, v = rate == 1 ? 1.0 : 0.0, a = rate == 2 ? 1.0 : 0.0;
     if (map_.is_matrix_scene()) {
@@ -190,7 +190,7 @@ class Maker {
         if (numbers[c] == assembly::DofMap::absent)
           refuse(spec, "at",
                  fmt::format(
-                     "node '{}' has no degree of freedom {}: there is no member, mass, spring or contact",
+                     "node '{}' has no degree of freedom {}: no member, mass, spring or contact acts there",
                      spec.at[i],
                      c == 0   ? "in x"
                      : c == 1 ? "in y"
@@ -207,7 +207,7 @@ class Maker {
     return {piece, backwards};
   }
 
-  /// row += requested quantity at the position x on the k-th element of the path.
+  /// row += requested quantity at a point of the path. at: element k on the path, and position x in it, 0 to 1.
   void cut(const OutputSpec& spec, const char* key, const MemberPath& way, std::pair<std::size_t, double> at,
            const SectionQuantity& wanted, PhysicalRow& row) const {
     const MemberForces cuts(scene_, map_);
@@ -222,7 +222,7 @@ class Maker {
     cut(spec, "at", along, MemberForces::place_of(along, spec.station), wanted, row);
   }
 
-  /// Stress in axes along d = `direction` = (c, s) and across: xx = d . sigma d, yy across, xy = d . sigma (-s, c).
+  /// Stress in axes along d = `direction` = (c, s) and across d: xx = d . sigma d, yy across d, xy = d . sigma (-s, c).
   void body_stress(const OutputSpec& spec, PhysicalRow& row) {
     const int node = map_.mesh.by_name.at(spec.at[0]);
     const auto [c, s] = spec.direction.vector;
@@ -233,7 +233,7 @@ class Maker {
                       factors);
   }
 
-  /// The requested quantity at one point of a path.
+  /// Output of the requested quantity at one point of a path.
   Output point(const OutputSpec& spec, const char* key, const MemberPath& way,
                std::pair<std::size_t, double> at, const SectionQuantity& wanted) const {
     Output linear;
@@ -376,10 +376,11 @@ class Maker {
       const Output& term = named(part.name, before);
       const double factor = part.factor;
       if (!scene::same_unit(scene::product_of_units(term.unit, part.unit),
-                            // units can differ only in a scene made in code
+                            // the units can differ only in a scene that a program creates
                             output.unit))
         refuse(spec, "terms",
-               fmt::format("'{}' has another unit than '{}'", part.name, spec.terms.front().name));
+               fmt::format("'{}' has another unit than '{}'; expected terms of one unit", part.name,
+                           spec.terms.front().name));
       add(output.u, term.u, factor);
       add(output.v, term.v, factor);
       add(output.a, term.a, factor);

@@ -9,7 +9,7 @@
 //   spring         preload + k d.u + c d.v
 //   combination    sum_i c_i r_i
 //
-// All except contact outputs are first formed with the physical degrees of freedom. They are then converted
+// All outputs except those of contacts are first formed with the physical degrees of freedom. They are then converted
 // to the computed degrees of freedom: S^T x for a reduced model, B^T x if massless motions have a separate
 // basis.
 #pragma once

@@ -13,7 +13,7 @@
 namespace signorini::outputs {
 namespace {
 
-/// Largest distance of a node from the centre.
+/// Largest distance of a node of the body from its centre; 1 if all nodes are at the centre.
 double size_of_body(const assembly::DofMap& map, const std::vector<int>& nodes,
                     const element::MeshNode& centre) {
   double size = 0.0;
@@ -24,7 +24,7 @@ double size_of_body(const assembly::DofMap& map, const std::vector<int>& nodes,
   return size > 0.0 ? size : 1.0;
 }
 
-/// Resultants of a unit force along component c at a node; the moment is divided by the size of the body.
+/// Resultant (fx, fy, moment about the centre) of a unit force along component c at a node. The moment is divided by `size`.
 Eigen::Vector3d resultant(const assembly::DofMap& map, int node, std::size_t c,
                           const element::MeshNode& centre, double size) {
   const element::MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(node)];
@@ -63,7 +63,7 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
   if (!(base::symmetric_eigen(angles).values[0] > rounding::many_operations))
     throw SceneError(asked.place, asked.key,
                      fmt::format("the reactions of the supports of rigid body '{}' are statically "
-                                 "indeterminate: expected at most three, in independent directions",
+                                 "indeterminate: expected at most three supports, in independent directions",
                                  body.name));
   const Eigen::Vector3d weights = g * base::solve_dense(square, along);
   for (const int node : nodes)
@@ -78,7 +78,8 @@ void add_body_reaction(const Scene& scene, const assembly::DofMap& map, const St
 
 namespace {
 
-constexpr double usual_variability = 0.25;  // limit of the piping codes MSS SP-58 and ASME B31.1
+constexpr double usual_variability =
+    0.25;  // limit of variability() in the piping codes MSS SP-58 and ASME B31.1
 
 }  // namespace
 
@@ -122,7 +123,7 @@ std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model)
     if ((cold > 0.0) != (now > 0.0))
       doubts.push_back(
           fmt::format("spring {} carries {:.6g} {} in equilibrium and {:.6g} {} in the undeformed state: the "
-                      "sign differs",
+                      "sign differs; check the preload",
                       h.spring, now, unit, cold, unit));
     else if (variability(h) > usual_variability)
       doubts.push_back(

@@ -4,8 +4,8 @@
 //
 //   l: reactions of the body's supports;   f, m: inertia and internal forces at the nodes, minus loads
 //
-// G has a column for each support: (1, 0, -(y - y_c)), (0, 1, x - x_c), (0, 0, 1). Up to three independent supports can
-// be distinguished. Moments are divided by the size of the body.
+// G has a column for each support: (1, 0, -(y - y_c)), (0, 1, x - x_c), (0, 0, 1). The reactions are determined for up
+// to three independent supports. Moments are divided by the size of the body.
 #pragma once
 
 #include "model/assembly/dofs.hpp"

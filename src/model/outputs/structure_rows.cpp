@@ -184,7 +184,7 @@ void StructureRows::add_mass(PhysicalRow& row, const PointMass& mass, std::size_
   if (c != 2) add_base_acceleration(row, c == 0 ? m : 0.0, c == 1 ? m : 0.0);
 }
 
-/// Loads are never merged into the constant, even constant ones, because Steering may change a load during a run.
+/// Adds factor times load i. Even constant loads are not added to row.constant, because Steering may change them during a run.
 void StructureRows::add_load(PhysicalRow& row, std::size_t i, double factor) const {
   if (factor == 0.0) return;
   const auto known = std::find_if(row.given.begin(), row.given.end(),
@@ -195,7 +195,7 @@ void StructureRows::add_load(PhysicalRow& row, std::size_t i, double factor) con
   given.history = loads_[i].history.scaled(given.factor);
 }
 
-/// Adds a force or a moment at a node; node = -1: at any node.
+/// Adds factor times the force or moment of load i on component c of a node; node = -1: sum over all nodes.
 void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::size_t c, double factor) const {
   const LoadSpec& load = scene_.loads[i];
   if (load.type == LoadType::distributed) return;
@@ -295,7 +295,7 @@ SectionQuantity section_quantity(const OutputSpec& spec, Fibre fibre) {
   return wanted;
 }
 
-/// N is quadratic, V quartic, M quintic: loads are constant, inertia is linear along an element and cubic across it.
+/// N is quadratic, V quartic and M quintic in x, because loads are constant, and inertia is linear along and cubic across.
 std::size_t points_of(OutputQuantity quantity) {
   return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;
 }
@@ -316,7 +316,7 @@ element::SectionForce MemberForces::force(const MemberPath& way, std::size_t k, 
   const std::size_t number = element_of(way, k);
   const element::FiniteElement& e = map_.mesh.element(number);
   element::SectionForce cut(e.unknowns().size());
-  // Against the direction of the piece, left and right are exchanged, so M changes its sign.
+  // If the path runs against the piece, left and right are exchanged, so M changes its sign.
   const double sign = way.backwards && quantity == OutputQuantity::M ? -1.0 : 1.0;
   add(cut, e.section_force(quantity, {way.backwards ? 1.0 - x : x, 0.0}, map_.axial_forces_in(number)), sign);
   return cut;

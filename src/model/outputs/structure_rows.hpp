@@ -18,7 +18,7 @@ namespace signorini::outputs {
 struct PhysicalRow {
   explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u), rayleigh(u) {}
   Vector u, v, a;
-  Vector rayleigh;  ///< part of v that comes from alpha M + beta K in a force
+  Vector rayleigh;  ///< part of v that is due to the damping alpha M + beta K
   std::vector<Output::ContactForces> forces;
   std::vector<Output::Given> given;
   double constant = 0.0;
@@ -35,12 +35,11 @@ class StructureRows {
   /// alpha, beta: the Rayleigh factors in use. All arguments must outlive the object.
   StructureRows(const Scene& scene, const assembly::DofMap& map, double alpha, double beta);
 
-  /// row += cu u + (cv + rayleigh) v + ca a for a number of DofMap::numbers_at().
+  /// row += cu u + (cv + rayleigh) v + ca a for the motion `number` (DofMap::numbers_at()).
   void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca, double rayleigh = 0.0) const;
-  /// Adds the acceleration of the base, minus gravity, times the factor x along x and y along y.
-  /// gravity = false: without gravity.
+  /// Adds x a_x + y a_y, where a is the acceleration of the base minus gravity; gravity = false: without gravity.
   void add_base_acceleration(PhysicalRow& row, double x, double y, bool gravity = true) const;
-  /// Adds a section force of an element.
+  /// Adds a section force of an element. cut: its factors (element/element.hpp).
   void add_section_force(PhysicalRow& row, std::size_t element, const element::SectionForce& cut) const;
   /// Adds factors . (sigma_x, sigma_y, tau_xy) at a mesh node of body `body` of Scene::bodies (nodal_stress.hpp),
   /// including stiffness-proportional damping: sigma = D (B (u + beta v) - alpha T e).
@@ -76,17 +75,17 @@ class StructureRows {
   };
   std::vector<std::vector<Uniform>> uniform_;                // per element
   std::vector<std::vector<assembly::NodeForce>> tractions_;  // per load
-  std::vector<Output::Given> loads_;                         // of Scene::loads, times the amplitude
-  std::vector<std::vector<History>> strains_;                // per member; then per body
+  std::vector<Output::Given> loads_;           // histories of Scene::loads, times the amplitudes
+  std::vector<std::vector<History>> strains_;  // per member; then per body
 };
 
 // N, V, M and stresses along a piece of a member.
 //
 //   stress = N / area -+ i M / modulus      - on the left of the path, + on its right, where M > 0 is tensile
 //
-// i: stress intensification factor, as given, or that of the pipe bend.
+// i: stress intensification factor of the output if given, otherwise of the pipe bend.
 
-/// A path from node to node along a piece. backwards: the piece has the opposite direction.
+/// A path between the two nodes of a piece. backwards: true if the path runs from the end to the start of the piece.
 struct MemberPath {
   const element::MeshPiece* piece = nullptr;
   bool backwards = false;
@@ -99,7 +98,7 @@ struct SectionQuantity {
   std::optional<double> intensification = {};
 };
 
-/// The quantity of an output, for one fibre.
+/// Returns the section quantity that an output requests, for one fibre.
 [[nodiscard]] SectionQuantity section_quantity(const OutputSpec& spec, Fibre fibre);
 
 /// Number of points in an element at which a polynomial interpolates the quantity exactly (base/curves.hpp).

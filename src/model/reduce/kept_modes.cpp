@@ -17,8 +17,8 @@ constexpr int most_modes = 5000;       // largest number of modes that can be ke
 constexpr double roundings = 1e-12;    // sums below this fraction of their terms are zero
 constexpr double shift_share = 1e-3;   // shift, relative to omega^2 of the first truncated or highest mode
 constexpr double least_shift = 1e-11;  // smallest shift with free motions, relative to the largest K_ii/M_ii
-constexpr int corrections = 6;         // iterations; each reduces the error by shift/omega^2 < shift_share
-constexpr double margin = 1e-6;        // relative distance in omega^2 below a mode at which modes are counted
+constexpr int corrections = 6;         // corrections of the shift; each reduces the error by shift/omega^2
+constexpr double margin = 1e-6;        // modes are counted at this relative distance in omega^2 below a mode
 
 double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   double greatest = 0.0;
@@ -27,7 +27,7 @@ double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiff
   return greatest;
 }
 
-/// All modes: massless degrees of freedom are condensed, and the shapes extended to them.
+/// All modes. Massless degrees of freedom are condensed; the shapes are then extended to these degrees of freedom.
 base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   const SparseMatrix h = assembly::select_by_mass(mass, true), l = assembly::select_by_mass(mass, false);
   const SparseMatrix m = h.transpose() * mass * h, k = h.transpose() * stiffness * h;
@@ -41,7 +41,8 @@ base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffne
   }
   const base::EigenPairs pairs =
       base::generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
-  if (pairs.vectors.rows() != h.cols()) return {};  // the decomposition failed: the caller checks the values
+  if (pairs.vectors.rows() != h.cols())
+    return {};  // the decomposition failed; the caller checks the number of values
   Eigen::MatrixXd shapes = h * pairs.vectors;
   if (l.cols() > 0) shapes += l * (follow * pairs.vectors).eval();
   return {pairs.values, shapes};
@@ -56,7 +57,7 @@ void orthonormalise(Eigen::MatrixXd& x, const SparseMatrix& mass) {
     }
 }
 
-/// Modes that are not free, up to the cutoff, and the first mode above the cutoff if there is one.
+/// Modes with omega > 0 up to the cutoff (`kept`), and the first mode above the cutoff if there is one.
 struct ElasticModes {
   base::EigenPairs pairs;
   Eigen::Index kept = 0;
@@ -76,7 +77,7 @@ ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMa
   return found;
 }
 
-/// Same as all_elastic(), without a decomposition of the whole; `count` modes, free ones included, are below the cutoff.
+/// Same result as all_elastic(), computed by iteration. count: number of modes below the cutoff, free motions included.
 ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, const SparseMatrix& stiffness,
                             const Eigen::MatrixXd& rigid) {
   const double limit = cutoff * cutoff;
@@ -116,7 +117,7 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
 assembly::SymmetricSolver regular(const SparseMatrix& a) {
   assembly::SymmetricSolver solver(a);
   if (a.rows() > 0 && (!solver.ok() || !(solver.smallest_pivot() > 0.0)))
-    throw NotReducible("the stiffness is singular to rounding; move the cutoff");
+    throw NotReducible("the stiffness is singular up to rounding; move the cutoff");
   return solver;
 }
 
@@ -200,10 +201,11 @@ Vector ResidualFlexibility::response(const Vector& f) const {
 
 namespace {
 
-constexpr double needless = 1e-12;  // relative to a direction's compliance: a smaller part needs no shape
-constexpr double no_mass = 1e-12;   // smallest 1/omega^2 of a Ritz vector with mass, relative to the largest
+constexpr double needless =
+    1e-12;  // a smaller residual compliance, relative to the compliance, needs no shape
+constexpr double no_mass = 1e-12;  // smallest 1/omega^2 of a Ritz vector with mass, relative to the largest
 
-/// sum over the kept modes with stiffness: (phi^T f)^2/omega^2.
+/// Sum of (phi^T f)^2/omega^2 over the kept modes with omega > 0.
 double compliance_of_kept(const KeptModes& modes, const Vector& f) {
   const Vector part = modal_loads(modes, f);
   double sum = 0.0;
@@ -211,7 +213,7 @@ double compliance_of_kept(const KeptModes& modes, const Vector& f) {
   return sum;
 }
 
-/// Subtracts from x its part along the K-orthonormal columns of the basis, twice because of rounding.
+/// Subtracts from x its part along the K-orthonormal columns of the basis; does so twice because of rounding.
 Vector rest_of(const Vector& x, const Eigen::MatrixXd& basis, const SparseMatrix& k) {
   Vector rest = x;
   for (int round = 0; round < 2 && basis.cols() > 0; ++round)
@@ -276,7 +278,7 @@ constexpr double ten_digits = 1e-9;
 
 double inner(const SparseMatrix& a, const SparseMatrix& b) { return a.cwiseProduct(b).sum(); }
 
-/// Least-squares fit over all entries, M and K scaled to one.
+/// Least-squares fit C = alpha M + beta K over all entries, with M and K scaled to norm 1.
 RayleighFactors fitted(const SparseMatrix& damping, const SparseMatrix& mass, const SparseMatrix& stiffness) {
   const double m = mass.norm(), k = stiffness.norm();
   const double cm = m > 0.0 ? inner(damping, mass) / m : 0.0,

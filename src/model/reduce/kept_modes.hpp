@@ -1,7 +1,7 @@
 // kept_modes.hpp: the modes of a structure up to a cutoff, and the static response of all other modes.
 //
 //   K phi = omega^2 M phi,   phi_i^T M phi_j = delta_ij,   omega <= cutoff
-//   G_res f = sum over the other modes phi (phi^T f)/omega^2,   massless modes included
+//   G_res f = sum over all other modes of phi (phi^T f)/omega^2,   massless modes included
 //
 // K and M symmetric, positive semidefinite; without contact constraints. With f_el = f - M Phi Phi^T f, which does no
 // work on the kept modes (inertia relief if these include free motions), G_res f solves K u = f_el with Phi^T M u = 0.
@@ -34,14 +34,14 @@ struct KeptModes {
   Eigen::MatrixXd shapes;        ///< n x m, M-orthonormal; free motions first, then ascending
   Eigen::VectorXd squares;       ///< omega^2, m; exactly 0 for free motions
   int free = 0;                  ///< number of free motions among the kept modes
-  int truncated_modes = 0;       ///< modes with mass above the cutoff
+  int truncated_modes = 0;       ///< number of modes with mass above the cutoff
   double first_truncated = 0.0;  ///< frequency of the first truncated mode, rad per time; 0: none
   double shift = 0.0;            ///< makes K + shift M regular; far below omega^2 of truncated modes
 };
 
 /// All modes with omega <= cutoff. free: all null motions of K, n x f; each must have mass. K must be
-/// positive semidefinite. Throws NotReducible if there are more modes than the limit, or if fewer are found
-/// than counted.
+/// positive semidefinite. Throws NotReducible if there are more modes than the limit, or if fewer modes are
+/// found than counted.
 [[nodiscard]] KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                                     const Eigen::MatrixXd& free);
 
@@ -76,8 +76,8 @@ class ResidualFlexibility {
 
 /// A direction along which a force acts.
 struct ActingForce {
-  ComplianceShare share;    ///< name: given; compliances: set by static_shapes()
-  Vector force;             ///< n
+  ComplianceShare share;    ///< label: set by the caller; compliances: set by static_shapes()
+  Vector force;             ///< length n
   bool needs_mass = false;  ///< true: the static shape of this direction must have mass
 };
 
@@ -104,7 +104,7 @@ struct RayleighFactors {
   double beta = 0.0;   ///< time
 };
 
-/// alpha and beta of C; all matrices are symmetric and of one size. nullopt: C is not of that form, or zero.
+/// alpha and beta of C; all matrices are symmetric and of one size. nullopt: C is zero, or not of the form alpha M + beta K.
 [[nodiscard]] std::optional<RayleighFactors> rayleigh_factors(const SparseMatrix& damping,
                                                               const SparseMatrix& mass,
                                                               const SparseMatrix& stiffness);

@@ -9,12 +9,12 @@
 namespace signorini::reduce {
 namespace {
 
-// Largest r that may be rounding, relative to its terms: half of the digits. A larger r comes from loads. Chosen value;
-// rounding leaves 1e-11, an omitted load leaves its full value.
+// Largest imbalance r, relative to its terms, that is treated as rounding: half of the digits. Chosen value; rounding leaves
+// 1e-11, a load that the start does not include leaves its full value.
 constexpr double no_rounding = 1e-8;
 // Several steps are needed, because a step neglects that the friction of sliding contacts changes with N.
 constexpr int steps = 3;
-// Relative distance from the friction limit below which a contact is at its limit.
+// A contact is at its friction limit if its relative distance from the limit is smaller.
 constexpr double at_limit = 1e-9;
 
 class ReducedStart {
@@ -40,7 +40,7 @@ class ReducedStart {
     for (std::size_t k = 0; k < state.shears.size(); ++k) model_.contacts[k].initial_shear = state.shears[k];
   }
 
-  /// The imbalance r, and the magnitude of its largest term.
+  /// Returns the imbalance r, and the magnitude of its largest term.
   [[nodiscard]] std::pair<Vector, double> left_over() const {
     const Vector elastic = model_.stiffness * model_.u0;
     Vector r = -elastic;
@@ -58,7 +58,7 @@ class ReducedStart {
     return {std::move(r), most};
   }
 
-  /// Corrects the displacements and shears by one step q + d. Returns false if there is a mechanism.
+  /// Corrects displacements and shears by one step d (reduced_start.hpp). Returns false if the structure is a mechanism.
   [[nodiscard]] bool step(const Vector& r) {
     std::vector<statics::ConstraintRow> rows;
     std::vector<std::size_t> stuck;

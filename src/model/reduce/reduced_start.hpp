@@ -13,8 +13,8 @@
 namespace signorini::reduce {
 
 /// Corrects the start of a reduced model, whose M and K are diagonal. The model is unchanged if its start is
-/// not static, if contacts stick rigidly, if there is a mechanism, or if r is larger than rounding because
-/// other loads act.
+/// not static, if contacts stick rigidly, if there is a mechanism, or if r is larger than rounding
+/// because the static start does not include all loads.
 void equilibrate_start(Model& model);
 
 }  // namespace signorini::reduce

@@ -18,9 +18,10 @@
 namespace signorini::reduce {
 namespace {
 
-constexpr double nothing = 1e-14;      // smaller parts of a form on a shape of size 1 are rounding
-constexpr double quick_damper = 1e-6;  // smallest time constant of a static shape, times first_truncated
-constexpr double over_damped = 2.0;    // beta times a frequency: above this value a mode is overdamped
+constexpr double nothing = 1e-14;  // smaller parts of a form on a shape of size 1 are rounding
+constexpr double quick_damper =
+    1e-6;                            // smallest product of a static shape's time constant and first_truncated
+constexpr double over_damped = 2.0;  // beta times a frequency: above this value a mode is overdamped
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction", why);
@@ -99,7 +100,7 @@ std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
   return forces;
 }
 
-/// Columns and diagonals of the reduced matrices; shapes with mass first.
+/// Shapes and matrices of the reduced model; shapes with mass come first.
 struct Basis {
   Eigen::MatrixXd shapes;           ///< physical x reduced
   Eigen::VectorXd mass, stiffness;  ///< diagonals
@@ -108,7 +109,7 @@ struct Basis {
   std::vector<Eigen::Index> at_once;  ///< shapes without the damping beta K
 };
 
-/// dampers: act between shapes with mass; light: acts between all other pairs of shapes.
+/// dampers: damping matrix for pairs of shapes with mass; light: damping matrix for all other pairs of shapes.
 Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers,
                const SparseMatrix& light, double alpha, double beta) {
   Basis b;
@@ -122,7 +123,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
   b.stiffness.resize(m + h + r);
   b.stiffness << modes.squares, shapes.massive_squares, Eigen::VectorXd::Ones(r);
   if (light.nonZeros() > 0 && r > 0) {
-    // Rotated so that each shape has a separate time constant, or none.
+    // The massless shapes are rotated so that each of them has a separate time constant, or none.
     const Eigen::MatrixXd c = shapes.massless.transpose() * (light * shapes.massless);
     b.shapes.rightCols(r) = shapes.massless * base::symmetric_eigen(0.5 * (c + c.transpose())).vectors;
   }
@@ -222,9 +223,9 @@ void reduce_contacts(const Scene& scene, const Basis& b, Model& model) {
     c.tangent = reduced_form(c.tangent, b, tangent_mass);
     if ((normal_mass && !has_mass(c.normal, b)) || (slides && tangent_mass && !has_mass(c.tangent, b)))
       refuse(scene,
-             fmt::format("contact '{}' has no effective mass under the cutoff; raise the cutoff", c.name));
+             fmt::format("contact '{}' has no effective mass below the cutoff; raise the cutoff", c.name));
     if ((!c.normal_force_given() && c.normal.terms.empty()) || (c.has_friction() && c.tangent.terms.empty()))
-      refuse(scene, fmt::format("no shape under the cutoff moves contact '{}'; raise the cutoff", c.name));
+      refuse(scene, fmt::format("no shape below the cutoff moves contact '{}'; raise the cutoff", c.name));
   }
 }
 
@@ -276,8 +277,8 @@ double noise_of(const Basis& b, const Combination& physical, const Combination& 
          left_out.cwiseAbs().dot(size);
 }
 
-/// Sets gaps and gap rates to zero again that were zero in the saved reduced run: the saved state contains them
-/// only up to rounding.
+/// Sets gaps and gap rates that were zero in the saved reduced run to zero again: in the saved state they have rounding
+/// errors.
 void close_saved(const Model& model, const Basis& b, const std::vector<Contact>& contacts, const Vector& q,
                  const Vector& w, std::vector<double>& gap, std::vector<double>& rate) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -289,8 +290,9 @@ void close_saved(const Model& model, const Basis& b, const std::vector<Contact>&
   }
 }
 
-/// Sets the amplitudes of the initial state: amplitudes of modes by products with M, amplitudes of static shapes by
-/// products with K, so that a static state is reproduced. The remainder is reported.
+/// Sets the amplitudes of the initial state: amplitudes of modes by products with M, amplitudes of static shapes by products
+/// with K, so that a static state is reproduced. The part that the shapes cannot represent is stored in Reduction
+/// (initial_displacement_lost, initial_velocity_lost).
 void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model& model,
                   const std::vector<Contact>& contacts, Reduction& facts) {
   const Eigen::Index size = b.shapes.cols();
@@ -325,7 +327,7 @@ void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model&
   model.v0 = w;
 }
 
-/// The largest jump of a load in the run. The value at t = 0 is a jump, unless the static start includes the load.
+/// The largest jump of a load during the run. The value at t = 0 is also a jump, unless the static start includes the load.
 double greatest_jump(const Load& load, const Model& model, double t_end) {
   double jump = load.is_static && model.static_start ? 0.0 : std::abs(load.history.value(0.0));
   for (const Breakpoint& at : load.history.breakpoints())
@@ -384,7 +386,7 @@ void name_dofs(const Reduction& facts, const Basis& b, Model& model) {
   }
 }
 
-/// Computes Reduction::stiffness_terms, the magnitudes |R|^T |K| |R| for rounding errors.
+/// Computes Reduction::stiffness_terms: |R|^T |K| |R|, the magnitudes to which rounding errors are relative.
 Eigen::MatrixXd stiffness_terms(const SparseMatrix& stiffness, const Basis& b) {
   const Eigen::MatrixXd sizes = b.shapes.cwiseAbs();
   return sizes.transpose() * (stiffness.cwiseAbs() * sizes);

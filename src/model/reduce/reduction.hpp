@@ -12,17 +12,17 @@
 // Psi is K-orthogonal to G_res f_h, and f_h . Psi = (G_res f_h)^T K Psi = 0: a direction that needs mass is never
 // coupled to a massless shape.
 //
-// C is R^T C R with R = (Phi, Psi_h, Psi), without the part alpha M on Psi, whose mass is neglected as well.
+// The reduced C is R^T C R with R = (Phi, Psi_h, Psi), without the part alpha M on Psi, whose mass is neglected as well.
 // Psi is rotated so that the dampers give each shape its own time constant, or none.
 //
 // beta K acts on Psi only if it overdamps every truncated mode. A truncated mode,
 //
 //   z'' + beta omega^2 z' + omega^2 z = f,
 //
-// oscillates if beta omega <= 2. The neglected response time 1/omega by the inertia of this mode is then longer
-// than beta/2. With beta alone a shape would respond to a jump of f with z' = f/(omega^2 beta) and
-// z'' = z'/beta, which grow as the damping decreases. So in this case the shape responds immediately, as
-// without damping. With beta omega > 2, z follows f with the time constant beta, and so does the shape.
+// oscillates if beta omega <= 2. Its response time 1/omega due to inertia, which is neglected, is then longer than beta/2.
+// With beta alone a shape would respond to a jump of f with z' = f/(omega^2 beta) and z'' = z'/beta, which grow as the
+// damping decreases. So if beta omega <= 2, the shape responds immediately, as without damping. With beta omega > 2, z
+// follows f with the time constant beta, and so does the shape.
 //
 // Each shape is scaled to a largest translation of 1 (rotations by the scene's scales), so that tolerances of
 // displacements apply to its amplitude.
@@ -34,10 +34,9 @@
 
 namespace signorini::reduce {
 
-/// Reduces a model. dampers: C without alpha M + beta K; n x n. dashpots: dampers without the correction of
-/// beta K for prestress (run.geometric), for shapes without beta K. Errors: SceneError if a motion
-/// without mass has no stiffness, if K has negative energy, and if a direction that needs mass would have
-/// none.
+/// Reduces a model. dampers: C without alpha M + beta K; n x n. dashpots: dampers without the correction of beta K for
+/// prestress (run.geometric); used for shapes without beta K. Errors: SceneError if a motion without mass has no stiffness,
+/// if K has negative energy, and if no shape with mass moves a direction that needs mass.
 void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix& dashpots, Model& model);
 
 /// True if beta damps the shapes without mass. first_left_out: frequency of the first truncated mode, rad per

@@ -17,9 +17,10 @@
 namespace signorini::statics {
 namespace {
 
-// Largest residual of an equilibrium, relative to the largest force or moment; rounding errors of long paths are smaller.
+// Limit of the residual of an equilibrium, relative to the largest force or moment. Rounding errors of long paths are smaller.
 constexpr double balanced = 1e-7;
 
+/// Follows the equilibrium while the loads of the stages grow.
 class LoadingPath {
  public:
   LoadingPath(const SparseMatrix& stiffness, const std::vector<Contact>& contacts,
@@ -115,7 +116,8 @@ class LoadingPath {
       refuse_stage("the stiffness is indefinite");
     const std::string name =
         null.cols() > 0 ? assembly::describe_motion(null.col(0), map_) : std::string("structure");
-    refuse_stage(fmt::format("nothing restrains the {}: no equilibrium follows", name));
+    refuse_stage(
+        fmt::format("nothing restrains the {}, so the loading cannot continue in equilibrium", name));
   }
 
   /// Errors: SceneError if other contacts prevent the slip of a contact at its limit: its force would be undetermined.
@@ -130,8 +132,8 @@ class LoadingPath {
       if (is_also_constrained(rows, slips, static_cast<std::size_t>(unknown.row)))
         refuse_stage(fmt::format(
             "contact '{}' reaches its friction limit while other contacts restrain the same motion; a "
-            "frictional start does not share friction between them. Give them a tangential_stiffness or law "
-            "= \"compliant\", or start without the load and apply it during the run",
+            "frictional start does not share friction between contacts. Give them a tangential_stiffness or "
+            "law = \"compliant\", or start without the load and apply it during the run",
             contacts_[unknown.contact].name));
     }
   }
@@ -158,7 +160,7 @@ class LoadingPath {
                     pulled.size() == 1 ? "contact" : "contacts", base::join_quoted(pulled)));
   }
 
-  /// Checks K u + sum(N n + T t) = P.
+  /// Errors: SceneError unless K u + sum(N n + T t) = P up to rounding.
   void check_equilibrium() const {
     Vector rest = stiffness_ * u_ - load_, size = stiffness_.cwiseAbs() * u_.cwiseAbs() + load_.cwiseAbs();
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -225,7 +227,7 @@ class LoadingPath {
     return unknowns;
   }
 
-  /// -N', or -f N' - s T': the condition that is complementary to the unknown.
+  /// Condition that is complementary to the unknown: -N' for an opening, -f N' - s T' for a slip.
   [[nodiscard]] double condition(const Unknown& unknown, const Vector& forces) const {
     const LimitMargin& s = standing_[unknown.contact];
     const double N = s.normal >= 0 ? forces[s.normal] : 0.0;
@@ -233,14 +235,14 @@ class LoadingPath {
     return -friction(unknown.contact) * N - unknown.sign * forces[s.tangent];
   }
 
-  /// Threshold below which a force is zero. Opening contacts may reduce all forces to zero; the remainder is rounding
-  /// of the previous forces.
+  /// Threshold below which a force is zero. It is relative to the largest force so far, because after contacts open, all forces
+  /// may be rounding errors of earlier forces.
   double zero() {
     for (const LimitMargin& s : standing_) carried_ = std::max({carried_, std::abs(s.N), std::abs(s.T)});
     return force_tolerance(carried_);
   }
 
-  /// Computes the rates of all quantities along the stage, and the contact states to which they belong.
+  /// Computes the derivatives of all quantities by the load factor, and the contact states for which they are valid.
   void find_rates() {
     const double zero = this->zero();
     const std::vector<ConstraintRow> rows = make_rows(zero);
@@ -288,10 +290,10 @@ class LoadingPath {
           rates);
       if (!shared.undetermined.empty()) doubt(shared);
       if (found->ambiguous)
-        doubt(fmt::format(
-            "at {:.4g} of stage '{}' {} may continue in several ways that all satisfy the laws of contact; "
-            "the start takes the smallest slips and openings",
-            part_, stage_->name, names_of_unknowns(unknowns)));
+        doubt(
+            fmt::format("at load factor {:.4g} of stage '{}' {} may continue in several ways that all "
+                        "satisfy the contact laws; the start takes the smallest slips and openings",
+                        part_, stage_->name, names_of_unknowns(unknowns)));
       refuse_shares(rows, unknowns, shared.moves);
       take_states(unknowns, shared.moves);
     }
@@ -330,7 +332,7 @@ class LoadingPath {
     std::vector<State> next;
     for (const LimitMargin& s : standing_)
       next.push_back(slip_sign(s.state) != 0 && s.tangent >= 0 ? State::stick : s.state);
-    for (const Unknown& unknown : unknowns)  // touching contacts are closed, unless they open
+    for (const Unknown& unknown : unknowns)  // a contact that touches is closed, unless it opens
       if (unknown.kind == Unknown::Kind::opening)
         next[unknown.contact] = rubs(unknown.contact) ? State::stick : State::closed;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
@@ -350,8 +352,8 @@ class LoadingPath {
     const Friction& f = contacts_[k].friction;
     if (slip_sign(to) != 0 && slip_sign(s.state) == 0 && f.kinetic < f.static_)
       refuse_stage(
-          fmt::format("contact '{}' begins to slip, and its friction falls from static to kinetic: no "
-                      "equilibrium follows",
+          fmt::format("contact '{}' begins to slip, and its friction drops from static to kinetic, so the "
+                      "loading cannot continue in equilibrium",
                       contacts_[k].name));
     // A contact that touches without force at the very beginning has no previous state, so there is no event.
     const bool begins = part_ == 0.0 && s.N == 0.0 && s.T == 0.0;

@@ -4,19 +4,19 @@
 //   K u + sum_k ( n_k N_k + t_k T_k ) = P(l),    P(l) = P_before + l dP,   0 <= l <= 1
 //   n . u - N / kn = -gap,   t . u - T / kt = p   on closed contacts; 1 / k = 0 on rigid ones
 //
-// For given states everything is linear in l, so a change of state is the zero of a linear function. At a
-// change, the rates along l determine the next states, with the opening rate x and the slip rate p' = a - b:
+// For given contact states all quantities are linear in l, so a contact changes its state at the zero of a linear function.
+// At a change, the rates along l determine the next states, with the opening rate x and the slip rate p' = a - b:
 //
 //   touching, N = 0        -N'           _|_ x >= 0
 //                          -f N' -+ T'   _|_ a, b >= 0
 //   at its limit, T = s f |N|    -f N' - s T'  _|_ s p' >= 0
 //
 // This is one linear complementarity problem of all contacts that touch or are at their limit
-// (quasi_static_rates.hpp). If there is no solution, or a motion without stiffness, the continuation would be
-// dynamic, and the start is refused. If there are several solutions, one of them is taken and reported.
+// (quasi_static_rates.hpp). If there is no solution, or if a motion has no stiffness, the continuation would be
+// dynamic, and the start is refused. If several solutions are found, the smallest one is taken and reported.
 //
-// If closed contacts at their limits do not resist some motion, many slips are possible with the same forces.
-// The smallest slips are taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
+// If closed contacts at their limits do not resist some motion, many slips are possible with the same forces. The
+// smallest slips are taken (smallest_motion.hpp) and reported in StaticStart::undetermined.
 #pragma once
 
 #include <vector>
@@ -35,14 +35,14 @@ struct Stage {
 };
 
 struct FrictionalEquilibrium {
-  Vector u;                    ///< n
+  Vector u;                    ///< length n
   std::vector<double> shears;  ///< T of each contact
   StaticStart start;
   std::vector<LimitMargin> margins;  ///< one per contact
 };
 
-/// Applies the stages, from u = 0 without load. Errors: SceneError at `place` with the stage, the fraction
-/// reached, and the unconstrained motion.
+/// Applies the stages, from u = 0 without load. Errors: SceneError at `place` that names the stage, the
+/// load factor reached, and the reason.
 [[nodiscard]] FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
                                                            const std::vector<Contact>& contacts,
                                                            const std::vector<Stage>& stages,

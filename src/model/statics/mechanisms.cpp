@@ -23,8 +23,8 @@ Vector scaling(const SparseMatrix& k) {
   return s;
 }
 
-/// True if x is a null motion of the scaled matrix a. A zero row has no terms, so rounding in other rows would decide
-/// about its motion; the row is therefore treated as if it had the diagonal 1 of other scaled rows.
+/// True if x is a null motion of the scaled matrix a. A zero row is treated as if it had the diagonal 1 of other scaled rows;
+/// otherwise rounding in other rows would decide whether its motion is a null motion.
 bool is_null(const SparseMatrix& a, const Vector& x) {
   const double bare = (a.diagonal().array() == 0.0).select(x, 0.0).squaredNorm();
   return x.dot(a * x) <= rounding::many_operations * (assembly::term_magnitude(a, x) + bare);
@@ -101,7 +101,8 @@ Eigen::MatrixXd of_parts(const SparseMatrix& k) {
 }  // namespace
 
 bool may_have_null_motions(const SparseMatrix& k) {
-  // A null motion leaves pivots of some n eps. A slender structure below this limit only causes an unnecessary search.
+  // A null motion leaves a pivot of some n eps. A pivot of a slender structure may also be below this limit; it only causes an
+  // unnecessary search.
   constexpr double certainly_held = 1e-9;
   const Vector s = scaling(k);
   const assembly::SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));

@@ -3,8 +3,8 @@
 //
 //   F = S r,    S symmetric,    S (d . x) = 0        r: slip of each row, F: change of the forces on rows
 //
-// for all x with K x = 0 and d_j . x = 0 on the rows that are not loose. Solver errors in these zeros would
-// act as a stiffness: a load on such a motion would displace the structure by a large amount, in a direction that
+// The last equation is valid for all x with K x = 0 and d_j . x = 0 on the rows that are not loose. Solver errors in these
+// zeros would act as a stiffness: a load on such a motion would displace the structure by a large amount, in a direction that
 // rounding decides.
 #pragma once
 
@@ -46,17 +46,17 @@ namespace signorini::statics {
 /// motion, and in matrix scenes.
 [[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map);
 
-/// Same for motions that only involve the degrees of freedom `dofs`.
+/// simple_motions() for motions that only move the degrees of freedom `dofs`.
 [[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const assembly::DofMap& map,
                                              const std::vector<int>& dofs);
 
-/// The response S in F = S r (equation at the top of this file).
+/// The matrix S of F = S r (equation at the top of this file), as a function of one slip.
 class Mechanisms {
  public:
   /// loose: one entry per row; true for rows that may slip.
   Mechanisms(const SparseMatrix& k, const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose);
 
-  /// u and the forces on all rows for a slip of one loose row by r. held: the structure with all rows.
+  /// Returns u and the forces on all rows for a slip r of one loose row. held: the structure with all rows.
   [[nodiscard]] std::pair<Vector, Vector> response(const ConstraintRows& held, std::size_t row,
                                                    double r) const;
 

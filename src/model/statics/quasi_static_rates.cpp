@@ -11,16 +11,16 @@
 namespace signorini::statics {
 namespace {
 
-// Relative difference below which two rates are equal: error of dense solves. Chosen value.
+// Rates that differ less, relative to the largest one, are equal up to the errors of dense solves. Chosen value.
 constexpr double same_z = 1e-9;
 
-/// Unknowns that may be nonzero, because their conditions are zero; `free`: the last of them may have any sign.
+/// Unknowns that are nonzero in one alternative of a contact; their conditions are zero. free: the last one may have any sign.
 struct ContactRateState {
   std::vector<Eigen::Index> active;
   bool free = false;
 };
 
-/// Alternatives of one contact, in terms of its unknowns.
+/// Unknowns of one contact, and its alternatives (`ways`): stick, slip, open.
 struct RateUnknowns {
   std::vector<Eigen::Index> unknowns;
   std::vector<ContactRateState> ways{ContactRateState{}};
@@ -47,7 +47,7 @@ std::vector<RateUnknowns> rate_unknowns_of(const std::vector<Unknown>& unknowns)
   return all;
 }
 
-/// z with the chosen conditions zero and all other conditions satisfied; nullopt if there is no unique such z.
+/// Returns z for one choice of alternatives; nullopt if z is not unique, or does not satisfy the conditions.
 std::optional<Eigen::VectorXd> rates_with(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
                                           const std::vector<RateUnknowns>& contacts,
                                           const std::vector<std::size_t>& choice) {
@@ -110,8 +110,8 @@ std::optional<QuasiStaticRates> quasi_static_rates(const Eigen::MatrixXd& m, con
 
 namespace {
 
-// Difference below which two forces are equal, relative to the largest one so far: errors of some thousand solves and
-// events. Chosen value.
+// Forces that differ less, relative to the largest force so far, are equal up to the errors of some thousand solves and events.
+// Chosen value.
 constexpr double same_force = 1e-11;
 
 }  // namespace

@@ -42,20 +42,20 @@ inline constexpr std::size_t max_combinations = 20'000;
 //   f |N| - s T >= 0, s = +-1       while the contact sticks
 //   touching: g = 0 and N = 0       neither compressed nor separated
 
-/// State of one contact; rates are derivatives by the load factor of the stage, 0 to 1.
+/// State of one contact. gap_rate, N_rate, T_rate: derivatives by the load factor of the stage, which runs from 0 to 1.
 struct LimitMargin {
   State state = State::open;
   double gap = 0.0, N = 0.0, T = 0.0;
   double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
-  /// Rate of the given gap, without displacements, while an interference is applied.
+  /// Rate of the gap without displacements; nonzero only while an interference is applied.
   double given_gap_rate = 0.0;
-  int normal = -1, tangent = -1;  ///< indices of active constraint rows; -1: none
+  int normal = -1, tangent = -1;  ///< indices of the constraint rows of N and T; -1: no active row
 };
 
 /// State of a contact before any load.
 [[nodiscard]] LimitMargin undeformed(const Contact& contact);
 
-/// Friction coefficient: kinetic in slip, else static.
+/// Friction coefficient of the current state: kinetic in slip, otherwise static.
 [[nodiscard]] double friction_of(const Contact& contact, const LimitMargin& standing);
 /// Margin f |N| - s T before slip in the direction s; force.
 [[nodiscard]] double margin_of(const Contact& contact, const LimitMargin& standing, int s);

@@ -42,7 +42,7 @@ bool has_other_motions(const Eigen::MatrixXd& b, const Eigen::VectorXd& r,
   constexpr double moves = 1e-6;
   Eigen::VectorXd draft(b.cols());
   for (Eigen::Index j = 0; j < draft.size(); ++j)
-    draft[j] = (1.0 + 0.37 * static_cast<double>(j)) / b.col(j).norm();  // a generic direction
+    draft[j] = (1.0 + 0.37 * static_cast<double>(j)) / b.col(j).norm();  // not parallel to any special motion
   const double size = (b * draft).norm() + r.norm();
   draft *= size / (b * draft).norm();
   const Eigen::VectorXd own = base::least_squares(b, r);
@@ -57,7 +57,7 @@ namespace {
 // value.
 constexpr double same_rate = 1e-9;
 
-/// A row along which a contact may move at this load: its rate, and the admissible directions.
+/// A row along which a contact may slip or open: its rate, and the admissible directions.
 struct MechanismSlip {
   std::size_t row, contact;
   double rate;

@@ -2,7 +2,7 @@
 //
 //   r = g + B c,   s_i r_i >= 0 where only the direction s_i is admissible;   least |r - a|, a = B b
 //
-//   r = a + (I - P)(g - a) + P S z,   P: onto the columns of B,   0 <= z  _|_  S r >= 0
+//   r = a + (I - P)(g - a) + P S z,   P: projection onto the columns of B,   0 <= z  _|_  S r >= 0
 //
 // r: slips and openings of contacts (lengths or rates), so that the result is independent of the scene's
 // orientation, reflection and numbering. S: columns for rows with one admissible direction, with entry s_i.
@@ -32,11 +32,11 @@ enum class AdmissibleDirection : signed char { negative = -1, both = 0, positive
 
 // Slips and openings that are undetermined, because some motions have no resistance.
 //
-//   rates + Z c,   Z: motions without stiffness that move only these rows;   c: smallest slips and openings
+//   rates + Z c,   Z: motions without stiffness that move only rows of unknowns;   c: smallest slips and openings
 //
 // Forces do not depend on c.
 
-/// An unknown z of the complementarity problem (quasi_static_rates.hpp): a rate that moves `row` by sign z.
+/// An unknown z of the complementarity problem (quasi_static_rates.hpp): a rate that moves `row` by sign * z.
 struct Unknown {
   std::size_t contact;
   int row;
@@ -55,10 +55,10 @@ struct SlipDistribution {
 };
 
 struct SmallestSlips {
-  std::vector<bool> moves;  ///< one per unknown: true if its rate is not zero
+  std::vector<bool> moves;  ///< one per unknown: true if the contact moves in the direction of this unknown
   /// Contacts at their limits whose slips the data do not determine, in the order of their rows.
   std::vector<std::size_t> undetermined;
-  Vector motion;  ///< a motion without resistance; n
+  Vector motion;  ///< a motion without resistance; length n
 };
 
 /// Adds the motion Z c with the smallest slips to the rates (n).

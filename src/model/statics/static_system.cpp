@@ -18,9 +18,9 @@
 namespace signorini::statics {
 namespace {
 
-/// Pivot ratios below this value may belong to null motions, which are then searched for; rounding leaves some eps.
+/// If a pivot ratio is below this value, null motions are searched for; the pivot of a null motion is only some eps.
 constexpr double regular_share = 1e-9;
-// Largest part of a row that other rows do not span, relative to the row, if it is rounding. Chosen value.
+// If the part of a row that other rows do not span is smaller, relative to the row, it is a rounding error. Chosen value.
 constexpr double spanned = 1e-9;
 
 }  // namespace
@@ -88,19 +88,20 @@ std::vector<assembly::LineSpring> ConstraintRows::springs() const {
 
 namespace {
 
-constexpr double static_pivot_limit = 1e-3;  // smallest pivot, relative to a row's largest entry
-// Smallest slip by a motion of size 1 with which a contact can fix the motion.
+constexpr double static_pivot_limit = 1e-3;  // smallest accepted pivot, relative to the row's largest entry
+// A contact can fix a motion of size 1 only if the motion causes at least this slip at the contact.
 constexpr double holds = 1e-6;
-// Multiple of a negative stiffness of K that a row balances; enough even if two negative stiffnesses share the row.
+// Stiffness of a row / negative stiffness of K that the row must balance; sufficient even if the row balances two of them.
 constexpr double firmly = 4.0;
-constexpr double weak_share = 1e-10;  // weak support, relative to the diagonal: leaves six digits
-// Work relative to the largest load times motion: less does not drive a free motion.
+constexpr double weak_share =
+    1e-10;  // weak support, relative to the diagonal of K: keeps six digits in the sum
+// A smaller work, relative to the largest load times the motion, does not drive a free motion.
 constexpr double undriven = 1e-9;
 // Degrees of freedom up to which a structure is solved as a whole; larger structures are solved part by part.
 constexpr int together_up_to = 300;
 
-/// Unit rows that complete the independent rows (p x m). Each row takes the first column with a sufficient pivot, so
-/// that a contact fixes the horizontal motion rather than a combination with a rotation.
+/// Returns unit rows that complete `rows` (p x m, independent) to m independent rows. Each row takes the first column with a
+/// sufficient pivot, so that a contact fixes the horizontal motion rather than a combination with a rotation.
 Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -146,7 +147,7 @@ double structural_stiffness(const SparseMatrix& k, const Combination& form) {
   for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
   double length = 0.0;
   for (const auto& [i, a] : form.terms) length += a * a;
-  // The row must balance a negative stiffness of K by itself, for example of a block whose weight would topple it.
+  // The row alone must balance a negative stiffness of K, for example that of a block whose weight would topple it.
   double against = 0.0;
   for (const auto& [i, a] : form.terms)
     if (a != 0.0) against = std::max(against, -firmly * k.coeff(i, i) / (a * a));
@@ -173,11 +174,11 @@ Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
 namespace {
 
 /// Motions that move no node (rotations of hinged ends) are separated from the other motions, since no contact acts on
-/// them. In a combination, rounding would leave some translation, which a contact would then seem to fix.
+/// them. In a combination with other motions, rounding would leave a translation that a contact would seem to fix.
 struct Turning {
   Eigen::MatrixXd others;        ///< motions that move nodes
-  std::vector<int> dofs;         ///< degrees of freedom without any such rotation
-  std::vector<FreeMotion> free;  ///< rotations, scaled to 1 at their largest entry
+  std::vector<int> dofs;         ///< degrees of freedom that the rotations in `free` do not move
+  std::vector<FreeMotion> free;  ///< motions that move no node, scaled to 1 at their largest entry
 
   Turning(const Eigen::MatrixXd& motions, const std::vector<int>& all, const assembly::DofMap& map) {
     std::vector<Eigen::Index> moving;
@@ -279,8 +280,8 @@ std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem, con
 namespace {
 
 /// Contact springs that are stiffer than K along their normals: in one matrix with them, K would keep too few digits,
-/// and along inclined axes a soft motion would be off by 1e-12 of itself. Their forces kn (n . u + g0) n are summed
-/// separately.
+/// and along inclined axes a soft motion would have a relative error of 1e-12. The forces kn (n . u + g0) n of these
+/// springs are summed separately.
 struct StiffContacts {
   const StaticProblem& problem;
   std::vector<bool> soft;  ///< closed contacts, without the stiff ones
@@ -295,7 +296,7 @@ struct StiffContacts {
       list.push_back(c);
     }
   }
-  /// load - matrix u minus the forces of the stiff contacts; with_gaps: these forces include g0, the load does not.
+  /// Residual: load - matrix u, minus the forces of the stiff contacts. with_gaps: these forces include g0.
   [[nodiscard]] Vector rest(const SparseMatrix& matrix, const Vector& load, const Vector& u,
                             bool with_gaps) const {
     Vector rest = load - matrix * u;
@@ -331,7 +332,8 @@ ConstrainedState solve_constrained(const StaticProblem& problem, const std::vect
   for (const std::size_t c : stiff.list)
     apart.push_back({problem.contacts[c].normal, problem.contacts[c].normal_stiffness});
   const assembly::SymmetricSolver solver(apart.empty() ? k : assembly::with_springs(k, apart));
-  // load: includes the gaps of soft contacts. of_scene: the scene's load, for which gaps of stiff contacts are added.
+  // load: includes the gap terms of soft contacts. of_scene: true for the load of the scene; gap terms of stiff contacts are
+  // then added.
   const auto refined = [&](const Vector& load, bool of_scene) {
     const Vector first = of_scene ? problem.right_side(closed) : load;
     const Vector u = solver.solve(first);

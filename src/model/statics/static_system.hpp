@@ -43,7 +43,7 @@ class ConstraintRows {
   [[nodiscard]] bool regular() const { return regular_; }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
-  /// u and the forces F, one per row, for loads P and given r. Requires regular().
+  /// Returns u and the forces F, one per row, for loads P and given r. Requires regular().
   [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const;
 
  private:
@@ -69,8 +69,8 @@ struct StaticProblem {
   const Vector& load;
   const std::vector<Contact>& contacts;
   const assembly::DofMap& map;
-  double rigid_stiffness_factor = 1.0;  ///< stiffness of rigid contacts, in units of the structure's own
-  bool forces = false;                  ///< true: forces must not include the weak support of mechanisms
+  double rigid_stiffness_factor = 1.0;  ///< stiffness of rigid contacts / structural_stiffness()
+  bool forces = false;  ///< true: the forces of the weak support are removed from the solution
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return !contacts[k].normal_force_given(); }
@@ -82,7 +82,7 @@ struct StaticProblem {
   [[nodiscard]] double gap(std::size_t k, const Vector& u) const { return contacts[k].gap_at(u); }
   /// K with the springs of the closed contacts; closed[k] is ignored for sliders.
   [[nodiscard]] SparseMatrix matrix(const std::vector<bool>& closed) const;
-  /// P - sum_closed kn g0 n
+  /// Load P - sum_closed kn g0 n.
   [[nodiscard]] Vector right_side(const std::vector<bool>& closed) const;
 };
 
@@ -100,8 +100,8 @@ struct FreeMotion {
                                                              const std::vector<bool>& closed,
                                                              bool pressed_only = false);
 
-/// The displacement with the free motions fixed, and -N of every contact; for closed rigid contacts the
-/// required reaction, with either sign.
+/// The displacement with the free motions fixed, and -N of every contact. At closed rigid contacts -N is the reaction that
+/// keeps the gap closed, with either sign.
 struct ConstrainedState {
   Vector u;
   std::vector<double> reactions;
@@ -110,9 +110,9 @@ struct ConstrainedState {
                                                  const std::vector<bool>& closed,
                                                  const std::vector<FreeMotion>& held);
 
-/// Work of the loads on a free motion, at the displacement u of solve_constrained(): zero in equilibrium. k
-/// and p: matrix() and right_side() of the problem. Work below rounding, or below 1e-9 of the largest load
-/// times the largest displacement, is set to zero.
+/// Work of the loads on a free motion, at the displacement u of solve_constrained(); zero in equilibrium. k and p: matrix()
+/// and right_side() of the problem. Work below rounding, or below 1e-9 of the largest load times the largest displacement, is
+/// set to zero.
 [[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
                                   const Vector& motion, const Vector& u);
 

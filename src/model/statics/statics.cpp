@@ -13,8 +13,9 @@
 namespace signorini::statics {
 namespace {
 
-constexpr double only_touches = 1e-13;  // relative to the largest translation: rounding of a gap
-constexpr double no_reaction = 1e-9;    // relative to the largest load: smaller reactions drive no motion
+constexpr double only_touches =
+    1e-13;  // smaller gaps, relative to the largest translation, are rounding errors
+constexpr double no_reaction = 1e-9;  // relative to the largest load: smaller reactions drive no motion
 
 struct Trial {
   std::vector<FreeMotion> held;
@@ -51,8 +52,8 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   return trial;
 }
 
-/// On extremely fine meshes K itself loses its digits: EI / h^3 over EI / L^3 exceeds 16 digits. A seemingly free
-/// motion is then a slow bending motion, and the name of a free motion in the message would mislead.
+/// Errors: SceneError if the mesh is so fine that K loses all digits, because EI / h^3 exceeds EI / L^3 by a factor above
+/// 1e16. A motion that seems to be free is then a slow bending motion, so the message does not name it.
 void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place,
                      const char* key) {
   if (problem.size() <= 10000) return;
@@ -96,11 +97,12 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   if (gripped.driven >= 0) {
     const std::string name = assembly::describe_motion(gripped.driven_motion().motion, problem.map);
     const int holder = gripped.driven_motion().contact_index;
-    const std::string hold = holder < 0 ? "nothing restrains it"
-                                        : fmt::format(
-                                              "only friction at contact '{}' could prevent this, and initial "
-                                              "= \"static\" has no friction; use initial = \"frictional\"",
-                                              problem.contacts[static_cast<std::size_t>(holder)].name);
+    const std::string hold = holder < 0
+                                 ? "nothing restrains this motion"
+                                 : fmt::format(
+                                       "only friction at contact '{}' could prevent this motion, and initial "
+                                       "= \"static\" has no friction; use initial = \"frictional\"",
+                                       problem.contacts[static_cast<std::size_t>(holder)].name);
     throw SceneError(place, key,
                      fmt::format("no static equilibrium: the static loads drive the {} with {:.4g} {}; {}",
                                  name, gripped.force, unit, hold));
@@ -115,9 +117,9 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                          c.name, pull, unit);
   }
   throw SceneError(place, key,
-                   fmt::format("no static equilibrium: {}; without this pull the static loads drive the {}. "
-                               "Check the directions of gravity and of constant loads",
-                               pulls.empty() ? "the open contacts do not hold the structure" : pulls,
+                   fmt::format("no static equilibrium: {}; contacts cannot pull, so the static loads drive "
+                               "the {}. Check the directions of gravity and of constant loads",
+                               pulls.empty() ? "the closed contacts do not restrain the structure" : pulls,
                                assembly::describe_motion(found.driven_motion().motion, problem.map)));
 }
 
@@ -132,8 +134,8 @@ bool has_no_reaction(const StaticProblem& problem, std::size_t k, double reactio
   return std::abs(reaction) * squares <= no_reaction * greatest * sum;
 }
 
-/// Factor for the springs of rigid contacts. Negative energy of K that only these contacts resist needs stiff springs;
-/// what friction resists may remain.
+/// Returns a factor for the springs of rigid contacts. If only these contacts prevent a motion of negative energy, their
+/// springs must be stiff. Motions of negative energy that only friction prevents may remain.
 double find_rigid_stiffness_factor(StaticProblem problem, const std::vector<bool>& closed) {
   double best = 1.0;
   Eigen::Index least = null_motions(problem.matrix(closed)).cols();
@@ -169,8 +171,8 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
   // A closed contact without force could displace a free motion, so the contact opens, once. If its gap is then
   // negative, it closes again and stays closed.
   std::vector<bool> opened(contacts.size(), false);
-  // closed_supports() adds a weak support. Without this support, a contact that barely touches may change its state in
-  // every round: after 20 rounds either state is acceptable.
+  // The weak support of closed_supports() is absent here, so a contact that barely touches may change its state in every
+  // round; after 20 rounds either state is acceptable.
   for (int round = 0;; ++round) {
     const Trial trial = attempt(problem, closed);
     if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force, search.key);
@@ -247,7 +249,8 @@ double best_step(const StaticProblem& problem, const SparseMatrix& k0, const Vec
   return 1.0;
 }
 
-/// A zero row belongs to no contact, because the contact's spring would be in the row: any stiffness is suitable there.
+/// Weak springs on all degrees of freedom. No contact acts on a degree of freedom with a zero row, so any stiffness is
+/// suitable there.
 SparseMatrix weak_support(const SparseMatrix& k) {
   const Vector d = k.diagonal().cwiseAbs();
   SparseMatrix weak(k.rows(), k.cols());
@@ -270,17 +273,17 @@ std::vector<bool> closed_supports(const StaticProblem& problem) {
         assembly::SymmetricSolver(problem.matrix(closed) + weak).solve(problem.right_side(closed));
     const std::vector<bool> next = closed_at(problem, target);
     if (next == closed) return closed;
-    if (round == 0) {  // the start is the bilateral equilibrium
+    if (round == 0) {  // the first u is the equilibrium with all contacts closed
       u = target;
     } else {
       const Vector d = target - u;
       u += best_step(problem, k0, u, d) * d;
     }
     const std::vector<bool> reached = closed_at(problem, u);
-    if (reached == closed) return closed;  // no descent left: contacts that barely touch
+    if (reached == closed) return closed;  // the energy is minimal: only contacts that barely touch differ
     closed = reached;
   }
-  return closed;  // contacts that barely touch: the caller tries both states
+  return closed;  // only contacts that barely touch differ: the caller tries both states
 }
 
 }  // namespace signorini::statics

@@ -12,7 +12,7 @@
 // A null motion of K + sum_closed kn n n^T on which the loads do no work is free: such a motion is fixed by ut = 0 at
 // the first suitable contact in file order. A null motion on which the loads do work is refused. Sliders have
 // no force here, but can fix a free motion. A contact whose reaction is zero up to rounding is open, unless its gap
-// without this reaction is negative.
+// would then be negative.
 //
 // With geometric stiffness (run.geometric) K may have negative energy while contacts are open, so that the energy has
 // no minimum. Newton's method then starts with the contacts that are closed without geometric stiffness.
@@ -27,7 +27,7 @@
 namespace signorini::statics {
 
 struct Equilibrium {
-  Vector u;                  ///< n
+  Vector u;                  ///< length n
   StaticStart start;         ///< reactions -N >= 0 of each contact, names of free motions
   std::vector<bool> closed;  ///< one per contact
 };
@@ -39,8 +39,8 @@ struct EquilibriumSearch {
   std::optional<std::vector<bool>> closed = {};
 };
 
-/// The equilibrium under a load. Errors: SceneError at `place` that names mechanisms, motions on which the
-/// loads do work, and contacts that would be in tension.
+/// Returns the equilibrium under a load. Errors: SceneError at `place` if there is none; the message names mechanisms,
+/// motions on which the loads do work, or contacts that would be in tension.
 [[nodiscard]] Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
                                            const std::vector<Contact>& contacts, const assembly::DofMap& map,
                                            const SourcePlace& place, const Units& units,
@@ -52,7 +52,7 @@ struct EquilibriumSearch {
 //
 // The last term only keeps every Newton matrix regular while contacts open and close.
 
-/// closed[k] for every contact in the equilibrium (false for sliders).
+/// Returns one entry per contact: true if it is closed in the equilibrium; false for sliders.
 [[nodiscard]] std::vector<bool> closed_supports(const StaticProblem& problem);
 
 }  // namespace signorini::statics

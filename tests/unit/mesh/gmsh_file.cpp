@@ -203,7 +203,7 @@ TEST_CASE("bad meshes are refused with file and line") {
   check_refused(changed(old_file, "10 11 12 13", "10 11 13 12"),
                 "m.msh:25: bodies.b.mesh: element 4 is folded or flat");
   check_refused(changed(old_file, "4 3 2 5", "4 10 2 5"),
-                "m.msh:25: bodies.b.mesh: found an element (4) of type 10");
+                "m.msh:25: bodies.b.mesh: element 4 has type 10");
   check_refused(changed(old_file, "6\n15 2 1 0", "7\n99 5 5 0\n15 2 1 0"),
                 "m.msh:13: bodies.b.mesh: node 99 belongs to no element");
   check_refused(changed(old_file, "14 15 12\n", "14 77 12\n"),
@@ -213,7 +213,7 @@ TEST_CASE("bad meshes are refused with file and line") {
   check_refused(changed(new_file, "1 1 0\n0 1 0", "1 1 0.5\n0 1 0"), "found z = 0.5 of node 12");
   check_refused(changed(new_file, "1 1 0\n0 1 0", "1 x 0\n0 1 0"), "found \"x\", expected y, a number");
   check_refused(changed(new_file, "2 11 10\n3 11 14", "2 11 13\n3 11 14"),
-                "m.msh:40: bodies.b.mesh: line 2 from node 11 to node 13 is no edge of an element");
+                "m.msh:40: bodies.b.mesh: line 2 from node 11 to node 13 is not an edge of an element");
   check_refused(new_file, "no physical surface is named \"wood\"; known: other steel, steel", {"wood"});
   check_refused("MeshFormat", "m.msh:1: bodies.b.mesh: found \"MeshFormat\", expected a section");
   check_refused(std::string(old_file).substr(0, 300), "found the end of the file");

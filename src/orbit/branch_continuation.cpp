@@ -297,7 +297,7 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
     turned_back_ = true;
     return true;
   }
-  end_ = fmt::format("at {} = {:.9g} even the shortest step fails, and {}: {}", options_.path, value(here),
+  end_ = fmt::format("at {0} = {1:.9g} even the shortest step fails ({3}), and {2}", options_.path, value(here),
                      known ? "the orbit found beyond already lies on the branch" : "no orbit is found beyond",
                      why);
   return false;
@@ -374,7 +374,7 @@ void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
   double farthest = options_.from;
   for (const BranchPoint& p : branch_.points)
     if (std::abs(p.parameter - options_.from) > std::abs(farthest - options_.from)) farthest = p.parameter;
-  end_ += fmt::format("; beyond {:.9g}, up to {:.9g}, the branch has no orbit", farthest, options_.to);
+  end_ += fmt::format("; between {:.9g} and {:.9g} the branch has no orbit", farthest, options_.to);
   if (!crossed_gap_) return;
   end_ += ", and the branch was found again beyond a gap: another branch may lead across the gap";
   complete_ = false;
@@ -395,7 +395,7 @@ void BranchContinuation::walk_from_start() {
   keep_mark(here, t);
   offer_mark();
   if (is_time_shift(here, t)) {
-    end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all its values",
+    end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all values of this key",
                        options_.path);
     return;
   }
@@ -430,7 +430,7 @@ void BranchContinuation::guarded(const std::function<void()>& walk) {
                        last_ ? map_.parameter(last_->s) : options_.from, error.what());
   }
   if (end_.empty())
-    end_ = branch_.interrupted ? "interrupted" : fmt::format("{} points, the requested maximum", points_);
+    end_ = branch_.interrupted ? "interrupted" : fmt::format("stopped at the requested maximum of {} points", points_);
 }
 
 void BranchContinuation::follow() {

@@ -15,13 +15,13 @@
 namespace signorini::orbit {
 namespace {
 
-// Steps of finite differences, relative to the range. The error is the second derivative times the step, plus
+// Steps in s of the finite difference dG/ds. The error is the second derivative times the step, plus
 // noise/step. The residual of an orbit estimates the noise, and its square root balances both terms. The
 // bounds of the step for the engine `exact` and the step for `ida` are chosen values.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
 // Number of cached maps: for a point, its finite difference, and the next point.
 constexpr std::size_t max_kept = 4;
-// Length of a scene's run: a transient, and a few passes through the orbit.
+// Length of a scene's run, in periods: a transient, and a few passes through the orbit.
 constexpr double max_periods = restart_periods + 4.0;
 constexpr double same_time = 1e-9;  // relative to a period: rounding of times that were written as text
 
@@ -75,8 +75,8 @@ double BranchMap::parameter(double s) const {
   return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
 }
 
-/// The scene at s. Periodic loads must act until the end of its run, which is long enough for a transient and
-/// for a few periods at s.
+/// The scene at s. Its run is long enough for a transient and for a few periods at s, so that periodic loads are defined
+/// up to the end of both.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
     return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::format_number(t_end)}});
@@ -95,8 +95,8 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   const double phase = phase_ * machine_.time;
   if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
     throw SceneError({}, options_.path,
-                     fmt::format("the loads are periodic only from t = {:g} on; at the start of the branch "
-                                 "they are periodic from t = {:g} on",
+                     fmt::format("at this point of the branch the loads are periodic only from t = {:g} on, but "
+                                 "at its start from t = {:g} on",
                                  loads.periodic_from, phase));
   return loads;
 }

@@ -125,13 +125,13 @@ void Search::set_period(const Scene& scene) {
   if (orbit_.autonomous && !loads.surfaces_move && !conservative)
     throw SceneError(
         {}, "loads",
-        "an orbit needs a periodic load, a moving surface, or --period; the scene has none of them");
+        "an orbit needs a periodic load, a moving surface, or a given --period; found none of these");
   const double t_end = std::max(scene.run.t_end, long_enough(loads, options_));
   const Scene longer = read_({{"run.t_end", base::format_number(t_end)}});
   given_ = build_model(longer);
   sensitivity::check_tangent_laws(longer, given_);
   if (conservative && given_.damping.norm() > 0.0)
-    throw UsageError("--energy: the scene has damping, expected none: energy is not conserved");
+    throw UsageError("--energy: found damping, expected a scene without damping, in which energy is conserved");
   run_ = longer.run;
   run_.engine = orbit::orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
   if (!run::engine_row(run_.engine).capabilities.supports_orbits)
@@ -209,7 +209,7 @@ std::string Search::repeated(const orbit::OrbitState& state) const {
     const orbit::OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
     if (k > 1 && orbit::residual_of(section, *first, gap) <= repetition_tolerance)
-      return fmt::format("; the transient repeats itself after {} of these periods: use --times {}", k,
+      return fmt::format("; the transient repeats itself only after {} periods: use --times {}", k,
                          k * options_.times);
   }
   return {};

@@ -79,12 +79,12 @@ std::string not_common(const Quantity& quantity, const Comparison& c) {
   if (quantity.deviation->count > 0 && alone.empty()) return "";
   std::vector<std::string> common;
   for (const auto& [name, deviation] : c.columns) common.push_back(name);
-  const std::string both = common.empty() ? "no column" : listed(common);
+  const std::string both = common.empty() ? "none" : listed(common);
   if (!alone.empty())
-    return fmt::format("{} {} in one of the two runs only; in both: {}", listed(alone),
+    return fmt::format("{} {} in one of the two runs only; columns in both runs: {}", listed(alone),
                        alone.size() == 1 ? "is" : "are", both);
   if (quantity.name == "force_away" && c.force.count > 0) return "no output time is away from events";
-  return "neither run has any; in both: " + both;
+  return "neither run has such a column; columns in both runs: " + both;
 }
 
 /// Reason why a limit on the quantity cannot be applied to both runs; empty if it can be applied.
@@ -180,7 +180,7 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
       list.push_back(fmt::format(
-          "{}: sequence differs from t = {:.9g} on, {} from then on exceed the limit {}", other.name,
+          "{}: the sequence of events differs from t = {:.9g} on: {} after this time, the limit is {}", other.name,
           split->t, base::count_text(unaligned, "event"), base::format_number(limit.value)));
       continue;
     }
@@ -193,7 +193,7 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       const MaxDifference& greatest = quantity.deviation->whole;
       const std::string why = whole ? no_comparison(quantity, reference, other, comparison) : "";
       if (!why.empty())
-        list.push_back(fmt::format("{}: {} has a limit, and {}", other.name, limit.name, why));
+        list.push_back(fmt::format("{}: {} has a limit, which cannot be checked: {}", other.name, limit.name, why));
       if (!(greatest.value <= limit.value))
         list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds {}", other.name, limit.name,
                                    greatest.value, quantity.unit, greatest.t, greatest.where,

@@ -110,7 +110,7 @@ class DirectoryLawChecker {
     if (recorded_.ended && reader.is_cut()) refuse(path, truncation_message(reader, "a line break"));
     if (last_change_ > last_event_ && lacking_ > 0)
       refuse((directory_ / "events.csv").string(),
-             fmt::format("line {}: found no more, expected {}, up to t = {:.9g}; the file is cut",
+             fmt::format("line {}: found the end of the file, expected {} up to t = {:.9g}; the file is cut",
                          result_.events + 2, base::count_text(static_cast<std::size_t>(lacking_), "event"),
                          last_change_));
   }
@@ -121,7 +121,7 @@ class DirectoryLawChecker {
     std::error_code none;
     if (fs::exists(directory_ / "motion.csv", none)) return true;
     if (fs::exists(directory_ / "curves.csv", none))
-      throw FileError((directory_ / "motion.csv").string(), "not found, expected it beside curves.csv");
+      throw FileError((directory_ / "motion.csv").string(), "not found, although curves.csv exists; a run writes both files");
     return false;
   }
 

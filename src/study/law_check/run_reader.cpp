@@ -196,7 +196,7 @@ int ContactNames::at(const std::string& name, const std::filesystem::path& file,
 
 std::string truncation_message(const result::CsvReader& reader, const std::string& lacks) {
   return fmt::format("line {}: found {}, expected {}; the file is cut", reader.line(),
-                     reader.is_cut() ? "no line break" : "no more", lacks);
+                     reader.is_cut() ? "no line break" : "the end of the file", lacks);
 }
 
 std::vector<Event> read_recorded_events(const std::filesystem::path& directory, const Model& model,

@@ -205,7 +205,7 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
   }
   if (until < whole)
     report_.notes.push_back(
-        fmt::format("at t = {:.9g} such a change alters the sequence of events: all runs are compared up to "
+        fmt::format("at t = {:.9g} a change of all masses in their last digits alters the sequence of events: all runs are compared up to "
                     "t = {:.9g} only",
                     decided, until));
 }
@@ -257,7 +257,7 @@ bool WorkStudy::choose_reference() {
     tight.accuracy = rounded_decimal(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
     if (!try_reference(tight, why_not)) continue;
     report_.notes.push_back(
-        fmt::format("the reference is the tightest run, {}: errors near its own tolerance are not reliable",
+        fmt::format("the reference is the run with the smallest tolerance, {}: errors near this tolerance are not reliable",
                     tight.name()));
     return true;
   }
@@ -291,7 +291,7 @@ void WorkStudy::find_reference() {
   if (!whole) {
     report_.compared_until = reference_.figures.t;
     report_.notes.push_back(fmt::format(
-        "the reference, {}, {} at t = {:.9g}: {}; all runs are compared up to there", report_.reference,
+        "the reference, {}, {} at t = {:.9g}: {}; all runs are compared up to this time", report_.reference,
         reference_.figures.facts.outcome, reference_.figures.t, reference_.figures.reason));
   }
   WorkPoint exact;

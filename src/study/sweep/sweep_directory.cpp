@@ -127,7 +127,7 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::sweep::points(spec_.vary)) {
   check_directory(path_);
   base::make_directory(path_);
-  if (!lock_.take(path_)) throw FileError(path_.string(), "another sweep is running in it");
+  if (!lock_.take(path_)) throw FileError(path_.string(), "is in use: another sweep is running in this directory");
   if (is_sweep(path_) && !force) {
     const SweepSpec was = read_sweep_spec(path_);
     std::string differs = difference(was, spec_);
@@ -155,12 +155,12 @@ std::map<std::size_t, NumberedRow> SweepDirectory::rows_in(const fs::path& file)
       return FileError(file.string(), fmt::format("line {}: row {} is {}", found.line, index + 1, what));
     };
     if (index >= points_.size())
-      throw wrong(fmt::format("no row of this sweep, which has {} rows", points_.size()));
+      throw wrong(fmt::format("not a row of this sweep, which has {} rows", points_.size()));
     if (!spec_.share.holds(index)) throw wrong("not of share " + spec_.share.text());
     const auto& point = points_[index];
     bool ours = found.row.values.size() == point.size();
     for (std::size_t i = 0; ours && i < point.size(); ++i) ours = found.row.values[i] == point[i].value;
-    if (!ours) throw wrong("not the row of this sweep with that number");
+    if (!ours) throw wrong("not from this sweep: its values of the varied keys differ");
   }
   // A crashed row is computed again.
   std::erase_if(rows, [](const auto& entry) { return entry.second.row.outcome == "crashed"; });
@@ -220,7 +220,7 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
                              [](const char*) -> std::optional<std::string> { return std::nullopt; });
     const std::string by = json.at("signorini");
     if (by != version)
-      throw FileError(file.string(), "was written by Signorini " + by + ", this is " + version);
+      throw FileError(file.string(), "was written by Signorini " + by + ", but this program is version " + version);
     return spec;
   } catch (const base::Json::exception& error) {
     throw FileError(file.string(), std::string("is not the specification of a sweep: ") + error.what());

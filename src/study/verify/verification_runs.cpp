@@ -283,12 +283,12 @@ void VerificationRuns::conclude(const Sequence& here, Verification& result) cons
     result.sentence = fmt::format("the sequences of events differ, and exact agrees with ida: {}; use {}",
                                   here.reason, finer);
   } else if (rough) {
-    result.sentence = "newmark's steps are too coarse: its orders have not converged; use " + finer;
+    result.sentence = "newmark's steps are too coarse: its observed orders of convergence differ too much from two; use " + finer;
   } else if (here.until < t_end_) {
     result.sentence = fmt::format("ida and newmark agree until t = {:.9g} {}; {}", here.until,
                                   model_.units.time, here.reason);
   } else if (short_bars) {
-    result.sentence = "newmark's error bars are too short: exact agrees with ida; use " + finer;
+    result.sentence = "newmark's error bars are too small: exact agrees with ida; use " + finer;
   } else {
     result.verdict = Agreement::agree;
     result.sentence = fmt::format("ida and newmark agree to the end, on {} events and {} output times",

@@ -21,7 +21,7 @@
 namespace signorini {
 namespace {
 
-constexpr int max_transients = 3;  // number of transients that are tried, one after the other
+constexpr int max_transients = 3;  // limit of the number of transients, one after the other
 // Distance to the neighbouring members of a family that are checked for slip, relative to the amplitude. Chosen value.
 constexpr double beside = 1e-6;
 // Duration, in periods, of the run that records events: more than 1 because a run does not record an event at
@@ -70,14 +70,14 @@ class Search {
   Recorder* recorder_;
   Model given_;  // in the scene's units
   std::optional<orbit::PeriodMap> map_;
-  double unit_ = 1.0;    // machine's unit of time, in the scene's unit
+  double unit_ = 1.0;    // unit of time of the computed model, in the scene's unit
   double before_ = 0.0;  // time from which the loads are periodic, rounded up to whole periods; machine units
   double period_ = 0.0;  // period of the loads times OrbitOptions::times, machine units
   double tolerance_, closed_ = 0.0;
   Orbit orbit_;
   orbit::ShootingResult shot_;
   orbit::OrbitState initial_;
-  Model first_;  // initial model of the scene, in the machine's units
+  Model first_;  // initial model of the scene, in machine units
   RunSpec run_;
   std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
 };
@@ -104,7 +104,7 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
   set_period(scene);
 }
 
-/// Checks that the scene has no excitation, which a search at a given energy requires. Errors: UsageError.
+/// Checks that the scene has no excitation, because --energy requires a conservative motion. Errors: UsageError.
 void check_conservative(const Scene& scene, const orbit::LoadPeriod& loads) {
   if (!scene.loads.empty() || loads.period || loads.surfaces_move)
     throw UsageError("--energy: expected a scene without loads and belts");
@@ -131,7 +131,8 @@ void Search::set_period(const Scene& scene) {
   given_ = build_model(longer);
   sensitivity::check_tangent_laws(longer, given_);
   if (conservative && given_.damping.norm() > 0.0)
-    throw UsageError("--energy: found damping, expected a scene without damping, in which energy is conserved");
+    throw UsageError(
+        "--energy: found damping, expected a scene without damping, in which energy is conserved");
   run_ = longer.run;
   run_.engine = orbit::orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
   if (!run::engine_row(run_.engine).capabilities.supports_orbits)

@@ -2,7 +2,7 @@
 //
 //   read_scene -> build_model -> simulate, stopped after the first step        the same code as a run
 //
-// A scene that passes can be run, and a scene that cannot be run is refused with the same message.
+// If check() succeeds, a run can start. Otherwise check() and the run have the same error message.
 #pragma once
 
 #include <optional>
@@ -86,7 +86,7 @@ void measure_cost(const Scene& scene, const Model& model, std::vector<double> cu
 
 namespace signorini::checks {
 
-/// Result of the first state decision and the first step, by simulate() itself.
+/// Result of the first decision of contact states and of the first step, computed by simulate().
 struct Start {
   std::vector<ContactSample> contacts;
   Method method;
@@ -109,7 +109,7 @@ struct Ambiguity {
 /// Sentence about an unstable motion with the contact states of t = 0; empty if there is none.
 [[nodiscard]] std::string unstable_motion(const Scene& scene, const Model& model,
                                           const std::vector<ContactSample>& contacts);
-// Each of these functions computes one member of CheckReport.
+// Each of the following functions computes one member of CheckReport.
 [[nodiscard]] check::MassFacts mass_of(const Scene& scene, const Model& model);
 [[nodiscard]] std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                                     const std::vector<ContactSample>& contacts);

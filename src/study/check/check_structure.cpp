@@ -126,8 +126,8 @@ check::MassFacts mass_of(const Scene& scene, const Model& model) {
 
 namespace {
 
-/// The structure without sliding points (model/rigid_contacts.hpp), which are the last degrees of freedom. In
-/// a free motion their springs have no elongation, so the points have no independent motion.
+/// The structure without sliding points (model/rigid_contacts.hpp), which are the last degrees of freedom. In a free
+/// motion the springs of these points have no elongation, so the points have no independent motion.
 struct WithoutSlipPoints {
   WithoutSlipPoints(const Model& model, int own) : contacts(model.contacts), size(own) {
     stiffness = model.stiffness.topLeftCorner(own, own);

@@ -7,7 +7,7 @@
 // without a partner ends the list of pairs.
 //
 // Only events of different contacts may have a different order, and only if the order is insignificant: the events
-// are within one instant, or, in one of the two lists, closer than their uncertainties (then counted as
+// are within one instant, or, in one of the two lists, closer than their uncertainties (these events are counted as
 // `swapped`). Rows of the type `time` are ignored, because they are jumps of the loads, not changes of the motion.
 #pragma once
 
@@ -62,7 +62,7 @@ struct Deviation {
 //
 //   TimeJoin join(a / "history.csv", b / "history.csv");
 //   while (join.next()) use(join.t(), join.a().number(3), join.b().number(4));
-//   join.rows()                                               number of rows of each, and of common ones
+//   join.rows()                                               numbers of rows of both tables, and of common rows
 //
 // Rows at times that only one table has are counted but not compared. Times are equal if they differ by rounding only.
 
@@ -154,7 +154,7 @@ struct Alignment {
 
 struct AlignmentSettings {
   double t_end = 0.0;    ///< time that both runs reach; later events are ignored
-  double instant = 0.0;  ///< events closer than this time have no order; at least the rounding of t_end
+  double instant = 0.0;  ///< events closer than this time may swap; at least the rounding of t_end
 };
 
 /// Aligns the events of two runs. Both lists must ascend in t. Cost: proportional to the number of events

@@ -94,7 +94,7 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
 void compare_response(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
   if (a.figures.facts.response.empty() || b.figures.facts.response.empty()) return;
   TimeJoin join(a.figures.directory / "response.csv", b.figures.directory / "response.csv", c.t_end);
-  Comparison ignored;  // only its notes are used
+  Comparison ignored;  // collects the notes about columns without a partner
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "response.csv");
   c.notes.insert(c.notes.end(), ignored.notes.begin(), ignored.notes.end());
   for (const CommonColumn& column : columns)

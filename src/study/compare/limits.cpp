@@ -180,8 +180,8 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
       list.push_back(fmt::format(
-          "{}: the sequence of events differs from t = {:.9g} on: {} after this time, the limit is {}", other.name,
-          split->t, base::count_text(unaligned, "event"), base::format_number(limit.value)));
+          "{}: the sequence of events differs from t = {:.9g} on: {} after this time, the limit is {}",
+          other.name, split->t, base::count_text(unaligned, "event"), base::format_number(limit.value)));
       continue;
     }
     const std::vector<Quantity> known = quantities(comparison, reference.facts.units);
@@ -193,7 +193,8 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       const MaxDifference& greatest = quantity.deviation->whole;
       const std::string why = whole ? no_comparison(quantity, reference, other, comparison) : "";
       if (!why.empty())
-        list.push_back(fmt::format("{}: {} has a limit, which cannot be checked: {}", other.name, limit.name, why));
+        list.push_back(
+            fmt::format("{}: {} has a limit, which cannot be checked: {}", other.name, limit.name, why));
       if (!(greatest.value <= limit.value))
         list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds {}", other.name, limit.name,
                                    greatest.value, quantity.unit, greatest.t, greatest.where,

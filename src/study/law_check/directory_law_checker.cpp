@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t max_stored_violations = 100;  // limit of stored violations; all are counted
+constexpr std::size_t max_stored_violations = 100;  // limit of stored violations; later ones are only counted
 
 study::PreparedRun prepared_of(const fs::path& directory) {
   const fs::path path = directory / "run.toml";
@@ -99,7 +99,7 @@ class DirectoryLawChecker {
     refuse_if_cut(reader.rows());
   }
 
-  /// Refuses files that are cut. A completed run must have an instant at its end, every event must be at an
+  /// Refuses files whose end is missing. A completed run must have an instant at its end, every event must be at an
   /// instant, and every change of state must have an event.
   void refuse_if_cut(const result::CsvReader& reader) const {
     const auto refuse = [](const std::string& file, const std::string& why) { throw FileError(file, why); };
@@ -121,11 +121,12 @@ class DirectoryLawChecker {
     std::error_code none;
     if (fs::exists(directory_ / "motion.csv", none)) return true;
     if (fs::exists(directory_ / "curves.csv", none))
-      throw FileError((directory_ / "motion.csv").string(), "not found, although curves.csv exists; a run writes both files");
+      throw FileError((directory_ / "motion.csv").string(),
+                      "not found, although curves.csv exists; a run writes both files");
     return false;
   }
 
-  /// Reports the next row of events.csv, because there is no instant at its time.
+  /// Reports a violation: no instant has the time of the next row of events.csv.
   void unmatched() {
     add({events_.front().t, "events.csv", events_.front().contact, "record", 1.0, 0.0, {}, true});
     events_.pop_front();
@@ -166,8 +167,8 @@ class DirectoryLawChecker {
     }
     return events;
   }
-  /// True if the event starts from the contact's state before the instant. events.csv names a user law's
-  /// state by its kind.
+  /// True if the event's old state is the contact's state before the instant. events.csv contains the kind of a
+  /// user law's state instead of the state.
   [[nodiscard]] static bool begins_with(const Event& event, const InstantRow& row) {
     const State state = row.before.states[static_cast<std::size_t>(event.contact)].state;
     return std::string(to_string(state)) == to_string(event.from);
@@ -207,7 +208,7 @@ class DirectoryLawChecker {
         last_change_ = row.t;
   }
 
-  /// Checks that are not made during a run: continuity from the previous instant, the start of the scene, and
+  /// Checks that a run itself does not make: continuity from the previous instant, the start of the scene, and
   /// the forces on the structure.
   void check_transition(const InstantRow& row, const law_check::InstantRecord& record) {
     if (row.start) given_start(row);
@@ -227,7 +228,7 @@ class DirectoryLawChecker {
     left_driven_ = record.after.driven;
   }
 
-  /// Checks the initial values against the scene. A static start is checked by its forces instead.
+  /// Checks the initial values against the scene. A static start is checked by check_equilibrium() instead.
   void given_start(const InstantRow& row) {
     if (model_.static_start || model_.reduction) return;
     for (const auto& [recorded, asked, unit] : {std::tuple(&row.before.u, &model_.u0, seen::length),

@@ -3,7 +3,7 @@
 //   state    the state after the last instant; the guards of this state are satisfied
 //   forces   N = kn g;  sticking: T = kt (ut - p);  slipping: T = -s fk N
 //   ratio    |T| / |N|, only for a closed contact with friction and N != 0
-//   peaks    of summary.json: at least as large as all rows; in a stopped run, as the rows up to the last instant
+//   peaks    in summary.json: no row exceeds them; in a stopped run, no row up to the last instant
 //
 //   TableRowChecker rows(model, engine, checker);
 //   for each instant: rows.instant(record);
@@ -33,7 +33,7 @@ namespace signorini::directory_check {
 struct RunSpan {
   std::vector<double> grid;           ///< output times, up to t_end
   bool ended = true, stopped = true;  ///< as in the run's summary
-  /// Time reached as recorded; for a run that has not ended, the last instant.
+  /// Time that the run reached, from summary.json; if the run has not ended, time of the last instant.
   double reached = 0.0;
 };
 

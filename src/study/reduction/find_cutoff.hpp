@@ -10,7 +10,7 @@
 // instants. The contribution that the finer run misses also changes the motion; this effect is scaled by the
 // ratio error / missed of the trial. If the finer run has all modes, the error is the difference from the
 // full model.
-// Errors are relative to the largest displacement of all requested places in the run.
+// Errors are relative to the largest displacement of all places (requested_places()) during the run.
 #pragma once
 
 #include <functional>
@@ -47,7 +47,7 @@ class TruncationError {
                   Eigen::Index kept, double step);
 
   [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
-  /// Takes the forces of contacts, in the order of the model's layout, at the times 0, step, 2 step, ...
+  /// Adds a sample: the forces of contacts, in the order of the model's layout, at the times 0, step, 2 step, ...
   void sample(double t, const std::vector<double>& forces);
   /// Completes the last step. Must be called after the last sample.
   void finish();

@@ -21,7 +21,7 @@ struct WorkError {
   /// Largest difference, and its time, up to the first difference of the sequences.
   double value = 0.0, t = 0.0;
   std::string where;
-  double whole = 0.0;  ///< value over the whole run
+  double whole = 0.0;  ///< largest difference over the whole run
 };
 
 struct WorkRow {

@@ -122,7 +122,7 @@ void QueryRecorder::sample(const Sample& sample) {
 double QueryRecorder::value(const ResponseQuery& query, std::size_t i, const Report& report) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (report.outcome.kind != Outcome::Kind::done)
-    return none;  // values would cover only a part of the motion
+    return none;  // the run ended early: values would cover only a part of the motion
   if (query.kind == Kind::count) return counts_[i];
   if (query.kind == Kind::residual) {
     if (last_slip_.empty()) return none;

@@ -71,7 +71,8 @@ RowFile::RowFile(fs::path path)
   if (ftruncate(file_, static_cast<off_t>(good_)) == 0) return;
   const int error = errno;
   close(file_);
-  throw FileError(path_.string(), "cannot be truncated after its last complete line" + base::system_error_text(error));
+  throw FileError(path_.string(),
+                  "cannot be truncated after its last complete line" + base::system_error_text(error));
 }
 
 RowFile::~RowFile() { close(file_); }
@@ -147,10 +148,10 @@ std::optional<Place> array(const Environment& environment) {
   const bool even = *count >= 1 && step >= 1 && first + step * (*count - 1) == last && *id >= first &&
                     *id <= last && (*id - first) % step == 0;
   if (!even)
-    throw UsageError(
-        fmt::format("--share auto: Slurm task {} ({} tasks, from {} to {}) does not belong to an evenly spaced array; "
-                    "give --share K/N, or --array=1-N",
-                    *id, *count, first, last));
+    throw UsageError(fmt::format(
+        "--share auto: Slurm task {} ({} tasks, from {} to {}) does not belong to an evenly spaced array; "
+        "give --share K/N, or --array=1-N",
+        *id, *count, first, last));
   return Place{(*id - first) / step, *count};
 }
 

@@ -61,7 +61,7 @@ std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene) {
   std::optional<double> period;
   try {
     period = orbit::load_period(scene).period;
-  } catch (const SceneError&) {  // if loads have no common period, points have no phase of the loads
+  } catch (const SceneError&) {  // if the loads have no common period, points have no phase
     return {};
   }
   if (!period) return {};
@@ -93,7 +93,7 @@ void StroboscopicRecorder::sample(const Sample& sample) {
   // Rows are at k times the period up to rounding; the end of the run is also a row.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(sample.t);
   if (turns < 1.0 || std::abs(sample.t - turns * strobe_.period) > rounding) return;
-  // The point is the state after the instant: the state before it is removed.
+  // The sample before a jump of the state has the same time. The point is the state after the jump.
   if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();
   add(sample);
 }

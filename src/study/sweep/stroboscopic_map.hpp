@@ -7,7 +7,7 @@
 //
 //   point = (t, columns of history.csv, outputs),  t >= settle
 //
-// If an instant has a state before and a state after it, the point is the state after it. Units: those of the scene.
+// If the state jumps at t, the point is the state after the jump. Units: those of the scene.
 #pragma once
 
 #include <optional>

@@ -127,7 +127,8 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::sweep::points(spec_.vary)) {
   check_directory(path_);
   base::make_directory(path_);
-  if (!lock_.take(path_)) throw FileError(path_.string(), "is in use: another sweep is running in this directory");
+  if (!lock_.take(path_))
+    throw FileError(path_.string(), "is in use: another sweep is running in this directory");
   if (is_sweep(path_) && !force) {
     const SweepSpec was = read_sweep_spec(path_);
     std::string differs = difference(was, spec_);
@@ -220,7 +221,8 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
                              [](const char*) -> std::optional<std::string> { return std::nullopt; });
     const std::string by = json.at("signorini");
     if (by != version)
-      throw FileError(file.string(), "was written by Signorini " + by + ", but this program is version " + version);
+      throw FileError(file.string(),
+                      "was written by Signorini " + by + ", but this program is version " + version);
     return spec;
   } catch (const base::Json::exception& error) {
     throw FileError(file.string(), std::string("is not the specification of a sweep: ") + error.what());

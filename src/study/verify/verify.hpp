@@ -37,7 +37,7 @@ struct VerifyRequest {
   std::function<bool()> go_on = [] { return true; };  ///< returns false if the user interrupts
 };
 
-/// Comparison of one value at one instant: the time of an event, or a column.
+/// Comparison of one value: the time of an event, or the value of a column at an output time.
 struct Observation {
   double t = 0.0;
   double ida = 0.0, ida_error = 0.0;

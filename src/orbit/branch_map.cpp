@@ -19,11 +19,11 @@ namespace {
 // noise/step. The residual of an orbit estimates the noise, and its square root balances both terms. The
 // bounds of the step for the engine `exact` and the step for `ida` are chosen values.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-// Number of cached maps: for a point, its finite difference, and the next point.
+// Limit of the number of cached maps. A step uses the maps of a point, of its finite difference, and of the next point.
 constexpr std::size_t max_kept = 4;
 // Length of a scene's run, in periods: a transient, and a few passes through the orbit.
 constexpr double max_periods = restart_periods + 4.0;
-constexpr double same_time = 1e-9;  // relative to a period: rounding of times that were written as text
+constexpr double same_time = 1e-9;  // rounding of times written as text, relative to a period
 
 }  // namespace
 
@@ -65,7 +65,7 @@ Orbit BranchMap::orbit_at(const BranchState& state) const {
 BranchMap BranchMap::doubled() const {
   BranchMap twice = *this;
   twice.options_.orbit.times *= 2;
-  twice.section_ *= 0.5;  // as a fraction of the period
+  twice.section_ *= 0.5;  // section as a fraction of the period, which is now twice as long
   twice.start_.duration *= 2.0;
   twice.kept_.clear();
   return twice;

@@ -44,7 +44,7 @@ struct CorrectedPoint {
   Eigen::MatrixXd monodromy;  ///< set by examine(), like multipliers and tests
   Multipliers multipliers;
   double error = 0.0;      ///< error of the monodromy matrix, from error_of()
-  std::size_t ones = 0;    ///< number of multipliers that are structurally 1
+  std::size_t ones = 0;    ///< number of structural multipliers 1 (special_points.hpp)
   Eigen::MatrixXd family;  ///< result of families(), computed on request
   TestValues tests;
 };

@@ -68,7 +68,7 @@ class Search {
   const SceneReader& read_;
   OrbitOptions options_;
   Recorder* recorder_;
-  Model given_;  // in the scene's units
+  Model given_;  // model of the scene, in the scene's units
   std::optional<orbit::PeriodMap> map_;
   double unit_ = 1.0;    // unit of time of the computed model, in the scene's unit
   double before_ = 0.0;  // time from which the loads are periodic, rounded up to whole periods; machine units

@@ -47,7 +47,7 @@ using CountedLoads = std::vector<bool>;
 //   section: the middle of the longest stretch between two instants of a period
 
 struct ReturnMapStart {
-  double period = 0.0;    ///< estimated period; 0: the motion did not return
+  double period = 0.0;    ///< estimated period; 0: no state is near an earlier one
   double section = 0.0;   ///< time of the section
   double distance = 0.0;  ///< distance of the states at t_a and t_b, relative to the range of the motion
 };

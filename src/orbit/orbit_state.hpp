@@ -67,7 +67,7 @@ class OrbitSection {
  private:
   const Model& model_;
   std::vector<Eigen::Index> u_, v_;
-  std::vector<std::size_t> shears_;  // indices of contacts
+  std::vector<std::size_t> shears_;  // contacts whose shears are coordinates
   Vector scales_;
   Eigen::MatrixXd basis_;
 };

@@ -25,10 +25,10 @@ struct OrbitPass {
   /// Half of the largest range (maximum - minimum) of a displacement, a velocity and a shear, rotations included; in
   /// scales of the model; 0: at rest.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
-  double amplitude = 0.0;  ///< half the largest range of displacements, without rotations; scene's unit
+  double amplitude = 0.0;  ///< half the largest range of a displacement, rotations excluded; scene's unit
   /// Phi B, rows: coordinates at the section; empty: not requested, or not available
   Eigen::MatrixXd end_rates;
-  /// Error of end_rates by rounding and truncation of series, relative to their largest entry.
+  /// Error of end_rates by rounding and truncation of series, relative to the largest entry of end_rates.
   double rates_error = 0.0;
   std::string reason;  ///< reason why end_rates are not available
   std::vector<OutputExtremes> response;

@@ -36,7 +36,7 @@ struct StiffnessRatio {
 /// A time in [0, t_end] at which a load, a compression or a surface velocity is not smooth.
 struct Discontinuity {
   double t = 0.0;
-  bool jump = false;        ///< false: a kink
+  bool jump = false;        ///< true: the value jumps; false: only the slope jumps
   std::string description;  ///< "load 1", "normal_force of contact 'pad'"
 };
 
@@ -55,12 +55,12 @@ struct Cost {
 struct CheckReport {
   long degrees_of_freedom = 0, massless = 0;
   std::optional<MassFacts> mass;
-  double least_mass = 0.0, greatest_mass = 0.0;  ///< nonzero entries on the diagonal of M
+  double least_mass = 0.0, greatest_mass = 0.0;  ///< least and greatest nonzero entry on the diagonal of M
   std::vector<ContactSample> contacts;           ///< contacts just after t = 0
   std::vector<std::string> warnings;             ///< warnings of the run, and model warnings
   /// Motions of the structure that its closed contacts do not restrain, or restrain only by friction; one text each.
   std::vector<std::string> free_motions;
-  modes::Frequencies open, closed, stuck;           ///< all contacts open, closed, or sticking
+  modes::Frequencies open, closed, stuck;           ///< with all contacts open, closed, or sticking
   std::optional<std::vector<double>> load_factors;  ///< only with run.geometric: Geometric::load_factors
   std::vector<StiffnessRatio> stiffness;
   std::vector<Discontinuity> discontinuities;  ///< in ascending time

@@ -26,11 +26,10 @@
 namespace signorini::compare {
 
 /// The largest of many differences, and its place.
-
 struct MaxDifference {
   double value = 0.0;
   double t = 0.0;
-  std::string where;  ///< a column, a contact, an event
+  std::string where;  ///< name of the column, contact or event
 
   /// Keeps the larger difference. NaN is regarded as larger than all numbers.
   void update(double difference, double at, const std::string& place) {
@@ -80,7 +79,7 @@ class TimeJoin {
   TimeJoin(const std::filesystem::path& a, const std::filesystem::path& b,
            double until = std::numeric_limits<double>::infinity())
       : a_(a), b_(b), until_(until) {}
-  /// Moves to the next common time; returns false if there is none, after all rows have been counted.
+  /// Moves to the next common time. Returns false if there is no further common time; rows() then counts all rows.
   bool next();
   /// Rows of a (reference) and b (other).
   [[nodiscard]] const RowCount& rows() const { return rows_; }
@@ -134,7 +133,7 @@ struct LoggedEvent {
 };
 
 struct AlignedPair {
-  std::size_t reference = 0, other = 0;  ///< indices into the two lists
+  std::size_t reference = 0, other = 0;  ///< indices of both partners in their lists
   /// True if, in the other list, this event comes after an event that follows it in the reference.
   bool swapped = false;
 };

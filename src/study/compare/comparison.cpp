@@ -151,7 +151,7 @@ bool next_row(ContactRowReader& reader, double end, std::size_t& count) {
   return true;
 }
 
-using ForcesByContact = std::map<std::string, std::pair<Deviation, Deviation>>;  // N and T
+using ForcesByContact = std::map<std::string, std::pair<Deviation, Deviation>>;  // deviations of N and of T
 
 void add_columns(const ForcesByContact& by_contact, const ComparedRun& reference, Comparison& c) {
   for (const auto& contact : reference.figures.facts.contacts) {

@@ -282,7 +282,7 @@ class DirectoryLawChecker {
   TableRowChecker rows_;
   std::deque<Event> events_;
   std::optional<InstantRow> last_;               // the previous instant
-  std::vector<law_check::Driven> left_driven_;   // prescribed motions of the contacts just after it
+  std::vector<law_check::Driven> left_driven_;   // prescribed motions of contacts just after that instant
   double t_ = 0.0;                               // time of the previous instant
   double last_event_ = 0.0, last_change_ = 0.0;  // times of the last event and of the last change of a state
   long lacking_ = 0;                             // number of events of summary.json that events.csv lacks

@@ -20,8 +20,8 @@ struct RecordedSummary {
   Engine engine = Engine::automatic;
   std::string flow;      ///< flow of the engine exact: "modal" or "taylor"
   bool ended = true;     ///< false: the run is still being written, or was killed
-  bool stopped = false;  ///< the run stopped before t_end
-  double t = 0.0;        ///< time reached
+  bool stopped = false;  ///< true: the run stopped before t_end
+  double t = 0.0;        ///< time that the run reached
   long total = 0;        ///< number of events
   std::map<std::string, long> events_by_type;
   /// Extremes of a contact's forces over the run; absent in the summary of an older version.

@@ -32,7 +32,7 @@ namespace signorini::directory_check {
 /// Time span of a run.
 struct RunSpan {
   std::vector<double> grid;           ///< output times, up to t_end
-  bool ended = true, stopped = true;  ///< as in the run's summary
+  bool ended = true, stopped = true;  ///< the run has ended; it has stopped before t_end
   /// Time that the run reached, from summary.json; if the run has not ended, time of the last instant.
   double reached = 0.0;
 };
@@ -64,7 +64,7 @@ class TableRowOrder {
   const Found& found_;
   std::size_t place_ = 0, due_ = 0;  // expected next row: index in the grid, and contact
   bool in_order_ = true;
-  std::optional<RecordedRow> last_;  // last row of a contact's block
+  std::optional<RecordedRow> last_;  // the previous row of motion.csv
 };
 
 class TableRowChecker {

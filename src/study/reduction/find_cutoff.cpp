@@ -206,7 +206,7 @@ class Watcher final : public Recorder {
   bool progress(double /*t*/) override { return go_on_(); }
 
   double greatest = 0.0;  ///< largest displacement
-  Eigen::MatrixXd at;     ///< places x instants of comparison
+  Eigen::MatrixXd at;     ///< displacements: places x compared instants
 
  private:
   TruncationError& left_out_;

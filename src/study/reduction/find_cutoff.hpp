@@ -63,7 +63,7 @@ class TruncationError {
   double step_;
   Eigen::MatrixXd places_, inputs_;                           // places x modes, modes x (contact forces)
   Eigen::MatrixXd loads_;                                     // modes x loads
-  Array square_, decay_, to_z_z_, to_z_v_, to_v_z_, to_v_v_;  // free motion over a step
+  Array square_, decay_, to_z_z_, to_z_v_, to_v_z_, to_v_v_;  // coefficients of the free motion over a step
   Array z_, v_;
   std::vector<Array> forces_;  // modal forces of the last four samples
   std::vector<double> missed_;

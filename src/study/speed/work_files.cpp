@@ -330,7 +330,7 @@ const result::CsvTable<const WorkRow*>& line_table() {
 
 struct Axis {
   std::string label;
-  double floor = 0.0;  ///< position of an error of exactly zero
+  double floor = 0.0;  ///< value at which an error of zero is drawn
 };
 
 /// Axis of a quantity's errors; nullopt if no run has a positive error of this quantity.

@@ -26,7 +26,7 @@ void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const 
   row.errors.clear();
   for (const compare::Quantity& quantity : compare::quantities(comparison, reference.figures.facts.units)) {
     const compare::Deviation& deviation = *quantity.deviation;
-    const bool times = quantity.name == "event_time";  // aligned events are before the split
+    const bool times = quantity.name == "event_time";  // all aligned events are before the split
     const bool part = split && !times;
     if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
     // Before the first event differences are not significant.

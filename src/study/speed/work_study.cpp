@@ -149,7 +149,7 @@ const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkL
   const study::PreparedRun run = prepare(point);
   Recorded recorded;
   std::size_t number = recorded_.size();
-  do  // a folder with foreign files remains from an earlier study
+  do  // an earlier study does not remove a folder with foreign files
     recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
   while (fs::exists(recorded.directory));
   const WorkOutcome outcome = record_run(run, recorded.directory, limits);

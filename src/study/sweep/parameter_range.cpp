@@ -237,7 +237,7 @@ namespace {
 constexpr int sample_group = 1'000'000;  // group of all sampled keys: larger than any number of --together
 constexpr std::size_t max_samples = 1'000'000, max_sobol_keys = 40;
 
-/// The value at the probability u, 0 < u < 1.
+/// Inverse of a cumulative distribution function: the value at the probability u, 0 < u < 1.
 using Inverse = std::function<double(double u)>;
 
 struct Distribution {

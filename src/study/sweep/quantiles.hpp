@@ -30,7 +30,7 @@ struct Quantile {
 [[nodiscard]] Quantile quantile(const std::vector<double>& sorted, double probability, bool independent);
 
 struct Exceedance {
-  double value = 0.0, probability = 0.0;  ///< probability of a larger value
+  double value = 0.0, probability = 0.0;  ///< probability: of results above `value`
   std::optional<double> low, high;
 };
 /// Columns of exceedance tables.

@@ -71,7 +71,7 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
   const std::string rest = text.substr(colon + 1);
   const std::vector<std::string> contacts = names_of(model.contacts);
   std::size_t at = rest.find('@');
-  if (query.kind != Kind::count) {  // a name may contain an @
+  if (query.kind != Kind::count) {  // the name of an output or a contact may contain an @
     at = rest.rfind('@');
     if (std::find(contacts.begin(), contacts.end(), rest) != contacts.end()) at = std::string::npos;
   }

@@ -79,9 +79,9 @@ class QueryRecorder : public Recorder {
 
   const std::vector<ResponseQuery>& queries_;
   const Model& model_;
-  std::vector<double> counts_;                      // per query
-  std::uint64_t sequence_ = 14695981039346656037U;  // FNV-1a
-  std::vector<double> first_slip_, last_slip_;      // per contact
+  std::vector<double> counts_;                      // number of events, one per query
+  std::uint64_t sequence_ = 14695981039346656037U;  // FNV-1a hash, with its standard initial value
+  std::vector<double> first_slip_, last_slip_;      // slip at the start and at the end, one per contact
 };
 
 /// The unit of a query's result; empty if the result has no unit.

@@ -55,7 +55,7 @@ class RowFile {
 // share 10/32.
 
 struct Share {
-  std::size_t number = 1, count = 1;  ///< number counts from 1
+  std::size_t number = 1, count = 1;  ///< number: from 1 to count
 
   /// True if the row belongs to this share; row: index from 0.
   [[nodiscard]] bool holds(std::size_t row) const { return row % count == number - 1; }

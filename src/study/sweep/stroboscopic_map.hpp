@@ -20,7 +20,7 @@
 namespace signorini::sweep {
 
 struct StroboscopicMap {
-  std::string text;       ///< as given
+  std::string text;       ///< value of --strobe
   double period = 0.0;    ///< time between points; 0: points are after events
   bool of_loads = false;  ///< the period is that of the scene's loads
   EventQuery event;

@@ -38,11 +38,11 @@ struct CarrySpec {
 
 /// Specification of a sweep. Two sweeps are the same if their specifications are equal apart from scene and share.
 struct SweepSpec {
-  std::string scene;  ///< file, as given
+  std::string scene;  ///< scene file, as given by the user
   /// Fingerprint of the scene's content, with settings and the first valid values of the varied keys.
   std::string fingerprint;
-  std::vector<std::string> settings;  ///< --set, in order
-  std::vector<ParameterRange> vary;   ///< the sampled keys last
+  std::vector<std::string> settings;  ///< values of --set, in their order
+  std::vector<ParameterRange> vary;   ///< varied keys; sampled keys are last
   /// Queries for every run (response_query.hpp), and the unit of each result.
   std::vector<std::string> responses, response_units;
   StroboscopicSpec strobe;

@@ -93,7 +93,7 @@ class ConvergenceOrder {
 /// Properties of all series of one kind, which have the same unit.
 struct SeriesKind {
   std::optional<double> order;
-  double scale = 0.0;  ///< largest magnitude
+  double scale = 0.0;  ///< largest magnitude of the values
   double steps = 1.0;  ///< number of steps of the finest run
 };
 

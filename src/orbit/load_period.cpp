@@ -160,8 +160,8 @@ LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& c
     if (differ > same_period * 2.0 * std::numbers::pi * size)
       throw SceneError(
           d.spec->place, d.key,
-          fmt::format("found a history that changes by {:.2g} of its greatest value within {}, the period "
-                      "of the orbit; expected a history with this period",
+          fmt::format("found a history that changes by {:.2g} of its largest value from one period of {} to "
+                      "the next, expected a history with this period",
                       differ / size, base::format_number(period)));
     if (d.acceleration) check_drift(d, f, found.periodic_from, period);
   }

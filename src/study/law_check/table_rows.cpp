@@ -179,8 +179,8 @@ std::vector<Violation> TableRowChecker::violations_of(const RecordedRow& row, co
   m.dut = row.vt;
   m.displacement_size = size.place + model_.scales.displacement;
   m.velocity_size = size.speed;
-  if (c.compliance_split() &&
-      !is_open(state.state)) {  // the table has gap and ut of the surfaces, not of the springs
+  // For a compliance split the table has gap and ut of the surfaces; the laws need those of the springs.
+  if (c.compliance_split() && !is_open(state.state)) {
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }

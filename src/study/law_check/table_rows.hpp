@@ -32,7 +32,7 @@ namespace signorini::directory_check {
 /// Time span of a run.
 struct RunSpan {
   std::vector<double> grid;           ///< output times, up to t_end
-  bool ended = true, stopped = true;  ///< the run has ended; it has stopped before t_end
+  bool ended = true, stopped = true;  ///< ended: not still running; stopped: before t_end
   /// Time that the run reached, from summary.json; if the run has not ended, time of the last instant.
   double reached = 0.0;
 };

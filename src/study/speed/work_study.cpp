@@ -129,9 +129,9 @@ study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   std::vector<Override> changes = capture_velocities_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
+  // Messages show a key without an option, because no option has set the key.
   for (Override& change : changes)
-    change.shown_as =
-        change.path + "=" + change.value;  // messages name the key itself, because no option has set it
+    change.shown_as = change.path + "=" + change.value;
   return study::prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 
@@ -149,8 +149,8 @@ const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkL
   const study::PreparedRun run = prepare(point);
   Recorded recorded;
   std::size_t number = recorded_.size();
-  do  // an earlier study does not remove a folder with foreign files
-    recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
+  // A folder with foreign files may remain from an earlier study. Then the next number is used.
+  do recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
   while (fs::exists(recorded.directory));
   const WorkOutcome outcome = record_run(run, recorded.directory, limits);
   report_.interrupted = report_.interrupted || outcome.interrupted;
@@ -207,8 +207,7 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
   if (until < whole)
     report_.notes.push_back(
         fmt::format("at t = {:.9g} a change of all masses in their last digits alters the sequence of "
-                    "events: all runs are compared up to "
-                    "t = {:.9g} only",
+                    "events: all runs are compared up to t = {:.9g} only",
                     decided, until));
 }
 

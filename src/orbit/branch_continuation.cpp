@@ -267,8 +267,7 @@ bool BranchContinuation::may_continue(const CorrectedPoint& here, const Correcte
   if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
   if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
   if (!turned_back_ || !has_passed(next)) return true;
-  end_ = fmt::format("beyond {} = {:.9g} the branch returns to its own earlier orbits", options_.path,
-                     value(here));
+  end_ = fmt::format("beyond {} = {:.9g} the branch repeats its earlier orbits", options_.path, value(here));
   return false;
 }
 
@@ -297,9 +296,11 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
     turned_back_ = true;
     return true;
   }
-  end_ = fmt::format(
-      "at {0} = {1:.9g} even the shortest step fails ({3}), and {2}", options_.path, value(here),
-      known ? "the orbit found beyond already lies on the branch" : "no orbit is found beyond", why);
+  end_ =
+      fmt::format("at {0} = {1:.9g} even the shortest step fails ({3}), and {2}", options_.path, value(here),
+                  known ? "the orbit found beyond this value already belongs to the branch"
+                        : "no orbit is found beyond this value",
+                  why);
   return false;
 }
 

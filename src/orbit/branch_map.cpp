@@ -115,7 +115,8 @@ void BranchMap::check_structure(const Model& model) const {
                           model.reduction.has_value() == first_.reduction.has_value() &&
                           (!model.reduction || model.reduction->shapes == first_.reduction->shapes);
   if (model.size() != first_.size() || model.contacts.size() != first_.contacts.size() || !same_basis)
-    throw SceneError({}, options_.path, "the unknowns of the model change along the branch");
+    throw SceneError({}, options_.path,
+                     "the model has other unknowns than the model at the start of the branch");
 }
 
 BranchMap::Kept BranchMap::make(double s) const {

@@ -155,7 +155,7 @@ CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction,
     Vector dy = base::min_norm_solution(A, b, least);
     if (held) dy[dy.size() - 1] = 0.0;  // the parameter's step is zero up to rounding
     if (!(dy.norm() < longest_correction)) {
-      c.reason = "Newton's method leaves the branch";
+      c.reason = "Newton's method leaves the branch: its correction is too long";
       return c;
     }
     c.state = moved(c.state, c.pass, dy);

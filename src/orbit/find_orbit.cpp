@@ -139,7 +139,7 @@ void Search::set_period(const Scene& scene) {
     throw SceneError(
         scene.run.place, "run.engine",
         fmt::format("found \"{}\", expected {}: orbits need the motion between events to rounding accuracy, "
-                    "or its tangents",
+                    "or tangents of the motion",
                     to_string(run_.engine), run::engines_that(&run::EngineCapabilities::supports_orbits)));
   run_.flow = orbit::orbit_flow(given_, run_);
   closed_ = orbit::orbit_state_error(run_);

@@ -250,7 +250,7 @@ TEST_CASE("cli sweep: shares that contradict each other are not merged") {
   const Ending ending = merge();
   CHECK(ending.code == 6);
   CHECK_MESSAGE(has(ending.err, "two/rows.jsonl: line "), ending.err);
-  CHECK(has(ending.err, "contradicts another share's row 1"));
+  CHECK(has(ending.err, "differs from row 1 of another share"));
 }
 
 TEST_CASE("cli: a gnuplot that floods is ended, and the run is there") {

@@ -102,7 +102,7 @@ void compare_response(const ComparedRun& a, const ComparedRun& b, double split, 
       if (output.name == column.name) c.response.push_back({output.name, output.unit, {}});
   if (c.response.size() != columns.size()) {
     c.response.clear();
-    c.notes.emplace_back("response.csv: its columns are not those of summary.json, and are not compared");
+    c.notes.emplace_back("response.csv is not compared: its columns differ from the outputs in summary.json");
     return;
   }
   while (join.next())

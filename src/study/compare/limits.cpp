@@ -91,7 +91,7 @@ std::string not_common(const Quantity& quantity, const Comparison& c) {
 std::string no_comparison(const Quantity& quantity, const RunFigures& reference, const RunFigures& other,
                           const Comparison& c) {
   if (quantity.name == "event_time") return "";  // exceeded() also checks events without a partner
-  if (c.common_times < 2) return "there are no output times to compare";
+  if (c.common_times < 2) return "the two runs have fewer than two common output times";
   if (std::string why = not_common(quantity, c); !why.empty()) return why;
   return not_covered(quantity.name, reference, other, c);
 }

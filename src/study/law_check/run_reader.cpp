@@ -222,7 +222,8 @@ RecordedSummary read_recorded_summary(const std::filesystem::path& directory, co
     const std::optional<Engine> known = find_engine(engine);
     if (!known || *known == Engine::automatic) {
       if (recorded.ended)
-        throw FileError(path.string(), "engine: found \"" + base::excerpt(engine) + "\", expected an engine");
+        throw FileError(path.string(),
+                        "engine: found \"" + base::excerpt(engine) + "\", expected the name of an engine");
       return recorded;
     }
     recorded.engine = *known;

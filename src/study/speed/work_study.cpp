@@ -130,8 +130,7 @@ study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
   // Messages show a key without an option, because no option has set the key.
-  for (Override& change : changes)
-    change.shown_as = change.path + "=" + change.value;
+  for (Override& change : changes) change.shown_as = change.path + "=" + change.value;
   return study::prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 

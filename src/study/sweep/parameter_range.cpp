@@ -199,7 +199,7 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
           break;
         }
     if (by && lost == set.size())
-      throw UsageError(fmt::format("{}: has no effect, --{} {} sets it in every run",
+      throw UsageError(fmt::format("{}: has no effect, because --{} {} sets this key in every run",
                                    scene::override_text(setting), option_of(*by), by->path));
   }
 }
@@ -372,8 +372,8 @@ std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, 
       const double value = inverses[j](inner(u));
       if (!std::isfinite(value))
         throw UsageError(
-            fmt::format("--sample {}={}: draw {} is not a finite number, expected a distribution within the "
-                        "range of numbers",
+            fmt::format("--sample {}={}: draw {} is not a finite number, expected a distribution of finite "
+                        "numbers",
                         varied[k].path, varied[k].text, i + 1));
       varied[k].values.push_back(base::format_number(value));
     }

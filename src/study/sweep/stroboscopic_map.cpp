@@ -21,7 +21,8 @@ double whole_periods(double t, double period) { return std::floor(t / period * (
 
 StroboscopicMap strobe_of_loads(const std::string& option, const Scene& scene) {
   const std::optional<double> period = orbit::load_period(scene).period;
-  if (!period) throw UsageError(option + ": the scene has no periodic load; expected a period");
+  if (!period)
+    throw UsageError(option + ": the scene has no periodic load; expected a period in place of `loads`");
   if (whole_periods(scene.run.t_end, *period) < 1.0)
     throw UsageError(fmt::format("{}: the loads' period {:g} is longer than the run, t_end = {:g}", option,
                                  *period, scene.run.t_end));

@@ -89,7 +89,7 @@ bool is_own_folder(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) return false;
   if (fs::is_directory(status)) return true;
-  throw FileError(path.string(), "is not the directory of a sweep; --force removes nothing there");
+  throw FileError(path.string(), "is not a folder that a sweep has created; --force removes nothing in it");
 }
 
 /// Folders of the runs of an earlier sweep.
@@ -253,7 +253,7 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   if (was.carry != is.carry) return differ("--carry", carry(was), carry(is));
   if (was.settings != is.settings) return differ("--set", text_of(was.settings), text_of(is.settings));
   if (was.fingerprint != is.fingerprint)
-    return fmt::format("the content of the scene {} has changed ({})", is.scene, was.scene);
+    return fmt::format("the content of the scene {} has changed (earlier file: {})", is.scene, was.scene);
   return "";
 }
 
@@ -270,7 +270,7 @@ std::vector<std::size_t> merge_sweeps(const std::vector<fs::path>& from, SweepDi
         to.add(found.row);
       else if (!same_result(known->second, found.row))
         throw FileError(file.string(),
-                        fmt::format("line {} contradicts another share's row {}", found.line, index + 1));
+                        fmt::format("line {} differs from row {} of another share", found.line, index + 1));
     }
   }
   std::vector<std::size_t> missing;

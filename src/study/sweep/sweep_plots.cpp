@@ -230,7 +230,7 @@ void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const result:
   if (std::none_of(answers.begin(), answers.end(), drawn)) return;
   const result::CsvTable<Exceedance>& table = exceedance_columns();
   const std::size_t panels = std::min(spec.responses.size(), max_panels);
-  result::Picture picture{"exceedance", "Probability of more; " + spec.sampling,
+  result::Picture picture{"exceedance", "Probability of a larger result; " + spec.sampling,
                           result::canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false),
                           false};
   picture.space = 80.0;

@@ -1,4 +1,4 @@
-// check.hpp: facts about a scene, found by all steps of a run except its time loop.
+// check.hpp: facts about a scene, computed by all steps of a run before its time loop.
 //
 //   read_scene -> build_model -> simulate, stopped after the first step        the same code as a run
 //
@@ -16,11 +16,11 @@
 
 namespace signorini::check {
 
-/// Mass of the scene, including parts on fixed degrees of freedom; node scenes only.
+/// Mass of the scene, including parts on fixed degrees of freedom. Only for scenes with nodes.
 struct MassFacts {
   double total = 0.0;
   double x = 0.0, y = 0.0;  ///< centre of mass
-  /// r M r for a unit translation of all free degrees of freedom in x or y
+  /// r^T M r; r: unit translation of all free degrees of freedom in x or in y
   double moving_x = 0.0, moving_y = 0.0;
 };
 
@@ -82,7 +82,7 @@ void measure_cost(const Scene& scene, const Model& model, std::vector<double> cu
 
 }  // namespace signorini::check
 
-// The parts of check().
+// Functions that check() calls.
 
 namespace signorini::checks {
 

@@ -20,7 +20,7 @@
 namespace signorini::checks {
 namespace {
 
-/// r M r for a unit translation of all degrees of freedom whose name ends with `component`.
+/// r^T M r; r: unit translation of all degrees of freedom whose name ends with `component`.
 double moving_mass(const Model& model, std::string_view component) {
   Vector r = Vector::Zero(model.size());
   for (int i = 0; i < model.size(); ++i)

@@ -81,7 +81,7 @@ class TimeJoin {
       : a_(a), b_(b), until_(until) {}
   /// Moves to the next common time. Returns false if there is no further common time; rows() then counts all rows.
   bool next();
-  /// Rows of a (reference) and b (other).
+  /// Numbers of rows read so far. reference: table a; other: table b.
   [[nodiscard]] const RowCount& rows() const { return rows_; }
   [[nodiscard]] double t() const { return t_; }
   [[nodiscard]] const result::CsvReader& a() const { return a_; }
@@ -99,7 +99,7 @@ class TimeJoin {
 class ContactRowReader {
  public:
   explicit ContactRowReader(const std::filesystem::path& path);
-  /// Moves to the next time. If the last time is incomplete, it has fewer contacts.
+  /// Moves to the next time; returns false after the last one. An incomplete last time has fewer contacts.
   bool next();
   struct Forces {
     double N = 0.0, T = 0.0;

@@ -72,8 +72,8 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
 }
 
-/// Text about columns or contacts of the quantity that only one run has. Empty if at least one exists and
-/// both runs have all.
+/// Text about columns or contacts of the quantity that only one run has. Empty if the quantity has at least
+/// one column or contact, and both runs have all of them.
 std::string not_common(const Quantity& quantity, const Comparison& c) {
   const std::vector<std::string>& alone = quantity.deviation->unmatched;
   if (quantity.deviation->count > 0 && alone.empty()) return "";

@@ -152,7 +152,7 @@ class DirectoryLawChecker {
         add({recorded_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
   }
 
-  /// Rows of events.csv that belong to the instant: contacts in ascending order, each row from the contact's
+  /// Rows of events.csv that belong to the instant: their contacts ascend, and the old state of each row is the contact's
   /// state before the instant.
   std::vector<Event> events_of(const InstantRow& row) {
     while (!events_.empty() && events_.front().t < row.t) unmatched();

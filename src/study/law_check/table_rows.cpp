@@ -150,7 +150,7 @@ void TableRowChecker::check(const RecordedRow& row, const RecordedRowReader& rea
                             const Found& found) {
   if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
-  // Smallest list of violations among the states at the row's time that have the row's state name.
+  // Shortest list of violations. Candidates: the states at the row's time with the same name as the row's state.
   std::optional<std::vector<Violation>> least;
   for (const ContactState& state : states_at(row.contact, row.t)) {
     if (row.state != to_string(state.state)) continue;

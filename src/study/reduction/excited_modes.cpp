@@ -15,7 +15,7 @@ constexpr double dependent = 1e-10;  // a smaller part of a vector's energy outs
 // Smallest 1/omega^2 of a vector, relative to the largest; below it the vector responds without inertia.
 constexpr double needs_no_mass = 1e-12;
 
-/// Vectors that are orthonormal in K.
+/// Vectors that are orthonormal with respect to the stiffness matrix K.
 class Span {
  public:
   explicit Span(const SparseMatrix& k) : k_(k), vectors_(k.rows(), 0), forces_(k.rows(), 0) {}

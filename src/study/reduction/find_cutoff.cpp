@@ -150,7 +150,7 @@ constexpr int max_moves = 8;                 // limit for moves of a cutoff if m
 constexpr double cutoff_shift = 1.01;        // factor by which a cutoff is moved
 constexpr double raised = 1.5;               // growth of a cutoff with too few modes below it
 constexpr Eigen::Index min_compared = 2048;  // smallest number of compared instants; chosen value
-// Number of displacements that a trial stores for the comparison: 32 MB.
+// Limit of the number of displacements that a trial stores for the comparison: 32 MB.
 constexpr Eigen::Index max_compared = 1 << 22;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {

@@ -4,6 +4,8 @@
 //   error = |u - u_finer| + missed_finer max(1, error / missed)
 //   the first trial with error <= tolerance is used
 //
+// missed: largest contribution of the modes left out, by TruncationError; finer: the next trial.
+//
 // The missing contribution changes contact forces, which emit waves, shift events and may change their
 // sequence. An estimate from one run includes none of these effects, and no forces that jump between its
 // samples. Therefore each trial is compared with a run with at least twice the cutoff, at all common sample

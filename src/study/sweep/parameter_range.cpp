@@ -90,7 +90,7 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   return values;
 }
 
-/// A round step that divides the interval in about four: 1, 2 or 5 times a power of ten.
+/// A round step (1, 2 or 5 times a power of ten) that divides the interval into about four parts.
 double round_step(double from, double to) {
   const double quarter = 0.25 * std::abs(to - from);
   if (!(quarter > 0.0)) return 1.0;

@@ -36,7 +36,7 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
                     const std::vector<Override>& settings);
 /// Parses PATH=VALUES of --vary. Errors: UsageError, also for more than 1e6 values.
 [[nodiscard]] ParameterRange parse_vary(const std::string& text);
-/// The product: entry i has one value for each ParameterRange, in their order. Errors: UsageError for more
+/// The product of all ranges: each entry has one value for each ParameterRange, in their order. Errors: UsageError for more
 /// than 1e6 points, for a repeated path, and for keys of one group with different numbers of values.
 [[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<ParameterRange>& varied);
 

@@ -91,7 +91,7 @@ void RowFile::append(const std::string& lines) {
     return;
   }
   const int error = errno;
-  // If this truncation also fails, the next sweep truncates the file.
+  // If this truncation also fails, the next sweep that opens the file truncates it.
   [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(good_));
   throw FileError(path_.string(), "cannot be written" + base::system_error_text(error));
 }

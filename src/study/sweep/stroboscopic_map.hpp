@@ -75,7 +75,7 @@ class StroboscopicRecorder : public run::ForwardingRecorder {
   std::vector<double> outputs_;
 };
 
-/// Copy of `run` with output rows at the points. With `loads` it ends after an integer number of load periods.
+/// Copy of `run` with output rows at the points. With `loads` the run ends after an integer number of load periods.
 [[nodiscard]] RunSpec with_strobe_rows(RunSpec run, const StroboscopicMap& strobe);
 
 }  // namespace signorini::sweep

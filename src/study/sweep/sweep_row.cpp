@@ -60,7 +60,7 @@ class LastRow : public run::ForwardingRecorder {
   Result last_;
 };
 
-/// Computes the row by a run with output rows only at both ends and at points, which is fast. If the run is
+/// Computes the row by a run with output rows only at both ends and at stroboscopic points, which is fast. If the run is
 /// kept, a separate run with all rows is stored, so that the row does not depend on --keep.
 Report run(const RowTask& task, const study::PreparedRun& prepared, Recorder& heard, const RunSpec& spec) {
   if (!task.keep.empty()) {
@@ -98,8 +98,8 @@ std::optional<double> SweepRow::response(std::size_t i) const {
 
 namespace {
 
-/// Prepares the run. A file that cannot be read only refuses this run, so its FileError becomes an Error; a
-/// file that cannot be written ends the sweep.
+/// Prepares the run. If a file cannot be read, only this run is refused, so the FileError becomes an Error. A FileError
+/// for a file that cannot be written ends the sweep.
 study::PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) try {
   Scene scene = parse_scene(task.text, task.scene, task.changes);
   if (carried != nullptr && *carried) scene.initial = {.saved = **carried};

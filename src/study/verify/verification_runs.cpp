@@ -13,7 +13,7 @@ namespace {
 const char* const event_time = "event_time";
 /// settled(): newmark's sequences must agree up to this fraction of the time in which IDA's sequence is certain.
 constexpr double nearly = 0.99;
-/// Error bound of an extreme relative to the largest bound of the rows, because an extreme is between rows.
+/// Error bound of an extreme / largest error bound of the rows: above 1, because an extreme lies between rows.
 constexpr double between_rows = 2.0;
 /// Differences between newmark's runs are ignored below this fraction of IDA's error.
 constexpr double negligible = 0.1;

@@ -75,8 +75,8 @@ double BranchMap::parameter(double s) const {
   return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
 }
 
-/// The scene at s. Its run is long enough for a transient and for a few periods at s, so that periodic loads are defined
-/// up to the end of both.
+/// The scene at s. Its run includes a transient and a few periods at s, because the scene defines periodic loads only up
+/// to the end of its run.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
     return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::format_number(t_end)}});

@@ -13,16 +13,16 @@ namespace signorini::orbit {
 namespace {
 
 constexpr int max_corrections = 10;
-// Upper limit for a correction in the norm; steps are shorter. Chosen value.
+// Limit for the length of a correction in the norm. Steps along the branch are shorter. Chosen value.
 constexpr double longest_correction = 0.1;
 constexpr double slow = 0.02;  // ratio of successive residuals above which dG/ds is recomputed
-// Residual / amplitude accepted if it stagnates, as in shooting.cpp.
+// Residual / amplitude up to which a stagnating correction is accepted, as in shooting.cpp.
 constexpr double corrected_at_last = 1e-9;
 // Residual / noise of the map at which a correction ends: the noise prevents smaller residuals. Chosen value.
 constexpr double of_noise = 4.0;
 // Residual / amplitude up to which damped steps are tried. Chosen value.
 constexpr double worth_damping = 1e-3;
-// Lower limit for a direction's part outside all families. Chosen value.
+// A direction is split only if its part outside all families is longer than this. Chosen value.
 constexpr double least_left = 1e-6;
 constexpr double fix_parameter_from = 0.7;  // |t_s| from which corrections fix the parameter. Chosen value.
 constexpr double least_size = 1e-3;         // lower limit for a coordinate in the norm; chosen value

@@ -90,7 +90,7 @@ class BranchNewton {
   [[nodiscard]] Vector flip_direction(const CorrectedPoint& at) const;
   /// Direction, at a branch point, of the branch that crosses the branch with direction t.
   [[nodiscard]] Vector other_direction(CorrectedPoint at, const Vector& t) const;
-  /// Converts a direction in the coordinates of flip_direction() to the norm, with length 1.
+  /// Converts a direction, in the coordinates of flip_direction(), to the coordinates of the norm, with length 1.
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
   /// Component of v along t: v_s / t_s if Newton's method keeps the parameter constant, otherwise v . t; 1 for v = t.
   [[nodiscard]] static double along(const Vector& v, const Vector& t) {

@@ -34,8 +34,8 @@ constexpr double repetition_tolerance = 1e-3;
 // Divisors n of a period T. A search from an initial guess may find any multiple of the period, so the program
 // checks whether a self-excited motion closes after T/n already. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};
-// If the residual / amplitude after T/n is at most this value, Newton's method restarts with the period T/n
-// and may change it by at most this relative value: the remaining error of an orbit that closed to 1e-9
+// If the residual / amplitude after T/n is at most this value, Newton's method restarts with the period T/n, and may
+// change this period by at most this relative value: the remaining error of an orbit that closed to 1e-9
 // (shooting.cpp). Chosen value.
 constexpr double nearly_closed = 1e-7;
 

@@ -171,7 +171,7 @@ class Bundle {
   std::optional<sensitivity::TangentRun> tangents_;
 };
 
-/// Records the data of a pass, and forwards the run to the tangents.
+/// Records the data of a pass, and forwards the data of the run to the tangents.
 class Follower final : public run::RunListener {
  public:
   Follower(const Model& model, const RunSpec& run, const PassOptions& leg, OrbitPass& pass,

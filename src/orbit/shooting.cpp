@@ -184,7 +184,7 @@ bool is_noise(const PeriodMap& map, const ShootingResult& shot) {
 
 namespace {
 
-/// Sets shot.pass to the pass that begins at shot.state, with tangents. Returns false if it stops or is interrupted.
+/// Sets shot.pass to the pass that begins at shot.state, with tangents. Returns false if the pass stops or is interrupted.
 bool run_period(const PeriodMap& map, ShootingResult& shot) {
   shot.pass = map.pass({shot.state, shot.duration});
   if (shot.pass.done()) return true;

@@ -54,7 +54,7 @@ struct ShootingResult {
 /// a difference of two states. A noise above max_noise is not accepted. Chosen values.
 inline constexpr double accepted_noise_factor = 10.0, max_noise = 1e-6;
 
-/// dE/dz B: derivative of the stored energy by the coordinates at the section, in the scene's unit of energy.
+/// dE/dz B: derivative of the stored energy, in the scene's unit, with respect to the coordinates at the section.
 [[nodiscard]] Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section);
 
 /// B^T Phi B of a pass with tangents.

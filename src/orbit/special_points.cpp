@@ -65,7 +65,7 @@ std::optional<double> root_between(double a, double b,
 
 namespace {
 
-// An event is at the section if it is nearer to the section than this, relative to the period. Chosen value.
+// An event is at the section if its distance from the section is below this fraction of the period. Chosen value.
 constexpr double beside_section = 1e-4;
 // Width of the interval in which a change of the sequence is located, in the norm of branch_newton.hpp, and smallest
 // ratio of this width to the noise of the map.

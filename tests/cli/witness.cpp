@@ -469,7 +469,8 @@ TEST_CASE("cli witness: tables that end before the run does") {
       "line 2: found the end of the file, expected the row of contact \"floor\" at t = 0;");
   cut("contacts.csv", contacts.substr(0, contacts.size() - 1),
       "found no line break, expected the row of contact \"foot\" at t = 1.5");
-  cut("motion.csv", first_rows(motion, 0.0), "line 2: found the end of the file, expected rows of contact \"floor\"");
+  cut("motion.csv", first_rows(motion, 0.0),
+      "line 2: found the end of the file, expected rows of contact \"floor\"");
   cut("motion.csv", first_rows(motion, 0.1), "expected rows of contact \"foot\"");
   cut("motion.csv", first_rows(motion, 0.9), "expected rows of contact \"foot\" up to t = 1.5");
   cut("motion.csv", motion.substr(0, motion.size() - 1), "found no line break");

@@ -16,11 +16,11 @@ namespace signorini::orbit {
 namespace {
 
 constexpr double shortest_step = 1e-7;  // lower limit for ds, in the norm of branch_newton.hpp
-// After at most this number of corrections the next step may be longer.
+// The next step is longer if Newton's method needed at most this number of iterations.
 constexpr int quick = 4;
-// Limit for distance / ds; a longer step has ended at another branch. Chosen value.
+// Limit for (distance between two points) / ds. Beyond it Newton's method has ended at another branch. Chosen value.
 constexpr double max_step_ratio = 10.0;
-// Residual / amplitude up to which a shifted orbit is periodic; above the noise. Chosen value.
+// Residual / amplitude up to which an orbit shifted in time is regarded as periodic; above the noise. Chosen value.
 constexpr double shift_residual = 1e-3;
 constexpr double restart_step = 2e-3;  // step of the search beyond a gap, relative to the range of the key
 // Relative difference of amplitudes and multipliers up to which has_passed() regards two orbits as the same.
@@ -93,7 +93,7 @@ void BranchContinuation::choose_new_section(CorrectedPoint& here, std::optional<
   place = std::move(place_there);
 }
 
-/// Stores the direction in which the parameter continues. This direction is the same in every section,
+/// Stores in ahead_ the component of the tangent at `next` along the parameter. Its sign is the same in every section,
 /// although the branch may bend more in another section.
 void BranchContinuation::look_ahead(const std::optional<SecantPoint>& place, CorrectedPoint& next) {
   ahead_ = 0.0;
@@ -121,7 +121,7 @@ Vector BranchContinuation::direction(const std::optional<SecantPoint>& place, Co
   return (turning_ ? way : tangent) + drift;
 }
 
-/// Text of the sequence of events. It begins with the alphabetically least rotation, because the section may move.
+/// Text of the sequence of events. The events are rotated to the alphabetically first order, since the section may move.
 std::string BranchContinuation::sequence_of(const OrbitPass& pass) const {
   std::vector<std::string> list;
   for (const Event& e : pass.events)
@@ -201,7 +201,7 @@ bool BranchContinuation::begin(CorrectedPoint& here) {
   return here.done;
 }
 
-/// Steps from `here` along t by ds, or to the end of the range if `last` is true.
+/// Computes the next point: from `here` along t by ds, or, if `last` is true, at the end of the range.
 CorrectedPoint BranchContinuation::step(const CorrectedPoint& here, const Vector& t, double ds,
                                         bool last) const {
   BranchState to = newton_.moved(here.state, here.pass, ds * t);
@@ -267,8 +267,7 @@ bool BranchContinuation::may_continue(const CorrectedPoint& here, const Correcte
   if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
   if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
   if (!turned_back_ || !has_passed(next)) return true;
-  end_ = fmt::format("beyond {} = {:.9g} the branch returns to its own earlier orbits", options_.path,
-                     value(here));
+  end_ = fmt::format("beyond {} = {:.9g} the branch repeats its earlier orbits", options_.path, value(here));
   return false;
 }
 
@@ -297,9 +296,11 @@ bool BranchContinuation::search_beyond_gap(const CorrectedPoint& here, Corrected
     turned_back_ = true;
     return true;
   }
-  end_ = fmt::format("at {} = {:.9g} even the shortest step fails, and {}: {}", options_.path, value(here),
-                     known ? "the orbit found beyond already lies on the branch" : "no orbit is found beyond",
-                     why);
+  end_ =
+      fmt::format("at {0} = {1:.9g} even the shortest step fails ({3}), and {2}", options_.path, value(here),
+                  known ? "the orbit found beyond this value already belongs to the branch"
+                        : "no orbit is found beyond this value",
+                  why);
   return false;
 }
 
@@ -374,7 +375,7 @@ void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
   double farthest = options_.from;
   for (const BranchPoint& p : branch_.points)
     if (std::abs(p.parameter - options_.from) > std::abs(farthest - options_.from)) farthest = p.parameter;
-  end_ += fmt::format("; beyond {:.9g}, up to {:.9g}, the branch has no orbit", farthest, options_.to);
+  end_ += fmt::format("; between {:.9g} and {:.9g} the branch has no orbit", farthest, options_.to);
   if (!crossed_gap_) return;
   end_ += ", and the branch was found again beyond a gap: another branch may lead across the gap";
   complete_ = false;
@@ -395,7 +396,7 @@ void BranchContinuation::walk_from_start() {
   keep_mark(here, t);
   offer_mark();
   if (is_time_shift(here, t)) {
-    end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all its values",
+    end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all values of this key",
                        options_.path);
     return;
   }
@@ -420,7 +421,7 @@ void BranchContinuation::offer_mark() {
   if (number_ == 1 && options_.on_checkpoint) options_.on_checkpoint([this] { return mark().value(); });
 }
 
-/// If the scene is refused for a value of the key, the branch ends there and keeps its points.
+/// Runs `walk`. If the scene is refused for a value of the key, the branch ends there and keeps its points.
 void BranchContinuation::guarded(const std::function<void()>& walk) {
   try {
     walk();
@@ -430,7 +431,8 @@ void BranchContinuation::guarded(const std::function<void()>& walk) {
                        last_ ? map_.parameter(last_->s) : options_.from, error.what());
   }
   if (end_.empty())
-    end_ = branch_.interrupted ? "interrupted" : fmt::format("{} points, the requested maximum", points_);
+    end_ = branch_.interrupted ? "interrupted"
+                               : fmt::format("stopped at the requested maximum of {} points", points_);
 }
 
 void BranchContinuation::follow() {

@@ -10,7 +10,7 @@
 // run. Where another branch begins, the continuation stores a junction:
 //
 //   flip            (Phi + I) v = 0: the branch of orbits with twice the period begins along v
-//   branch point    two directions t, w with dG/dy t = dG/dy w = 0: the other branch begins along w and -w
+//   branch point    dG/dy t = dG/dy w = 0 for two directions t, w: the branch has the direction t, the other w and -w
 #pragma once
 
 #include "orbit/branch_newton.hpp"
@@ -30,7 +30,8 @@ struct Junction {
 
 class BranchContinuation {
  public:
-  /// Adds points and sequences to `branch`. All arguments except map must outlive the object.
+  /// Adds points and sequences to `branch`. options, branch and seen must outlive the object. number: as in
+  /// BranchPoint::branch; generation: as in Junction.
   BranchContinuation(const BranchOptions& options, BranchMap map, Branch& branch, int number, int generation,
                      const std::function<void(const BranchPoint&)>& seen)
       : options_(options),

@@ -15,15 +15,15 @@
 namespace signorini::orbit {
 namespace {
 
-// Steps of finite differences, relative to the range. The error is the second derivative times the step, plus
+// Steps in s of the finite difference dG/ds. The error is the second derivative times the step, plus
 // noise/step. The residual of an orbit estimates the noise, and its square root balances both terms. The
 // bounds of the step for the engine `exact` and the step for `ida` are chosen values.
 constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
-// Number of cached maps: for a point, its finite difference, and the next point.
+// Limit of the number of cached maps. A step uses the maps of a point, of its finite difference, and of the next point.
 constexpr std::size_t max_kept = 4;
-// Length of a scene's run: a transient, and a few passes through the orbit.
+// Length of a scene's run, in periods: a transient, and a few passes through the orbit.
 constexpr double max_periods = restart_periods + 4.0;
-constexpr double same_time = 1e-9;  // relative to a period: rounding of times that were written as text
+constexpr double same_time = 1e-9;  // rounding of times written as text, relative to a period
 
 }  // namespace
 
@@ -65,7 +65,7 @@ Orbit BranchMap::orbit_at(const BranchState& state) const {
 BranchMap BranchMap::doubled() const {
   BranchMap twice = *this;
   twice.options_.orbit.times *= 2;
-  twice.section_ *= 0.5;  // as a fraction of the period
+  twice.section_ *= 0.5;  // section as a fraction of the period, which is now twice as long
   twice.start_.duration *= 2.0;
   twice.kept_.clear();
   return twice;
@@ -75,8 +75,8 @@ double BranchMap::parameter(double s) const {
   return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
 }
 
-/// The scene at s. Periodic loads must act until the end of its run, which is long enough for a transient and
-/// for a few periods at s.
+/// The scene at s. Its run includes a transient and a few periods at s, because the scene defines periodic loads only up
+/// to the end of its run.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
     return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", base::format_number(t_end)}});
@@ -94,10 +94,11 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
                                                  : load_period(scene, drive_);
   const double phase = phase_ * machine_.time;
   if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
-    throw SceneError({}, options_.path,
-                     fmt::format("the loads are periodic only from t = {:g} on; at the start of the branch "
-                                 "they are periodic from t = {:g} on",
-                                 loads.periodic_from, phase));
+    throw SceneError(
+        {}, options_.path,
+        fmt::format("at this point of the branch the loads are periodic only from t = {:g} on, but "
+                    "at its start from t = {:g} on",
+                    loads.periodic_from, phase));
   return loads;
 }
 
@@ -114,7 +115,8 @@ void BranchMap::check_structure(const Model& model) const {
                           model.reduction.has_value() == first_.reduction.has_value() &&
                           (!model.reduction || model.reduction->shapes == first_.reduction->shapes);
   if (model.size() != first_.size() || model.contacts.size() != first_.contacts.size() || !same_basis)
-    throw SceneError({}, options_.path, "the unknowns of the model change along the branch");
+    throw SceneError({}, options_.path,
+                     "the model has other unknowns than the model at the start of the branch");
 }
 
 BranchMap::Kept BranchMap::make(double s) const {

@@ -3,9 +3,9 @@
 //   y = (x, dT, s)       x: coordinates at the section; dT: change of the period, if self-excited
 //                        s = (p - from)/(to - from),  p: value of the key
 //   G(y) = B^T (z(T; z, s) - z),    dG/ds by a finite difference of the map, dG/dx from Phi
-//   conservative motions have one more row: (E(x, s) - E*(s))/E1 = 0
-//     over the energy:            E*(s) = from + s (to - from), E1 = to - from, and dG/ds = 0
-//     over a key at an energy:    E* = E1 = that energy
+//   conservative motions: G has one more row, (E(x, s) - E*(s))/E1
+//     the energy is the parameter:            E*(s) = from + s (to - from), E1 = to - from, dG/ds = 0 in all other rows
+//     a key is the parameter, E is given:     E* = E1 = the given energy
 //
 // All models use the machine units of the first one, so states are comparable.
 #pragma once
@@ -33,12 +33,12 @@ class BranchMap {
 
   /// The orbit at `state` in the form that find_orbit() returns: period, phase, and the state at the orbit's time 0.
   [[nodiscard]] Orbit orbit_at(const BranchState& state) const;
-  /// The same map over twice the period.
+  /// Returns a map of the same scene over twice the period.
   [[nodiscard]] BranchMap doubled() const;
   [[nodiscard]] bool autonomous() const { return autonomous_; }
-  /// True for a branch over the energy of conservative motions.
+  /// True if the parameter of the branch is the energy of conservative motions.
   [[nodiscard]] bool conservative() const { return options_.path == over_energy; }
-  /// True for a branch over the energy, or over a key at a given energy.
+  /// True if each orbit has a prescribed energy: the parameter of the branch, or a given constant.
   [[nodiscard]] bool keeps_energy() const { return conservative() || options_.orbit.energy.has_value(); }
   /// Prescribed energy E*(s), and its unit E1, both in the scene's unit; nullopt if the energy is not prescribed.
   [[nodiscard]] std::optional<double> energy(double s) const {
@@ -83,8 +83,8 @@ class BranchMap {
   Recorder* recorder_;
   bool autonomous_;
   Factors machine_;
-  double phase_;  // machine units
-  double t_end_;  // end of the runs of all scenes
+  double phase_;  // time of the scene at the orbits' time 0, in machine units
+  double t_end_;  // smallest run.t_end of the scenes, in the scene's unit
   CountedLoads drive_;
   double section_ = 0.0;
   Model first_;
@@ -97,7 +97,7 @@ class BranchMap {
   [[nodiscard]] Kept make(double s) const;
   mutable std::vector<Kept> kept_;
   std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
-  // Closed form of the tangents, from the last map that had one.
+  // Closed form that advances tangents (PeriodMap::flow()), from the last map that had such a form.
   mutable std::shared_ptr<sensitivity::StateFlow> flow_;
 };
 

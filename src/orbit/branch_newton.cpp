@@ -13,16 +13,16 @@ namespace signorini::orbit {
 namespace {
 
 constexpr int max_corrections = 10;
-// Upper limit for a correction in the norm; steps are shorter. Chosen value.
+// Limit for the length of a correction in the norm. Steps along the branch are shorter. Chosen value.
 constexpr double longest_correction = 0.1;
 constexpr double slow = 0.02;  // ratio of successive residuals above which dG/ds is recomputed
-// Residual / amplitude accepted if it stagnates, as in shooting.cpp.
+// Residual / amplitude up to which a stagnating correction is accepted, as in shooting.cpp.
 constexpr double corrected_at_last = 1e-9;
-// The residual cannot decrease below a few times the noise of the map. Chosen value.
+// Residual / noise of the map at which a correction ends: the noise prevents smaller residuals. Chosen value.
 constexpr double of_noise = 4.0;
 // Residual / amplitude up to which damped steps are tried. Chosen value.
 constexpr double worth_damping = 1e-3;
-// Lower limit for a direction's part outside all families. Chosen value.
+// A direction is split only if its part outside all families is longer than this. Chosen value.
 constexpr double least_left = 1e-6;
 constexpr double fix_parameter_from = 0.7;  // |t_s| from which corrections fix the parameter. Chosen value.
 constexpr double least_size = 1e-3;         // lower limit for a coordinate in the norm; chosen value
@@ -31,8 +31,8 @@ constexpr double least_size = 1e-3;         // lower limit for a coordinate in t
 constexpr double singular = 1e-9, finer_singular = 1e-12;
 // Number of amplitudes: a change of the state by so many amplitudes has the same length as the range of the parameter.
 constexpr double amplitudes_per_range = 5.0;
-// Fraction of the largest amplitude along the branch. Below it the steps no longer shrink with the amplitude,
-// so that the amplitude can reach zero. Chosen value.
+// Fraction of the largest amplitude along the branch. For smaller amplitudes the norm no longer depends on the
+// amplitude, so that the branch can reach an amplitude of zero. Chosen value.
 constexpr double vanishing = 0.05;
 // Relative limit for the part of dz/ds that is not along the motion; above the noise of dG/ds. Chosen value;
 // the caller verifies the shifted orbit.
@@ -102,7 +102,7 @@ Vector BranchNewton::parameter_derivative(const BranchState& state, const OrbitP
   return by_s;
 }
 
-/// Reason why a pass cannot be a step of the branch; empty if it can.
+/// Reason why a pass cannot be used for a correction; empty if the pass can be used.
 std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) const {
   if (!pass.done()) return "the run over one period stopped: " + pass.outcome.reason;
   if (pass.end_rates.size() == 0) return "the state after one period has no derivative: " + pass.reason;
@@ -155,7 +155,7 @@ CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction,
     Vector dy = base::min_norm_solution(A, b, least);
     if (held) dy[dy.size() - 1] = 0.0;  // the parameter's step is zero up to rounding
     if (!(dy.norm() < longest_correction)) {
-      c.reason = "Newton's method leaves the branch";
+      c.reason = "Newton's method leaves the branch: its correction is too long";
       return c;
     }
     c.state = moved(c.state, c.pass, dy);
@@ -210,7 +210,7 @@ BranchNewton::StepDirection BranchNewton::split(CorrectedPoint& at, const Vector
   return {rest / rest.norm(), part / std::max(rest.norm(), part.norm())};
 }
 
-/// Removes from t its part along families. Phi - I is zero along families as well, but the branch must not drift there.
+/// Removes from t its part along families. The equations do not determine this part, and the branch must not drift.
 Vector BranchNewton::without_families(CorrectedPoint& at, const Vector& t) const {
   return families(at).cols() == 0 ? t : split(at, t).across;
 }
@@ -316,7 +316,7 @@ namespace {
 // limit is at least `finest` and at most `coarsest` times the amplitude of T. Chosen values.
 constexpr double balanced = 1e-3, finest = 1e-8, coarsest = 1e-5;
 constexpr double along_family = 1e-5;  // step of finite differences, in the norm; chosen value
-// Limit below which a direction changes no margin: change of margins in amplitudes of T per unit. Chosen value.
+// A direction of a family changes no margin if d(margin)/da, in amplitudes of T, is below this limit. Chosen value.
 constexpr double singular_family = 1e-6;
 constexpr int max_centrings = 3;
 

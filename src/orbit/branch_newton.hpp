@@ -38,13 +38,13 @@ struct CorrectedPoint {
   OrbitPass pass;
   double residual = 0.0;
   int iterations = 0;
-  /// B^T dG/ds at this point; the last row is the derivative of the energy if it is prescribed; empty: not
+  /// B^T dG/ds at this point; if the energy is prescribed, the last row is its derivative; empty: not
   /// computed yet.
   Vector derivative_by_s;
   Eigen::MatrixXd monodromy;  ///< set by examine(), like multipliers and tests
   Multipliers multipliers;
   double error = 0.0;      ///< error of the monodromy matrix, from error_of()
-  std::size_t ones = 0;    ///< number of multipliers that are structurally 1
+  std::size_t ones = 0;    ///< number of structural multipliers 1 (special_points.hpp)
   Eigen::MatrixXd family;  ///< result of families(), computed on request
   TestValues tests;
 };
@@ -75,9 +75,9 @@ class BranchNewton {
   /// counted, which requires that no special point is near. known: true if `before` already is the direction.
   Vector examine(CorrectedPoint& at, const Vector& before, std::optional<std::size_t> ones = {},
                  bool known = false) const;
-  /// True if corrections fix the parameter for this direction.
+  /// True if Newton's method keeps the parameter constant after a step in this direction.
   [[nodiscard]] static bool fixes_parameter(const Vector& t);
-  /// Directions along families: for each structural multiplier 1 a column in the coordinates y, of length 1.
+  /// Directions along families of orbits: one column of length 1, in the coordinates y, per structural multiplier 1.
   [[nodiscard]] const Eigen::MatrixXd& families(CorrectedPoint& at) const;
   /// A direction along the branch, split into two parts. The part along families does not contribute to a
   /// step's length.
@@ -90,22 +90,23 @@ class BranchNewton {
   [[nodiscard]] Vector flip_direction(const CorrectedPoint& at) const;
   /// Direction, at a branch point, of the branch that crosses the branch with direction t.
   [[nodiscard]] Vector other_direction(CorrectedPoint at, const Vector& t) const;
-  /// Converts a direction in the coordinates of flip_direction() to the norm, with length 1.
+  /// Converts a direction, in the coordinates of flip_direction(), to the coordinates of the norm, with length 1.
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
-  /// Component of v along t that corrections leave unchanged; 1 for v = t.
+  /// Component of v along t: v_s / t_s if Newton's method keeps the parameter constant, otherwise v . t; 1 for v = t.
   [[nodiscard]] static double along(const Vector& v, const Vector& t) {
     return fixes_parameter(t) ? v[v.size() - 1] / t[t.size() - 1] : v.dot(t);
   }
   /// Difference between two points in the norm; nullopt if the states at the section have different unknowns.
   [[nodiscard]] std::optional<Vector> difference(const SecantPoint& from, const CorrectedPoint& to) const;
-  /// The normalised difference; nullopt if both points coincide.
+  /// difference(), normalised to length 1; nullopt if both points coincide.
   [[nodiscard]] std::optional<Vector> secant(const SecantPoint& from, const CorrectedPoint& to) const;
-  /// Updates the noise of the map (shooting.hpp), which limits the following corrections.
+  /// Sets noise() from two successive passes (map_noise() in shooting.hpp): the residuals of later corrections cannot
+  /// become smaller. noise() is unchanged if map_noise() is unknown.
   void update_noise(const OrbitPass& first, const OrbitPass& second);
   [[nodiscard]] double noise() const { return noise_; }
   /// Residual up to which a stagnating correction is accepted.
   [[nodiscard]] double accepted_residual() const;
-  /// Time shift of the orbit at the section per unit of s, if dz/ds is along the motion; otherwise nullopt.
+  /// d(time shift)/ds of the orbit at the section, if the key only shifts the orbit in time; otherwise nullopt.
   [[nodiscard]] std::optional<double> shift(const CorrectedPoint& at, const Vector& t) const;
 
  private:

@@ -21,7 +21,7 @@
 namespace signorini {
 namespace {
 
-constexpr int max_transients = 3;  // number of transients that are tried, one after the other
+constexpr int max_transients = 3;  // limit of the number of transients, one after the other
 // Distance to the neighbouring members of a family that are checked for slip, relative to the amplitude. Chosen value.
 constexpr double beside = 1e-6;
 // Duration, in periods, of the run that records events: more than 1 because a run does not record an event at
@@ -34,8 +34,8 @@ constexpr double repetition_tolerance = 1e-3;
 // Divisors n of a period T. A search from an initial guess may find any multiple of the period, so the program
 // checks whether a self-excited motion closes after T/n already. Larger primes are not checked. Chosen value.
 constexpr int shorter_by[] = {2, 3, 5, 7};
-// If the residual / amplitude after T/n is at most this value, Newton's method restarts with the period T/n
-// and may change it by at most this relative value: the remaining error of an orbit that closed to 1e-9
+// If the residual / amplitude after T/n is at most this value, Newton's method restarts with the period T/n, and may
+// change this period by at most this relative value: the remaining error of an orbit that closed to 1e-9
 // (shooting.cpp). Chosen value.
 constexpr double nearly_closed = 1e-7;
 
@@ -68,16 +68,16 @@ class Search {
   const SceneReader& read_;
   OrbitOptions options_;
   Recorder* recorder_;
-  Model given_;  // in the scene's units
+  Model given_;  // model of the scene, in the scene's units
   std::optional<orbit::PeriodMap> map_;
-  double unit_ = 1.0;    // machine's unit of time, in the scene's unit
+  double unit_ = 1.0;    // unit of time of the computed model, in the scene's unit
   double before_ = 0.0;  // time from which the loads are periodic, rounded up to whole periods; machine units
   double period_ = 0.0;  // period of the loads times OrbitOptions::times, machine units
   double tolerance_, closed_ = 0.0;
   Orbit orbit_;
   orbit::ShootingResult shot_;
   orbit::OrbitState initial_;
-  Model first_;  // initial model of the scene, in the machine's units
+  Model first_;  // initial model of the scene, in machine units
   RunSpec run_;
   std::shared_ptr<modal::ModalCache> memory_ = std::make_shared<modal::ModalCache>();
 };
@@ -104,7 +104,7 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
   set_period(scene);
 }
 
-/// Checks that the scene has no excitation, which a search at a given energy requires. Errors: UsageError.
+/// Checks that the scene has no excitation, because --energy requires a conservative motion. Errors: UsageError.
 void check_conservative(const Scene& scene, const orbit::LoadPeriod& loads) {
   if (!scene.loads.empty() || loads.period || loads.surfaces_move)
     throw UsageError("--energy: expected a scene without loads and belts");
@@ -125,20 +125,21 @@ void Search::set_period(const Scene& scene) {
   if (orbit_.autonomous && !loads.surfaces_move && !conservative)
     throw SceneError(
         {}, "loads",
-        "an orbit needs a periodic load, a moving surface, or --period; the scene has none of them");
+        "an orbit needs a periodic load, a moving surface, or a given --period; found none of these");
   const double t_end = std::max(scene.run.t_end, long_enough(loads, options_));
   const Scene longer = read_({{"run.t_end", base::format_number(t_end)}});
   given_ = build_model(longer);
   sensitivity::check_tangent_laws(longer, given_);
   if (conservative && given_.damping.norm() > 0.0)
-    throw UsageError("--energy: the scene has damping, expected none: energy is not conserved");
+    throw UsageError(
+        "--energy: found damping, expected a scene without damping, in which energy is conserved");
   run_ = longer.run;
   run_.engine = orbit::orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
   if (!run::engine_row(run_.engine).capabilities.supports_orbits)
     throw SceneError(
         scene.run.place, "run.engine",
         fmt::format("found \"{}\", expected {}: orbits need the motion between events to rounding accuracy, "
-                    "or its tangents",
+                    "or tangents of the motion",
                     to_string(run_.engine), run::engines_that(&run::EngineCapabilities::supports_orbits)));
   run_.flow = orbit::orbit_flow(given_, run_);
   closed_ = orbit::orbit_state_error(run_);
@@ -209,7 +210,7 @@ std::string Search::repeated(const orbit::OrbitState& state) const {
     const orbit::OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
     if (k > 1 && orbit::residual_of(section, *first, gap) <= repetition_tolerance)
-      return fmt::format("; the transient repeats itself after {} of these periods: use --times {}", k,
+      return fmt::format("; the transient repeats itself only after {} periods: use --times {}", k,
                          k * options_.times);
   }
   return {};

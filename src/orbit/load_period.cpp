@@ -24,7 +24,7 @@ struct Driver {
   const HistorySpec* spec;
   std::string key;
   bool surface = false;
-  bool acceleration = false;  // acceleration of a support, which starts at rest at zero displacement
+  bool acceleration = false;  // true: acceleration of a support, which starts from rest
 };
 
 bool drives(const LoadSpec& load) { return load.amplitude != 0.0; }
@@ -83,7 +83,7 @@ LoadPeriod settled(const std::vector<Driver>& all) {
   return found;
 }
 
-/// Smallest common multiple; nullopt: there is none.
+/// Smallest common multiple, up to max_multiples times the longer period; nullopt if there is none.
 std::optional<double> common(double a, double b) {
   if (a < b) std::swap(a, b);
   for (int k = 1; k <= max_multiples; ++k) {
@@ -158,10 +158,11 @@ LoadPeriod check_period(const Scene& scene, double period, const CountedLoads& c
       differ = std::max(differ, std::abs(now - then));
     }
     if (differ > same_period * 2.0 * std::numbers::pi * size)
-      throw SceneError(d.spec->place, d.key,
-                       fmt::format("found a history that changes by {:.2g} of its greatest value after {}, "
-                                   "expected one with the period of the orbit",
-                                   differ / size, base::format_number(period)));
+      throw SceneError(
+          d.spec->place, d.key,
+          fmt::format("found a history that changes by {:.2g} of its largest value from one period of {} to "
+                      "the next, expected a history with this period",
+                      differ / size, base::format_number(period)));
     if (d.acceleration) check_drift(d, f, found.periodic_from, period);
   }
   return found;
@@ -180,9 +181,10 @@ std::vector<Override> shifted_excitation(const Scene& scene, double time) {
 
 namespace {
 
-// The first return within this distance is used. Distances are relative to the range of the motion. Chosen value.
+// The search for a return to an earlier state ends at this distance or less. Distances are relative to the range of the
+// motion. Chosen value.
 constexpr double near_enough = 0.02;
-// A return at a larger distance is ignored.
+// A return to a state at a larger distance is ignored.
 constexpr double too_far = 0.5;
 // Smallest distance from the section to an event, relative to the period. Chosen value.
 constexpr double least_distance = 0.02;

@@ -4,8 +4,8 @@
 //
 // f: loads, motions of supports and of the base, normal forces, surface motions.
 //
-// A load of amplitude zero is ignored unless `count` includes it. A branch over the amplitude includes it,
-// and so keeps its period where the load vanishes.
+// A load of amplitude zero is ignored unless `count` includes this load. A branch over the amplitude of a load includes
+// the load, so that the period does not change where the amplitude is zero.
 //
 // The common period is the smallest common multiple of all periods, up to a hundred times the longest period.
 #pragma once
@@ -21,7 +21,7 @@ namespace signorini::orbit {
 
 struct LoadPeriod {
   std::optional<double> period;  ///< nullopt: all excitations are constant from periodic_from on
-  double periodic_from = 0.0;    ///< end of the part that is not periodic
+  double periodic_from = 0.0;    ///< time from which all excitations are periodic or constant
   bool surfaces_move = false;    ///< true if a contact has a moving surface (belt)
 };
 
@@ -47,15 +47,15 @@ using CountedLoads = std::vector<bool>;
 //   section: the middle of the longest stretch between two instants of a period
 
 struct ReturnMapStart {
-  double period = 0.0;    ///< estimated period; 0: the motion did not return
+  double period = 0.0;    ///< estimated period; 0: no state is near an earlier one
   double section = 0.0;   ///< time of the section
-  double distance = 0.0;  ///< distance between the two states, relative to the range of the motion
+  double distance = 0.0;  ///< distance of the states at t_a and t_b, relative to the range of the motion
 };
 
-/// Initial guess from the instants of one run, in order of time, just after changes of contact states.
+/// Initial guess from one run. instants: the motion just after each change of a contact state, in order of time.
 [[nodiscard]] ReturnMapStart return_map_start(const Model& model, const std::vector<OrbitPoint>& instants);
 
-/// Best time of the section in [0, T): 0 unless an instant is nearer to 0 or T than T/50.
+/// Time of the section in [0, T): 0, or, if an instant is nearer to 0 or T than T/50, the middle of the longest stretch.
 [[nodiscard]] double section_away_from(const std::vector<OrbitPoint>& instants, double T);
 
 }  // namespace signorini::orbit

@@ -13,7 +13,7 @@ namespace {
 // double eigenvalue. Chosen value: a disturbance that needs 1e7 periods to decay is regarded as permanent.
 constexpr double one = 1e-7;
 
-/// The largest distance from a multiplier of one set to the nearest of the other.
+/// Largest distance from a multiplier in `a` to the nearest multiplier in `b`, or to 0 if 0 is nearer.
 double apart(const Multipliers& a, const Multipliers& b) {
   double greatest = 0.0;
   for (const auto& x : a) {

@@ -8,10 +8,10 @@
 namespace signorini::orbit {
 namespace {
 
-// Limit for period / fastest decay time: a series needs one step per 5 decay times, thus up to 400 per
+// Limit for period / shortest decay time: a series needs one step per 5 decay times, thus up to 400 steps per
 // period. Chosen value.
 constexpr double max_decays = 2000.0;
-// Error of a state relative to rtol: errors of steps accumulate over a period; chosen value.
+// Error of a state / (rtol amplitude): errors of steps accumulate over a period. Chosen value.
 constexpr double error_per_rtol = 100.0;
 
 }  // namespace

@@ -1,8 +1,8 @@
 // orbit_engine.hpp: choice of the engine for orbits, its accuracy, and readers of a scene with a varied key.
 //
-//   auto:   exact, unless it refuses the scene or a period has more than 2000 decay times of the fastest decay
-//   flow:   auto uses complex modes if the scene permits them: all periods reuse the modes of contact states
-//   error:  error of a state / amplitude, at which an orbit is closed: exact 0, ida 100 rtol
+//   auto:   exact, unless `exact` refuses the scene or a period exceeds 2000 times the shortest decay time
+//   flow:   auto uses complex modes if the scene permits them, because all periods reuse the modes of contact states
+//   error:  error of a state / amplitude, within which an orbit is regarded as closed: exact 0, ida 100 rtol
 //
 // An orbit search compares many short runs of one period. Therefore `auto` accepts the closed form up to a
 // higher cost than for one long run (run/choose_engine.hpp).
@@ -24,7 +24,7 @@ namespace signorini::orbit {
 /// The flow for orbits; run.engine must be the result of orbit_engine().
 [[nodiscard]] Flow orbit_flow(const Model& model, const RunSpec& run);
 
-/// Error of a state / amplitude, in a run with these tolerances.
+/// Error of a state / amplitude in a run with this engine and these tolerances; 0: rounding only.
 [[nodiscard]] double orbit_state_error(const RunSpec& run);
 
 // A reader of a scene with one key set to a value.

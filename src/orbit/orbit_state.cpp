@@ -9,8 +9,8 @@ History from(const History& history, double time) {
   return history.is_constant() && history.starts().empty() ? history : history.shifted(-time);
 }
 
-/// Appends to `rows` the normalised row of a linear form in the scaled coordinates. places: degrees of
-/// freedom of the coordinates from index `first` on.
+/// Appends to `rows` the coefficients of a linear form in the scaled coordinates, normalised to length 1. places: degrees
+/// of freedom of the coordinates from index `first` on.
 void add_form(const Combination& form, const std::vector<Eigen::Index>& places, std::size_t first,
               const Vector& scales, std::vector<Vector>& rows) {
   Vector row = Vector::Zero(scales.size());

@@ -46,7 +46,7 @@ class OrbitSection {
  public:
   OrbitSection(const Model& model, const OrbitPoint& at);
 
-  /// Number of directions: columns of B.
+  /// Dimension of the tangent space: number of columns of B.
   [[nodiscard]] Eigen::Index size() const { return basis_.cols(); }
   [[nodiscard]] const Eigen::MatrixXd& basis() const { return basis_; }
   [[nodiscard]] Vector coordinates(const OrbitPoint& point) const;
@@ -54,9 +54,9 @@ class OrbitSection {
   [[nodiscard]] Vector rates(const OrbitPoint& point) const;
   /// Coordinates from u, v and forces, or from derivatives of all three.
   [[nodiscard]] Vector coordinates(const Vector& u, const Vector& v, const Vector& forces) const;
-  /// Vector in the coordinates z: the given value per degree of freedom for u and v, and 1 for shears.
+  /// Values in the order of the coordinates z: u_i and v_i get the value of their degree of freedom, shears get 1.
   [[nodiscard]] Vector spread(const Vector& of_dofs) const;
-  /// state + B x
+  /// Returns `state` changed by B x; x: coordinates of the change, in scales of the model.
   [[nodiscard]] OrbitState moved(OrbitState state, const Vector& x) const;
   /// Converts dz, relative to the model's scales, to displacements, velocities and shears.
   [[nodiscard]] OrbitState unscaled(const Vector& dz) const;
@@ -67,7 +67,7 @@ class OrbitSection {
  private:
   const Model& model_;
   std::vector<Eigen::Index> u_, v_;
-  std::vector<std::size_t> shears_;  // indices of contacts
+  std::vector<std::size_t> shears_;  // contacts whose shears are coordinates
   Vector scales_;
   Eigen::MatrixXd basis_;
 };

@@ -171,7 +171,7 @@ class Bundle {
   std::optional<sensitivity::TangentRun> tangents_;
 };
 
-/// Records the data of a pass, and forwards the run to the tangents.
+/// Records the data of a pass, and forwards the data of the run to the tangents.
 class Follower final : public run::RunListener {
  public:
   Follower(const Model& model, const RunSpec& run, const PassOptions& leg, OrbitPass& pass,
@@ -247,7 +247,7 @@ OrbitPass PeriodMap::pass(const PassOptions& leg) const {
   RunSpec run = run_;
   run.t_end = leg.duration;
   run.output_dt = leg.duration / leg.samples;
-  RunSpec bare = run;  // tangents need no rows
+  RunSpec bare = run;  // tangents need no output rows
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);
   if (leg.tangents && model_.size() >= min_in_modes && (!flow_ || !flow_->matches(model_)))

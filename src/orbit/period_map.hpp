@@ -1,6 +1,6 @@
-// period_map.hpp: motion over a period from a state at a section; derivative of the final state by the initial state.
+// period_map.hpp: motion over a period from a state at a section; derivative of the final state with respect to it.
 //
-//   z -> z(T; z),     Phi B: tangent motions of all columns of B, computed along with one run
+//   z -> z(T; z),     Phi B: tangent motions of all columns of B, computed during the same run
 //
 // Phi: product of the propagators between events and of the events' rank-one jumps (sensitivity/tangent_run.hpp).
 // Units: machine units of the computed model; events and energies are in the scene's units.
@@ -22,13 +22,13 @@ struct OrbitPass {
   std::vector<Event> events;         ///< events of contacts, without jumps of loads
   Energy cycle_energy;
   double energy = 0.0;  ///< stored energy at the beginning, in the scene's unit
-  /// Half the largest range of displacements, velocities and shears, in scales of the model; 0: at rest. Includes
-  /// rotations.
+  /// Half of the largest range (maximum - minimum) of a displacement, a velocity and a shear, rotations included; in
+  /// scales of the model; 0: at rest.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
-  double amplitude = 0.0;  ///< half the largest range of displacements, without rotations; scene's unit
+  double amplitude = 0.0;  ///< half the largest range of a displacement, rotations excluded; scene's unit
   /// Phi B, rows: coordinates at the section; empty: not requested, or not available
   Eigen::MatrixXd end_rates;
-  /// Error of end_rates by rounding and truncation of series, relative to their largest entry.
+  /// Error of end_rates by rounding and truncation of series, relative to the largest entry of end_rates.
   double rates_error = 0.0;
   std::string reason;  ///< reason why end_rates are not available
   std::vector<OutputExtremes> response;
@@ -50,7 +50,8 @@ struct PassOptions {
   double duration;
   bool tangents = true;
   bool outputs = false;  ///< compute extremes of outputs
-  int samples = 24;      ///< number of samples for amplitudes; chosen value: they only scale the residual
+  /// Number of samples from which amplitudes are computed. Chosen value: amplitudes only scale the residual.
+  int samples = 24;
 };
 
 class PeriodMap {
@@ -59,16 +60,16 @@ class PeriodMap {
   PeriodMap(Model model, const RunSpec& run, Recorder* recorder);
 
   [[nodiscard]] const Model& model() const { return model_; }
-  /// One pass through the period.
+  /// Computes one pass through the period.
   [[nodiscard]] OrbitPass pass(const PassOptions& leg) const;
   /// Result of a run from `start`. Its last row is at the end of the run, so that last_state() can read it.
   [[nodiscard]] Result rows(const OrbitState& start, double duration) const;
   [[nodiscard]] const RunSpec& run() const { return run_; }
-  /// Closed form that advances tangents between events. It depends on the structure only, so one map passes
-  /// it to the next. Null: not created yet, or the motion cannot be written in modes.
+  /// Closed form that advances tangents between events. This form depends on the structure only, so successive maps
+  /// share it. Null: not created yet, or the motion cannot be written in modes.
   [[nodiscard]] const std::shared_ptr<sensitivity::StateFlow>& flow() const { return flow_; }
   void take_flow(std::shared_ptr<sensitivity::StateFlow> flow) { flow_ = std::move(flow); }
-  /// Shares the mode shapes of contact states among all maps of one search.
+  /// Uses the given cache for mode shapes of contact states; all maps of one search share this cache.
   void share(std::shared_ptr<modal::ModalCache> memory) { memory_ = std::move(memory); }
 
  private:

@@ -7,8 +7,8 @@
 namespace signorini::orbit {
 namespace {
 
-// Error of a first guess relative to its distance, and limits of this error for later guesses. Chosen with
-// 400 test curves, which needed 11 positions to reach 1e-9.
+// Initial value of guess_error_, and its limits for later guesses. Chosen with 400 test curves, for which the search
+// needed 11 positions to reach an interval of 1e-9.
 constexpr double first_doubt = 0.2, least_doubt = 1e-3, greatest_doubt = 0.5;
 
 /// Up to three positions x with the lengths d of one stretch. The position nearest to the change is last.
@@ -59,13 +59,13 @@ void SequenceSearch::update(double x, bool as_at_begin, std::vector<double> stre
   const std::size_t side = as_at_begin ? 0 : 1;
   bounds_[side] = x;
   std::vector<Place>& places = sides_[side];
-  // Beyond x* another sequence may follow, with different stretches.
+  // A further change of the sequence may follow beyond x*; stretches of different sequences cannot be compared.
   if (!places.empty() && places.back().stretches.size() != stretches.size()) places.clear();
   if (!stretches.empty()) places.push_back({x, std::move(stretches)});
 }
 
-/// Guess from the first stretch to vanish, among all stretches that decrease; within the bounds. nullopt if
-/// none decreases.
+/// Position at which the first stretch vanishes, among all stretches that decrease and vanish within the bounds; nullopt
+/// if there is no such stretch.
 std::optional<SequenceSearch::Guess> SequenceSearch::guess_from(const std::vector<Place>& places) const {
   if (places.size() < 2) return std::nullopt;
   const double from = places.back().x;
@@ -99,8 +99,8 @@ double SequenceSearch::next() {
   if (from_end && !(guess && guess->x - guess->from <= from_end->from - from_end->x)) guess = from_end;
   const std::optional<Guess> before = std::exchange(guess_, guess);
   if (!guess) return middle;
-  // The change of the guess estimates the error of the previous guess relative to its distance; the same
-  // ratio is used for the new guess.
+  // The difference of two successive guesses estimates the error of the earlier guess. Its ratio to the distance of
+  // the earlier guess is used for the new guess, too.
   if (!before) guess_error_ = first_doubt;
   if (before && before->x != guess->x)
     guess_error_ =

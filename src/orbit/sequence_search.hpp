@@ -6,7 +6,7 @@
 //
 // A polynomial x(d^2), or x(d), through the last three positions with the same sequence gives the guess x* =
 // x(0). The next position is tried before or beyond x*, at a distance equal to the estimated error of this
-// guess, so that the interval shrinks from both sides. Without a guess the interval is halved.
+// guess, so that the interval that contains the change shrinks from both sides. Without a guess the interval is halved.
 //
 //   SequenceSearch search(stretches_of(a, T), stretches_of(b, T), enough);
 //   while (!search.done()) { x = search.next(); ...; search.update(x, same, stretches_of(at_x, T)); }
@@ -20,8 +20,8 @@
 
 namespace signorini::orbit {
 
-/// Lengths of the stretches between the events of a period, and from the last event to the first of the next
-/// period; relative to the period.
+/// Lengths of the stretches between successive events of a period, and from the last event to the first event of the
+/// next period; relative to the period.
 [[nodiscard]] std::vector<double> stretches_of(const std::vector<Event>& events, double period);
 
 class SequenceSearch {
@@ -32,7 +32,7 @@ class SequenceSearch {
 
   [[nodiscard]] bool done() const { return !(bounds_[1] - bounds_[0] > enough_); }
 
-  /// The position to try next, between 0 and 1.
+  /// Position, between 0 and 1, at which the caller computes the next orbit.
   [[nodiscard]] double next();
   /// Enters the result at position x. as_at_begin: true if the sequence is that of the step's beginning;
   /// stretches: empty if unknown.
@@ -46,7 +46,7 @@ class SequenceSearch {
     std::vector<double> stretches;
   };
   struct Guess {
-    double x, from;  // from: the nearest position from which the guess is computed
+    double x, from;  // from: the last position in the extrapolation to x, nearest to the change
   };
   [[nodiscard]] std::optional<Guess> guess_from(const std::vector<Place>& places) const;
 
@@ -55,7 +55,7 @@ class SequenceSearch {
   // the change is last.
   std::array<std::vector<Place>, 2> sides_;
   std::optional<Guess> guess_;
-  double enough_, guess_error_;  // guess_error_: relative to the guess's distance from the nearest position
+  double enough_, guess_error_;  // guess_error_: estimated error of the guess / its distance from Guess::from
 };
 
 }  // namespace signorini::orbit

@@ -90,7 +90,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, ShootingResul
       shot.residual = residual;
       return true;
     }
-    if (shot.residual <= closed_at_last) return false;  // at rounding level shorter steps do not help either
+    if (shot.residual <= closed_at_last) return false;  // at rounding level a shorter step is no better
   }
   return false;
 }
@@ -172,7 +172,7 @@ Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass) {
 
 namespace {
 
-/// True if the remaining residual is the noise of the map.
+/// True if the remaining residual is at most accepted_noise_factor times the noise of the map.
 bool is_noise(const PeriodMap& map, const ShootingResult& shot) {
   if (shot.residual > accepted_noise_factor * max_noise || shot.pass.end_rates.size() == 0) return false;
   const OrbitPass next = map.pass({orbit_state(shot.pass.end), shot.duration, false});
@@ -184,7 +184,7 @@ bool is_noise(const PeriodMap& map, const ShootingResult& shot) {
 
 namespace {
 
-/// Makes a pass from the final state, with tangents. Returns false if the pass stops or is interrupted.
+/// Sets shot.pass to the pass that begins at shot.state, with tangents. Returns false if the pass stops or is interrupted.
 bool run_period(const PeriodMap& map, ShootingResult& shot) {
   shot.pass = map.pass({shot.state, shot.duration});
   if (shot.pass.done()) return true;

@@ -1,13 +1,13 @@
-// shooting.hpp: Newton's method for the state at a section.
+// shooting.hpp: Newton's method for the state of a periodic orbit at a section.
 //
 //   (Phi - I) B x = -(z(T) - z)                                   forced
 //   [ B^T Phi B - I   z'(T) ] [ x  ]   [ -B^T (z(T) - z) ]
 //   [ z'(0)^T B         0   ] [ dT ] = [        0         ]        self-excited
 //
-// For a conservative motion one more row: dE/dz B x = E* - E, E: stored energy, dE/dz = (-M a, M v, T/kt).
+// A conservative motion has one more row: dE/dz B x = E* - E, E: stored energy, dE/dz = (-M a, M v, T/kt).
 //
-// x: change of the coordinates at the section, as least-norm solution; directions with a multiplier of 1 are
-// unchanged. A step is halved until the residual decreases. The residual is relative to the amplitude of the
+// x: change of the coordinates at the section. As least-norm solution, x has no part along directions with a
+// multiplier of 1. A step is halved until the residual decreases. The residual is relative to the amplitude of the
 // motion, separately for u, v and T.
 #pragma once
 
@@ -22,7 +22,7 @@ struct ShootingStart {
   OrbitState state;
   double duration;
   bool free_period = false;
-  /// Residual that is accepted if it no longer decreases; 0: default 1e-9.
+  /// Residual up to which an orbit is accepted although Newton's method stagnates; 0: default 1e-9.
   double closed = 0.0;
   std::optional<double> energy = {};  ///< E* of a conservative motion, in the scene's unit
 };
@@ -42,8 +42,8 @@ struct ShootingResult {
 /// max |z(T) - z| / amplitude of each kind (u, v, T); at rest the scales replace the amplitudes.
 [[nodiscard]] double orbit_residual(const Model& model, const OrbitPass& pass);
 
-/// Residual of another difference of states, `gap`, in coordinates at the pass's section; otherwise as
-/// orbit_residual().
+/// max |gap| / amplitude of each kind (u, v, T). gap: any difference of two states, in coordinates at the section of the
+/// pass, which determines the amplitudes.
 [[nodiscard]] double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
 
 /// Noise of the map: |z2 - z1 - Phi (z1 - z0)| / amplitude, where z1 and z2 are the images of z0 and z1.
@@ -54,7 +54,7 @@ struct ShootingResult {
 /// a difference of two states. A noise above max_noise is not accepted. Chosen values.
 inline constexpr double accepted_noise_factor = 10.0, max_noise = 1e-6;
 
-/// dE/dz B: derivative of the stored energy by the coordinates at the section, in the scene's unit of energy.
+/// dE/dz B: derivative of the stored energy, in the scene's unit, with respect to the coordinates at the section.
 [[nodiscard]] Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section);
 
 /// B^T Phi B of a pass with tangents.

@@ -9,9 +9,9 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr int max_places = 20;          // limit for the evaluations of one search
+constexpr int max_places = 20;          // limit of the function evaluations in one root_between()
 constexpr double sharp_enough = 1e-10;  // |f| at which a search for a zero ends; chosen value
-constexpr double real_enough = 1e-12;   // imaginary part up to which a multiplier is real: rounding
+constexpr double real_enough = 1e-12;   // a multiplier with a smaller imaginary part is real: rounding
 
 }  // namespace
 
@@ -65,10 +65,10 @@ std::optional<double> root_between(double a, double b,
 
 namespace {
 
-// An event is at the section if it is nearer to the section than this, relative to the period. Chosen value.
+// An event is at the section if its distance from the section is below this fraction of the period. Chosen value.
 constexpr double beside_section = 1e-4;
-// Width of the interval in which a change of the sequence is located, in the norm, and smallest ratio of this
-// width to the noise of the map.
+// Width of the interval in which a change of the sequence is located, in the norm of branch_newton.hpp, and smallest
+// ratio of this width to the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
 // Near a graze an orbit changes as the square root of the key. If the orbits at both ends of the interval
 // differ by more than this factor times the square root of the interval's relative width, they belong to
@@ -104,7 +104,7 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::zero_of(cons
   const double a = here.tests.*kind.value, b = next.tests.*kind.value;
   if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
-  // This change of sign is due to the fold.
+  // At a fold a multiplier passes 1, too, so this change of sign is no branch point.
   if (kind.value == &TestValues::branch && turns) return std::nullopt;
   LocatedPoint point{0.0, kind.name, {}, {}};
   const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
@@ -131,7 +131,7 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::end_of_seque
   const std::string sequence = sequence_of(here.pass);
   if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
   LocatedPoint point{0.0, "sequence", {}, {}};
-  bool seen = true;  // at the interval's upper end: true: the sequence differs; false: Newton's method failed
+  bool seen = true;  // false: Newton's method failed at the interval's upper end
   const auto stretches = [&](const CorrectedPoint& c) {
     return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
   };
@@ -219,7 +219,7 @@ bool BranchContinuation::too_long(const CorrectedPoint& here, CorrectedPoint& ne
   if (doubted(change->part) && chord_deviates(place_of(here), change->at, &t, false)) return true;
   if (!doubted(1.0 - change->part)) return false;
   const auto folds = [](const LocatedPoint& p) { return p.kind == "fold"; };
-  // Change of the parameter behind the corner; negative along t beyond a fold.
+  // Change of the parameter after the change of the sequence. If this change is opposite to t_s, the branch has a fold.
   const double there = next.state.s - change->at.state.s;
   if (there * t[t.size() - 1] < 0.0 && std::none_of(points.begin(), points.end(), folds)) return true;
   return chord_deviates(place_of(change->at), next, nullptr, true);

@@ -2,10 +2,10 @@
 //
 //   fold             t_s, the part of the branch's direction along the key
 //   flip             1 + the smallest real multiplier
-//   neimark-sacker   the largest magnitude of a pair - 1
+//   neimark-sacker   the largest magnitude of a complex pair - 1
 //   branch point     the largest real multiplier - 1, if t_s keeps its sign
 //
-// The multipliers 1 of families and of time are excluded.
+// Structural multipliers 1 (of families of orbits, and of a shift in time) are excluded.
 #pragma once
 
 #include <array>

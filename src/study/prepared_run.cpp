@@ -125,7 +125,7 @@ class PictureRows final : public Recorder {
   std::optional<result::BodyMotionFile> bodies_;
 };
 
-/// True if the file has these events. Columns that a certificate has appended to the rows are ignored.
+/// True if events.csv, `file`, has the rows `events`. Columns that a certificate has appended are ignored.
 bool same_events(const std::string& events, const fs::path& file) {
   std::istringstream expected(events);
   std::ifstream found(file, std::ios::binary);
@@ -150,7 +150,7 @@ bool lacks_picture_rows(const fs::path& directory) {
     return (kind == "done" || kind == "stopped") && by_itself &&
            summary.at("versions").at("signorini") == version;
   } catch (const base::Json::exception&) {
-    return false;  // the drawing itself reports the error
+    return false;  // the function that draws the pictures reports the error
   }
 }
 

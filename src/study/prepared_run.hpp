@@ -39,26 +39,26 @@ struct PreparedRun {
                         const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 
-/// Reads a scene with these changes, finds its cutoff and builds its model. go_on: interrupts the search for
-/// the cutoff if it returns false.
+/// Reads a scene with these changes, finds its cutoff and builds its model. go_on: called often during the search for the
+/// cutoff; if it returns false, the search ends.
 /// Errors: those of read_scene, find_cutoff and build_model.
 [[nodiscard]] PreparedRun prepare_run(
     const std::string& file, const std::vector<Override>& changes,
     const std::function<bool()>& go_on = [] { return true; });
 /// Prepares one of several runs that are compared. found: the cutoff of the first run, which all runs use.
 [[nodiscard]] PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found);
-/// Copy of `run` with output rows only at its beginning and its end.
+/// Copy of `run` with output rows only at the beginning and the end of the run.
 [[nodiscard]] RunSpec without_rows(RunSpec run);
 
 // Picture data of a run that was computed with --no-plots.
 //
 //   run.toml -> the same run once more -> motion.csv, curves.csv, body_motion.csv
 //
-// Runs are bitwise reproducible, so the repeated events must equal those of events.csv. If they differ, the
+// Runs are bitwise reproducible, so the events of the new run must equal events.csv. If they differ, the
 // program or a file that run.toml refers to (a record, the continued run) has changed, and no file is written.
 
-/// True if the stored run ended by itself, was computed by this version and has neither motion.csv nor
-/// curves.csv. A table that the manifest does not list is incomplete and is regarded as absent.
+/// True if the stored run ended without an error of its files, was computed by this version of the program, and has
+/// neither motion.csv nor curves.csv. A table that the manifest does not list is incomplete and is regarded as absent.
 [[nodiscard]] bool lacks_picture_rows(const std::filesystem::path& directory);
 
 /// Computes the picture data and adds them to the manifest; returns true if they were written. go_on: called

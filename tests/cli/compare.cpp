@@ -152,7 +152,7 @@ TEST_CASE("cli compare: a limit of what is not in both runs is 5, and says what 
         0);
   const Ending ending = shell.run({"compare", "a", "b", "--no-plots", "--limit", "displacement=1e9"});
   CHECK(ending.code == 5);
-  CHECK(has(ending.err, "displacement has a limit, and "));
+  CHECK(has(ending.err, "displacement has a limit, which cannot be checked: "));
   CHECK(has(ending.err, "in one of the two runs only"));
   CHECK(has(ending.out, "rows compared: history.csv 101, contacts.csv 101"));
   const std::string contacts = shell.read("b/contacts.csv");

@@ -205,7 +205,7 @@ TEST_CASE("cli orbit: steps and points of a branch are those that were asked for
   const Ending few = shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3.0:3.5", "-o", "b",
                                 "--no-plots", "--most-points", "3"});
   CHECK(few.code == 4);
-  CHECK(few.err.find("3 points, the requested maximum") != std::string::npos);
+  CHECK(few.err.find("stopped at the requested maximum of 3 points") != std::string::npos);
   CHECK(rows_of(shell.read("b/branch.csv")) == 4);
   for (const char* wrong : {"--step=0", "--step=2", "--most-points=0"}) {
     CAPTURE(wrong);

@@ -135,7 +135,7 @@ TEST_CASE("cli sweep: --force follows no link") {
   const std::string mine = shell.read("mine");
   const Ending linked = shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet"});
   CHECK(linked.code == 6);
-  CHECK(has(linked.err, "rows.jsonl: is a link, expected the rows of a sweep"));
+  CHECK(has(linked.err, "rows.jsonl: is a symbolic link, expected the rows of a sweep"));
   run_sweep(shell, {"--force"});
   CHECK(shell.read("mine") == mine);
 }
@@ -202,7 +202,7 @@ TEST_CASE("cli sweep: a row of another value, or of another share, is none of th
               .code == 0);
   fs::copy_file(shell / "finer/rows.jsonl", shell / "belt-sweep/rows.jsonl",
                 fs::copy_options::overwrite_existing);
-  refused({"--vary", three_rows}, "is not the row of this sweep with that number");
+  refused({"--vary", three_rows}, "is not from this sweep: its values of the varied keys differ");
   REQUIRE(shell
               .run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "--share", "2/2",
                     "-o", "half"})
@@ -250,7 +250,7 @@ TEST_CASE("cli sweep: shares that contradict each other are not merged") {
   const Ending ending = merge();
   CHECK(ending.code == 6);
   CHECK_MESSAGE(has(ending.err, "two/rows.jsonl: line "), ending.err);
-  CHECK(has(ending.err, "contradicts another share's row 1"));
+  CHECK(has(ending.err, "differs from row 1 of another share"));
 }
 
 TEST_CASE("cli: a gnuplot that floods is ended, and the run is there") {

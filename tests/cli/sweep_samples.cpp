@@ -337,7 +337,7 @@ TEST_CASE(
   shell.write("swept/rows.jsonl", shell.read("swept/rows.jsonl") + line_of(shell, "longer", 3));
   const Ending beyond = shell.run(sweep);
   CHECK(beyond.code == 6);
-  CHECK_MESSAGE(has(beyond.err, "rows.jsonl: line 3: row 3 is no row of this sweep, which has 2"),
+  CHECK_MESSAGE(has(beyond.err, "rows.jsonl: line 3: row 3 is not a row of this sweep, which has 2"),
                 beyond.err);
 }
 

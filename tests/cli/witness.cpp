@@ -269,7 +269,7 @@ TEST_CASE("cli witness: a run that stops has rows of a step that leads to no ins
     shell.write("kept/summary.json", summary.replace(kind, 9, "\"done\""));
     const Ending done = shell.run({"witness", "kept"});
     CHECK(done.code == 6);
-    CHECK(done.err.find("found no more, expected the instant at t = ") != std::string::npos);
+    CHECK(done.err.find("found the end of the file, expected the instant at t = ") != std::string::npos);
   }
 }
 
@@ -464,17 +464,18 @@ TEST_CASE("cli witness: tables that end before the run does") {
                     events = shell.read("kept/events.csv"), instants = shell.read("kept/instants.csv");
   // 501 times of two contacts behind the header.
   cut("contacts.csv", first_rows(contacts, 0.5),
-      "line 503: found no more, expected the row of contact \"foot\" at t = 0.75");
+      "line 503: found the end of the file, expected the row of contact \"foot\" at t = 0.75");
   cut("contacts.csv", first_rows(contacts, 0.0),
-      "line 2: found no more, expected the row of contact \"floor\" at t = 0;");
+      "line 2: found the end of the file, expected the row of contact \"floor\" at t = 0;");
   cut("contacts.csv", contacts.substr(0, contacts.size() - 1),
       "found no line break, expected the row of contact \"foot\" at t = 1.5");
-  cut("motion.csv", first_rows(motion, 0.0), "line 2: found no more, expected rows of contact \"floor\"");
+  cut("motion.csv", first_rows(motion, 0.0),
+      "line 2: found the end of the file, expected rows of contact \"floor\"");
   cut("motion.csv", first_rows(motion, 0.1), "expected rows of contact \"foot\"");
   cut("motion.csv", first_rows(motion, 0.9), "expected rows of contact \"foot\" up to t = 1.5");
   cut("motion.csv", motion.substr(0, motion.size() - 1), "found no line break");
   cut("events.csv", events.substr(0, events.size() - 1), "found no line break");
-  cut("events.csv", first_rows(events, 0.5), "found no more, expected ");
+  cut("events.csv", first_rows(events, 0.5), "found the end of the file, expected ");
   cut("instants.csv", instants.substr(0, instants.size() - 1), "");
   std::vector<Cells> halves = cells_of(instants);
   halves.resize(1 + 2 * (halves.size() / 4));
@@ -483,7 +484,7 @@ TEST_CASE("cli witness: tables that end before the run does") {
   std::filesystem::remove(shell / "kept/motion.csv");
   const Ending ending = shell.run({"witness", "kept"});
   CHECK(ending.code == 6);
-  CHECK(ending.err.find("kept/motion.csv: not found, expected it beside curves.csv") != std::string::npos);
+  CHECK(ending.err.find("kept/motion.csv: not found, although curves.csv exists") != std::string::npos);
 }
 
 TEST_CASE("cli witness: JSON, for programs") {

@@ -41,8 +41,8 @@ void measure_mass(const Scene& scene, const Model& structure, CheckReport& repor
 
 /// Warns of the part of the initial state that the reduced model cannot represent.
 void warn_of_lost_state(const Model& model, std::vector<std::string>& warnings) {
-  constexpr double min_reported_loss =
-      1e-9;  // smaller losses, relative to the scene's scales, are not reported
+  // Smaller losses, relative to the scene's scales, are not reported.
+  constexpr double min_reported_loss = 1e-9;
   const Reduction& reduction = *model.reduction;
   const auto warn = [&](double lost, double scale, const char* what, const std::string& unit) {
     if (lost > min_reported_loss * scale)

@@ -1,8 +1,8 @@
-// check.hpp: facts about a scene, found by all steps of a run except its time loop.
+// check.hpp: facts about a scene, computed by all steps of a run before its time loop.
 //
 //   read_scene -> build_model -> simulate, stopped after the first step        the same code as a run
 //
-// A scene that passes can be run, and a scene that cannot be run is refused with the same message.
+// If check() succeeds, a run can start. Otherwise check() and the run have the same error message.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@
 
 namespace signorini::check {
 
-/// Mass of the scene, including parts on fixed degrees of freedom; node scenes only.
+/// Mass of the scene, including parts on fixed degrees of freedom. Only for scenes with nodes.
 struct MassFacts {
   double total = 0.0;
   double x = 0.0, y = 0.0;  ///< centre of mass
-  /// r M r for a unit translation of all free degrees of freedom in x or y
+  /// r^T M r; r: unit translation of all free degrees of freedom in x or in y
   double moving_x = 0.0, moving_y = 0.0;
 };
 
@@ -36,7 +36,7 @@ struct StiffnessRatio {
 /// A time in [0, t_end] at which a load, a compression or a surface velocity is not smooth.
 struct Discontinuity {
   double t = 0.0;
-  bool jump = false;        ///< false: a kink
+  bool jump = false;        ///< true: the value jumps; false: only the slope jumps
   std::string description;  ///< "load 1", "normal_force of contact 'pad'"
 };
 
@@ -55,12 +55,12 @@ struct Cost {
 struct CheckReport {
   long degrees_of_freedom = 0, massless = 0;
   std::optional<MassFacts> mass;
-  double least_mass = 0.0, greatest_mass = 0.0;  ///< nonzero entries on the diagonal of M
+  double least_mass = 0.0, greatest_mass = 0.0;  ///< least and greatest nonzero entry on the diagonal of M
   std::vector<ContactSample> contacts;           ///< contacts just after t = 0
   std::vector<std::string> warnings;             ///< warnings of the run, and model warnings
   /// Motions of the structure that its closed contacts do not restrain, or restrain only by friction; one text each.
   std::vector<std::string> free_motions;
-  modes::Frequencies open, closed, stuck;           ///< all contacts open, closed, or sticking
+  modes::Frequencies open, closed, stuck;           ///< with all contacts open, closed, or sticking
   std::optional<std::vector<double>> load_factors;  ///< only with run.geometric: Geometric::load_factors
   std::vector<StiffnessRatio> stiffness;
   std::vector<Discontinuity> discontinuities;  ///< in ascending time
@@ -82,11 +82,11 @@ void measure_cost(const Scene& scene, const Model& model, std::vector<double> cu
 
 }  // namespace signorini::check
 
-// The parts of check().
+// Functions that check() calls.
 
 namespace signorini::checks {
 
-/// Result of the first state decision and the first step, by simulate() itself.
+/// Result of the first decision of contact states and of the first step, computed by simulate().
 struct Start {
   std::vector<ContactSample> contacts;
   Method method;
@@ -109,7 +109,7 @@ struct Ambiguity {
 /// Sentence about an unstable motion with the contact states of t = 0; empty if there is none.
 [[nodiscard]] std::string unstable_motion(const Scene& scene, const Model& model,
                                           const std::vector<ContactSample>& contacts);
-// Each of these functions computes one member of CheckReport.
+// Each of the following functions computes one member of CheckReport.
 [[nodiscard]] check::MassFacts mass_of(const Scene& scene, const Model& model);
 [[nodiscard]] std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                                     const std::vector<ContactSample>& contacts);

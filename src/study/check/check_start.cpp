@@ -164,7 +164,7 @@ check::Cost cost_of(const Model& model, const RunSpec& run, const Method& method
 namespace signorini::check {
 
 void measure_cost(const Scene& scene, const Model& model, std::vector<double> cutoffs, CheckReport& report) {
-  constexpr double patience = 0.5, long_run = 2.0;  // s
+  constexpr double patience = 0.5, long_run = 2.0;  // s: time per trial; duration of a long run
   const Engine own = report.method.engine;
   report.cost.trials = run::trials(scene, model, own, cutoffs, patience);
   if (!cutoffs.empty() || scene.reduction || report.stuck.modes.empty()) return;

@@ -20,7 +20,7 @@
 namespace signorini::checks {
 namespace {
 
-/// r M r for a unit translation of all degrees of freedom whose name ends with `component`.
+/// r^T M r; r: unit translation of all degrees of freedom whose name ends with `component`.
 double moving_mass(const Model& model, std::string_view component) {
   Vector r = Vector::Zero(model.size());
   for (int i = 0; i < model.size(); ++i)
@@ -126,8 +126,8 @@ check::MassFacts mass_of(const Scene& scene, const Model& model) {
 
 namespace {
 
-/// The structure without sliding points (model/rigid_contacts.hpp), which are the last degrees of freedom. In
-/// a free motion their springs have no elongation, so the points have no independent motion.
+/// The structure without sliding points (model/rigid_contacts.hpp), which are the last degrees of freedom. In a free
+/// motion the springs of these points have no elongation, so the points have no independent motion.
 struct WithoutSlipPoints {
   WithoutSlipPoints(const Model& model, int own) : contacts(model.contacts), size(own) {
     stiffness = model.stiffness.topLeftCorner(own, own);

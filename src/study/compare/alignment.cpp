@@ -76,7 +76,7 @@ class Walk {
 
   [[nodiscard]] const LoggedEvent& operator[](std::size_t i) const { return events_[i]; }
 
-  /// The first event that has not been taken.
+  /// The first event that is neither paired nor skipped.
   std::optional<std::size_t> first() {
     while (head_ < order_.size() && taken_[order_[head_]]) ++head_;
     if (head_ == order_.size()) return std::nullopt;
@@ -94,7 +94,7 @@ class Walk {
 
   void take(std::size_t i) { taken_[i] = true; }
 
-  /// Events before i that have not been taken.
+  /// Events before event i that are neither paired nor skipped.
   std::vector<std::size_t> passed_over(std::size_t i) {
     std::vector<std::size_t> list;
     first();

@@ -7,7 +7,7 @@
 // without a partner ends the list of pairs.
 //
 // Only events of different contacts may have a different order, and only if the order is insignificant: the events
-// are within one instant, or, in one of the two lists, closer than their uncertainties (then counted as
+// are within one instant, or, in one of the two lists, closer than their uncertainties (these events are counted as
 // `swapped`). Rows of the type `time` are ignored, because they are jumps of the loads, not changes of the motion.
 #pragma once
 
@@ -26,11 +26,10 @@
 namespace signorini::compare {
 
 /// The largest of many differences, and its place.
-
 struct MaxDifference {
   double value = 0.0;
   double t = 0.0;
-  std::string where;  ///< a column, a contact, an event
+  std::string where;  ///< name of the column, contact or event
 
   /// Keeps the larger difference. NaN is regarded as larger than all numbers.
   void update(double difference, double at, const std::string& place) {
@@ -62,7 +61,7 @@ struct Deviation {
 //
 //   TimeJoin join(a / "history.csv", b / "history.csv");
 //   while (join.next()) use(join.t(), join.a().number(3), join.b().number(4));
-//   join.rows()                                               number of rows of each, and of common ones
+//   join.rows()                                               numbers of rows of both tables, and of common rows
 //
 // Rows at times that only one table has are counted but not compared. Times are equal if they differ by rounding only.
 
@@ -80,9 +79,9 @@ class TimeJoin {
   TimeJoin(const std::filesystem::path& a, const std::filesystem::path& b,
            double until = std::numeric_limits<double>::infinity())
       : a_(a), b_(b), until_(until) {}
-  /// Moves to the next common time; returns false if there is none, after all rows have been counted.
+  /// Moves to the next common time. Returns false if there is no further common time; rows() then counts all rows.
   bool next();
-  /// Rows of a (reference) and b (other).
+  /// Numbers of rows read so far. reference: table a; other: table b.
   [[nodiscard]] const RowCount& rows() const { return rows_; }
   [[nodiscard]] double t() const { return t_; }
   [[nodiscard]] const result::CsvReader& a() const { return a_; }
@@ -100,7 +99,7 @@ class TimeJoin {
 class ContactRowReader {
  public:
   explicit ContactRowReader(const std::filesystem::path& path);
-  /// Moves to the next time. If the last time is incomplete, it has fewer contacts.
+  /// Moves to the next time; returns false after the last one. An incomplete last time has fewer contacts.
   bool next();
   struct Forces {
     double N = 0.0, T = 0.0;
@@ -134,7 +133,7 @@ struct LoggedEvent {
 };
 
 struct AlignedPair {
-  std::size_t reference = 0, other = 0;  ///< indices into the two lists
+  std::size_t reference = 0, other = 0;  ///< indices of both partners in their lists
   /// True if, in the other list, this event comes after an event that follows it in the reference.
   bool swapped = false;
 };
@@ -154,7 +153,7 @@ struct Alignment {
 
 struct AlignmentSettings {
   double t_end = 0.0;    ///< time that both runs reach; later events are ignored
-  double instant = 0.0;  ///< events closer than this time have no order; at least the rounding of t_end
+  double instant = 0.0;  ///< events closer than this time may swap; at least the rounding of t_end
 };
 
 /// Aligns the events of two runs. Both lists must ascend in t. Cost: proportional to the number of events

@@ -94,7 +94,7 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
 void compare_response(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
   if (a.figures.facts.response.empty() || b.figures.facts.response.empty()) return;
   TimeJoin join(a.figures.directory / "response.csv", b.figures.directory / "response.csv", c.t_end);
-  Comparison ignored;  // only its notes are used
+  Comparison ignored;  // collects the notes about columns without a partner
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "response.csv");
   c.notes.insert(c.notes.end(), ignored.notes.begin(), ignored.notes.end());
   for (const CommonColumn& column : columns)
@@ -102,7 +102,7 @@ void compare_response(const ComparedRun& a, const ComparedRun& b, double split, 
       if (output.name == column.name) c.response.push_back({output.name, output.unit, {}});
   if (c.response.size() != columns.size()) {
     c.response.clear();
-    c.notes.emplace_back("response.csv: its columns are not those of summary.json, and are not compared");
+    c.notes.emplace_back("response.csv is not compared: its columns differ from the outputs in summary.json");
     return;
   }
   while (join.next())
@@ -151,7 +151,7 @@ bool next_row(ContactRowReader& reader, double end, std::size_t& count) {
   return true;
 }
 
-using ForcesByContact = std::map<std::string, std::pair<Deviation, Deviation>>;  // N and T
+using ForcesByContact = std::map<std::string, std::pair<Deviation, Deviation>>;  // deviations of N and of T
 
 void add_columns(const ForcesByContact& by_contact, const ComparedRun& reference, Comparison& c) {
   for (const auto& contact : reference.figures.facts.contacts) {

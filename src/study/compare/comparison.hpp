@@ -61,7 +61,7 @@ struct Comparison {
   std::vector<std::string> notes;  ///< parts that could not be compared, one sentence each
 };
 
-/// Compares `other` with `reference`. Errors: FileError, also for the settings' folder.
+/// Compares `other` with `reference`. Errors: FileError, also if the folder in `settings` cannot be written.
 [[nodiscard]] Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
                                       const ComparisonSettings& settings = {});
 

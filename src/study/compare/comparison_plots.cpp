@@ -141,7 +141,7 @@ class Pictures {
     return result::canvas_of(runs_.front().look, 142.0 + 230.0 * static_cast<double>(panels), true);
   }
 
-  /// Command for a fixed axis if the curves of all runs together are nearly constant.
+  /// gnuplot command for a fixed axis if the curves of all runs are nearly constant; otherwise for an automatic axis.
   [[nodiscard]] std::string axis(const std::string& contact, const ContactCurve& curve) const {
     result::Range all;
     result::ContactScales scales;

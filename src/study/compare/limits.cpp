@@ -72,26 +72,26 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
 }
 
-/// Text about columns or contacts of the quantity that only one run has. Empty if at least one exists and
-/// both runs have all.
+/// Text about columns or contacts of the quantity that only one run has. Empty if the quantity has at least
+/// one column or contact, and both runs have all of them.
 std::string not_common(const Quantity& quantity, const Comparison& c) {
   const std::vector<std::string>& alone = quantity.deviation->unmatched;
   if (quantity.deviation->count > 0 && alone.empty()) return "";
   std::vector<std::string> common;
   for (const auto& [name, deviation] : c.columns) common.push_back(name);
-  const std::string both = common.empty() ? "no column" : listed(common);
+  const std::string both = common.empty() ? "none" : listed(common);
   if (!alone.empty())
-    return fmt::format("{} {} in one of the two runs only; in both: {}", listed(alone),
+    return fmt::format("{} {} in one of the two runs only; columns in both runs: {}", listed(alone),
                        alone.size() == 1 ? "is" : "are", both);
   if (quantity.name == "force_away" && c.force.count > 0) return "no output time is away from events";
-  return "neither run has any; in both: " + both;
+  return "neither run has such a column; columns in both runs: " + both;
 }
 
 /// Reason why a limit on the quantity cannot be applied to both runs; empty if it can be applied.
 std::string no_comparison(const Quantity& quantity, const RunFigures& reference, const RunFigures& other,
                           const Comparison& c) {
   if (quantity.name == "event_time") return "";  // exceeded() also checks events without a partner
-  if (c.common_times < 2) return "there are no output times to compare";
+  if (c.common_times < 2) return "the two runs have fewer than two common output times";
   if (std::string why = not_common(quantity, c); !why.empty()) return why;
   return not_covered(quantity.name, reference, other, c);
 }
@@ -180,8 +180,8 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
       list.push_back(fmt::format(
-          "{}: sequence differs from t = {:.9g} on, {} from then on exceed the limit {}", other.name,
-          split->t, base::count_text(unaligned, "event"), base::format_number(limit.value)));
+          "{}: the sequence of events differs from t = {:.9g} on: {} after this time, the limit is {}",
+          other.name, split->t, base::count_text(unaligned, "event"), base::format_number(limit.value)));
       continue;
     }
     const std::vector<Quantity> known = quantities(comparison, reference.facts.units);
@@ -193,7 +193,8 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       const MaxDifference& greatest = quantity.deviation->whole;
       const std::string why = whole ? no_comparison(quantity, reference, other, comparison) : "";
       if (!why.empty())
-        list.push_back(fmt::format("{}: {} has a limit, and {}", other.name, limit.name, why));
+        list.push_back(
+            fmt::format("{}: {} has a limit, which cannot be checked: {}", other.name, limit.name, why));
       if (!(greatest.value <= limit.value))
         list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds {}", other.name, limit.name,
                                    greatest.value, quantity.unit, greatest.t, greatest.where,

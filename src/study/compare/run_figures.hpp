@@ -21,8 +21,8 @@ struct RunFigures {
   std::string name;  ///< name in tables: the engine, or the directory as given
   std::filesystem::path directory;
   result::RunFacts facts;      ///< outcome: done, stopped, interrupted, running
-  std::string engine, reason;  ///< reason: empty when done
-  double t = 0.0;              ///< time reached; the last output time if the summary lacks it
+  std::string engine, reason;  ///< reason: why the run ended early; empty if it is done
+  double t = 0.0;              ///< time that the run reached; the last output time if the summary has none
   std::optional<double> wall_time;
   std::optional<long> steps, factorisations, solves, restarts;
   std::map<std::string, long> events_by_type;

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t max_stored_violations = 100;  // limit of stored violations; all are counted
+constexpr std::size_t max_stored_violations = 100;  // limit of stored violations; later ones are only counted
 
 study::PreparedRun prepared_of(const fs::path& directory) {
   const fs::path path = directory / "run.toml";
@@ -99,7 +99,7 @@ class DirectoryLawChecker {
     refuse_if_cut(reader.rows());
   }
 
-  /// Refuses files that are cut. A completed run must have an instant at its end, every event must be at an
+  /// Refuses files whose end is missing. A completed run must have an instant at its end, every event must be at an
   /// instant, and every change of state must have an event.
   void refuse_if_cut(const result::CsvReader& reader) const {
     const auto refuse = [](const std::string& file, const std::string& why) { throw FileError(file, why); };
@@ -110,7 +110,7 @@ class DirectoryLawChecker {
     if (recorded_.ended && reader.is_cut()) refuse(path, truncation_message(reader, "a line break"));
     if (last_change_ > last_event_ && lacking_ > 0)
       refuse((directory_ / "events.csv").string(),
-             fmt::format("line {}: found no more, expected {}, up to t = {:.9g}; the file is cut",
+             fmt::format("line {}: found the end of the file, expected {} up to t = {:.9g}; the file is cut",
                          result_.events + 2, base::count_text(static_cast<std::size_t>(lacking_), "event"),
                          last_change_));
   }
@@ -121,11 +121,12 @@ class DirectoryLawChecker {
     std::error_code none;
     if (fs::exists(directory_ / "motion.csv", none)) return true;
     if (fs::exists(directory_ / "curves.csv", none))
-      throw FileError((directory_ / "motion.csv").string(), "not found, expected it beside curves.csv");
+      throw FileError((directory_ / "motion.csv").string(),
+                      "not found, although curves.csv exists; a run writes both files");
     return false;
   }
 
-  /// Reports the next row of events.csv, because there is no instant at its time.
+  /// Reports a violation: no instant has the time of the next row of events.csv.
   void unmatched() {
     add({events_.front().t, "events.csv", events_.front().contact, "record", 1.0, 0.0, {}, true});
     events_.pop_front();
@@ -151,7 +152,7 @@ class DirectoryLawChecker {
         add({recorded_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
   }
 
-  /// Rows of events.csv that belong to the instant: contacts in ascending order, each row from the contact's
+  /// Rows of events.csv that belong to the instant: their contacts ascend, and the old state of each row is the contact's
   /// state before the instant.
   std::vector<Event> events_of(const InstantRow& row) {
     while (!events_.empty() && events_.front().t < row.t) unmatched();
@@ -166,8 +167,8 @@ class DirectoryLawChecker {
     }
     return events;
   }
-  /// True if the event starts from the contact's state before the instant. events.csv names a user law's
-  /// state by its kind.
+  /// True if the event's old state is the contact's state before the instant. events.csv contains the kind of a
+  /// user law's state instead of the state.
   [[nodiscard]] static bool begins_with(const Event& event, const InstantRow& row) {
     const State state = row.before.states[static_cast<std::size_t>(event.contact)].state;
     return std::string(to_string(state)) == to_string(event.from);
@@ -207,7 +208,7 @@ class DirectoryLawChecker {
         last_change_ = row.t;
   }
 
-  /// Checks that are not made during a run: continuity from the previous instant, the start of the scene, and
+  /// Checks that a run itself does not make: continuity from the previous instant, the start of the scene, and
   /// the forces on the structure.
   void check_transition(const InstantRow& row, const law_check::InstantRecord& record) {
     if (row.start) given_start(row);
@@ -227,7 +228,7 @@ class DirectoryLawChecker {
     left_driven_ = record.after.driven;
   }
 
-  /// Checks the initial values against the scene. A static start is checked by its forces instead.
+  /// Checks the initial values against the scene. A static start is checked by check_equilibrium() instead.
   void given_start(const InstantRow& row) {
     if (model_.static_start || model_.reduction) return;
     for (const auto& [recorded, asked, unit] : {std::tuple(&row.before.u, &model_.u0, seen::length),
@@ -281,7 +282,7 @@ class DirectoryLawChecker {
   TableRowChecker rows_;
   std::deque<Event> events_;
   std::optional<InstantRow> last_;               // the previous instant
-  std::vector<law_check::Driven> left_driven_;   // prescribed motions of the contacts just after it
+  std::vector<law_check::Driven> left_driven_;   // prescribed motions of contacts just after that instant
   double t_ = 0.0;                               // time of the previous instant
   double last_event_ = 0.0, last_change_ = 0.0;  // times of the last event and of the last change of a state
   long lacking_ = 0;                             // number of events of summary.json that events.csv lacks

@@ -2,11 +2,11 @@
 //
 //   run.toml -> model;   summary.json -> engine;   instants.csv, events.csv -> src/law_check, instant by instant
 //   contacts.csv   each row: state of the last instant, guards of this state, forces of this state
-//   summary.json   as many events of each type as in events.csv; peaks at least as large as the rows
+//   summary.json   as many events of each type as in events.csv; peaks at least as large as the values in the rows
 //
 //   DirectoryLawCheck found = check_directory_laws("pipeline-run");
 //
-// The run's own law-check result is not read. Errors: FileError for files that are missing, cut or not tables of a run,
+// The law-check result in summary.json is not read. Errors: FileError for files that are missing, cut or no tables of a run,
 // SceneError for run.toml.
 #pragma once
 

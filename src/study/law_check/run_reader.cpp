@@ -196,7 +196,7 @@ int ContactNames::at(const std::string& name, const std::filesystem::path& file,
 
 std::string truncation_message(const result::CsvReader& reader, const std::string& lacks) {
   return fmt::format("line {}: found {}, expected {}; the file is cut", reader.line(),
-                     reader.is_cut() ? "no line break" : "no more", lacks);
+                     reader.is_cut() ? "no line break" : "the end of the file", lacks);
 }
 
 std::vector<Event> read_recorded_events(const std::filesystem::path& directory, const Model& model,
@@ -222,7 +222,8 @@ RecordedSummary read_recorded_summary(const std::filesystem::path& directory, co
     const std::optional<Engine> known = find_engine(engine);
     if (!known || *known == Engine::automatic) {
       if (recorded.ended)
-        throw FileError(path.string(), "engine: found \"" + base::excerpt(engine) + "\", expected an engine");
+        throw FileError(path.string(),
+                        "engine: found \"" + base::excerpt(engine) + "\", expected the name of an engine");
       return recorded;
     }
     recorded.engine = *known;

@@ -20,8 +20,8 @@ struct RecordedSummary {
   Engine engine = Engine::automatic;
   std::string flow;      ///< flow of the engine exact: "modal" or "taylor"
   bool ended = true;     ///< false: the run is still being written, or was killed
-  bool stopped = false;  ///< the run stopped before t_end
-  double t = 0.0;        ///< time reached
+  bool stopped = false;  ///< true: the run stopped before t_end
+  double t = 0.0;        ///< time that the run reached
   long total = 0;        ///< number of events
   std::map<std::string, long> events_by_type;
   /// Extremes of a contact's forces over the run; absent in the summary of an older version.
@@ -40,7 +40,7 @@ struct RecordedSummary {
 [[nodiscard]] std::vector<Event> read_recorded_events(const std::filesystem::path& directory,
                                                       const Model& model, bool ended);
 
-/// Message for a table that ends too early: the line of its end, and `lacks`, the missing part.
+/// Message for a table that ends too early. lacks: the missing part, for instance "a line break".
 [[nodiscard]] std::string truncation_message(const result::CsvReader& reader, const std::string& lacks);
 
 /// Finds the index of a contact by its name. Errors: FileError with file and line if the name is unknown.
@@ -73,9 +73,9 @@ class RecordedRowReader {
   RecordedRowReader(const std::filesystem::path& file, const Model& model);
 
   [[nodiscard]] std::optional<RecordedRow> next();
-  /// False for tables of older runs, which lack the column.
+  /// True if the table has a column `ratio`, which tables of older versions lack.
   [[nodiscard]] bool has_ratios() const { return ratios_; }
-  /// True if a last line without its line break was omitted.
+  /// True if the last line has no line break. This line was not read as a row.
   [[nodiscard]] bool is_cut() const { return reader_.is_cut(); }
   /// Throws a FileError with the line at which the table ends too early. lacks: the missing part.
   [[noreturn]] void refuse_truncated(const std::string& lacks) const;

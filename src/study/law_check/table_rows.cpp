@@ -45,7 +45,7 @@ void TableRowOrder::end_of_grid(const RecordedRowReader& reader) const {
                 std::lower_bound(run_.grid.begin(), run_.grid.end(), run_.reached,
                                  [](double t, double end) { return t < end && !same(t, end); }) -
                 run_.grid.begin());
-  // Rows out of order are reported as violations instead.
+  // If rows are out of order, violations have been reported already, and a missing last row is no error.
   const bool at_last = !in_order_ && place_ + 1 >= least;
   if ((place_ < least && !at_last) || (due_ > 0 && run_.ended && in_order_))
     reader.refuse_truncated(fmt::format("the row of contact \"{}\" at t = {:.9g}", model_.contacts[due_].name,
@@ -150,7 +150,7 @@ void TableRowChecker::check(const RecordedRow& row, const RecordedRowReader& rea
                             const Found& found) {
   if (reader.has_ratios()) check_ratio(row, file, found);
   const Contact& c = model_.contacts[row.contact];
-  // Smallest list of violations among the states at the row's time that have the row's state name.
+  // Shortest list of violations. Candidates: the states at the row's time with the same name as the row's state.
   std::optional<std::vector<Violation>> least;
   for (const ContactState& state : states_at(row.contact, row.t)) {
     if (row.state != to_string(state.state)) continue;
@@ -179,7 +179,8 @@ std::vector<Violation> TableRowChecker::violations_of(const RecordedRow& row, co
   m.dut = row.vt;
   m.displacement_size = size.place + model_.scales.displacement;
   m.velocity_size = size.speed;
-  if (c.compliance_split() && !is_open(state.state)) {  // the table lacks the springs' own gap and ut
+  // For a compliance split the table has gap and ut of the surfaces; the laws need those of the springs.
+  if (c.compliance_split() && !is_open(state.state)) {
     m.g = row.N / c.normal_stiffness;
     if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
   }
@@ -222,7 +223,7 @@ void TableRowChecker::check_forces(const RecordedRow& row, const ContactState& s
 }
 
 /// Checks slip = ut - T/kt. For a compliance split ut is the displacement of the surfaces, so slip = ut.
-/// of_force: error of T.
+/// of_force: error bound of T.
 void TableRowChecker::check_slip(const RecordedRow& row, const char* file, double of_force,
                                  const Found& found) const {
   const Contact& c = model_.contacts[row.contact];
@@ -252,7 +253,7 @@ void TableRowChecker::check_ratio(const RecordedRow& row, const char* file, cons
 }
 
 void TableRowChecker::reach(const RecordedRow& row) {
-  // The last step of a stopped run has rows but no instant at its end; no peak includes these rows.
+  // The last step of a stopped run has rows but no instant at its end; the peaks do not include these rows.
   if (stopped_ && !states_.empty() && row.t > states_.back().t) return;
   Peak& peak = peaks_[row.contact];
   const Size& size = sizes_[row.contact];

@@ -3,7 +3,7 @@
 //   state    the state after the last instant; the guards of this state are satisfied
 //   forces   N = kn g;  sticking: T = kt (ut - p);  slipping: T = -s fk N
 //   ratio    |T| / |N|, only for a closed contact with friction and N != 0
-//   peaks    of summary.json: at least as large as all rows; in a stopped run, as the rows up to the last instant
+//   peaks    in summary.json: no row exceeds them; in a stopped run, no row up to the last instant
 //
 //   TableRowChecker rows(model, engine, checker);
 //   for each instant: rows.instant(record);
@@ -32,8 +32,8 @@ namespace signorini::directory_check {
 /// Time span of a run.
 struct RunSpan {
   std::vector<double> grid;           ///< output times, up to t_end
-  bool ended = true, stopped = true;  ///< as in the run's summary
-  /// Time reached as recorded; for a run that has not ended, the last instant.
+  bool ended = true, stopped = true;  ///< ended: not still running; stopped: before t_end
+  /// Time that the run reached, from summary.json; if the run has not ended, time of the last instant.
   double reached = 0.0;
 };
 
@@ -64,7 +64,7 @@ class TableRowOrder {
   const Found& found_;
   std::size_t place_ = 0, due_ = 0;  // expected next row: index in the grid, and contact
   bool in_order_ = true;
-  std::optional<RecordedRow> last_;  // last row of a contact's block
+  std::optional<RecordedRow> last_;  // the previous row of motion.csv
 };
 
 class TableRowChecker {

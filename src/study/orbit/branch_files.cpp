@@ -218,8 +218,8 @@ struct DrawnPoint {
   bool stable, unstable;     // true if the stable or unstable curve contains the point
 };
 
-/// A segment is unstable if one of its ends is unstable. A point of undecided stability belongs to the curves
-/// of both neighbours.
+/// Rows of the picture's table. A segment between two points is drawn as unstable if one of its ends is unstable. A point
+/// of undecided stability belongs to the curves of both neighbours.
 std::vector<DrawnPoint> drawn_points(const Branch& branch) {
   std::vector<const BranchPoint*> order;
   for (const BranchPoint& p : branch.points) order.push_back(&p);
@@ -263,7 +263,7 @@ class BranchTable {
         block.number(cell(*p.point));
     });
   }
-  /// gnuplot columns with values in the stable or unstable parts, and NaN elsewhere.
+  /// gnuplot columns x:y. y: column `name` where column `kind` ("stable" or "unstable") is 1, and NaN elsewhere.
   [[nodiscard]] std::string parts(const std::string& name, const char* kind) const {
     return fmt::format("{}:({} > 0 ? {} : NaN)", table_.number("x"), table_.value(kind), table_.value(name));
   }

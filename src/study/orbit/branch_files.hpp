@@ -1,8 +1,8 @@
 // branch_files.hpp: files of `orbit --over`.
 //
-//   branch.csv    one row per point of the branch, written as it is found (docs/command-line.md)
+//   branch.csv    one row per point of the branch, written as soon as the point is found (docs/command-line.md)
 //   branch.json   the key, the reason for the branch's end, its sequences of events by number
-//   last/         a point of the first branch, in the format of `orbit`, and mark.json, for --resume
+//   last/         checkpoint for --resume: a point of the first branch, in the format of `orbit`, and mark.json
 //
 // last/ is updated while the branch is followed. Each update is written to a temporary folder, which then
 // replaces last/. Therefore last/ is complete even after a kill.
@@ -48,7 +48,7 @@ void remove_mark(const std::filesystem::path& directory);
 
 // Picture of a branch of orbits: a frequency response, or amplitudes over another key.
 //
-//   plots/branch.gp     one panel per output (its least and largest value in a period), the largest
+//   plots/branch.gp     one panel per output (least and largest value of the output in a period), the largest
 //                       multiplier, the number of the sequence of events; stable parts solid, unstable ones
 //                       dashed, special points as symbols
 //   plots/branch.csv    the curves: x, stable 1 or 0, sequence, special, multiplier, amplitude, outputs

@@ -50,7 +50,7 @@ std::string quoted(const fs::path& path) {
   return text + "\"";
 }
 
-/// The summary contains only the data from which a run continues (scene/read_initial.cpp).
+/// Text of start/summary.json, with the only entries that a continuing run reads (scene/read_initial.cpp).
 std::string start_summary(const Model& model) {
   const Scales& s = model.scales;
   const base::Json scales = {{"displacement", s.displacement},

@@ -86,7 +86,7 @@ void scale(std::vector<double>& values, double factor) {
   for (double& value : values) value *= factor;
 }
 
-/// Adds the terms with c1 and c2, chosen so that the ground's velocity and displacement are zero at the end.
+/// Adds the terms with c1 and c2 (quake.hpp), which make the ground's final velocity and displacement zero.
 void come_to_rest(std::vector<double>& a, double dt) {
   std::vector<double> first(a.size()), second(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) {

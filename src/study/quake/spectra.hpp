@@ -25,7 +25,7 @@ namespace signorini::quake {
 //       TB <= T <= TC  2.5 ag S                       TD <= T         2.5 ag S TC TD / T^2
 //   a file                rows T,PSA with ascending T; log PSA is linear in log T between rows, constant beyond them
 //
-// Unit of T: s; of PSA: that of ag, or the file's.
+// Units: T in s; PSA in the unit of ag, or in the unit of the file.
 
 class TargetSpectrum {
  public:
@@ -37,7 +37,7 @@ class TargetSpectrum {
 
  private:
   double ag_ = 0.0, soil_ = 0.0, TB_ = 0.0, TC_ = 0.0, TD_ = 0.0;
-  std::vector<std::pair<double, double>> rows_;  // rows of a file
+  std::vector<std::pair<double, double>> rows_;  // (T, PSA) from a file; empty for "ec8-..."
 };
 
 }  // namespace signorini::quake

@@ -11,11 +11,11 @@ namespace {
 // Number of terms of the series for each force. Chosen value; tests/unit/study/reduction/excited_modes
 // compares the result with all modes.
 constexpr int terms = 4;
-constexpr double dependent = 1e-10;  // fraction of a vector's energy outside the span that is only rounding
+constexpr double dependent = 1e-10;  // a smaller part of a vector's energy outside the span is rounding
 // Smallest 1/omega^2 of a vector, relative to the largest; below it the vector responds without inertia.
 constexpr double needs_no_mass = 1e-12;
 
-/// Vectors that are orthonormal in K.
+/// Vectors that are orthonormal with respect to the stiffness matrix K.
 class Span {
  public:
   explicit Span(const SparseMatrix& k) : k_(k), vectors_(k.rows(), 0), forces_(k.rows(), 0) {}

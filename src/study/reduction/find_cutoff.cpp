@@ -137,20 +137,20 @@ namespace {
 constexpr Eigen::Index min_modes = 6;  // number of modes with stiffness in the first trial; chosen value
 // Phase of the cutoff frequency per sample: an oscillation at twice the cutoff exceeds its samples by at most 1 %.
 constexpr double phase_per_sample = 0.15;
-constexpr double max_growth = 4.0;    // growth of the cutoff from one trial to the next
-constexpr double least_growth = 2.0;  // smallest growth: the next trial then adds most of the missing part
-// Limit for the phase in apart() if few instants are compared: a factor of 1.85.
+constexpr double max_growth = 4.0;    // largest ratio of the cutoffs of successive trials
+constexpr double least_growth = 2.0;  // smallest ratio: the next trial then adds most of the missing part
+// Limit for the phase in apart() if few instants are compared. It limits the correction factor to 1.85.
 constexpr double max_radians = 1.0;
 // Error of a trial if the finer trial misses as much or more: the whole displacement.
 constexpr double unknown_error = 1.0;
-// Order of `missed` in 1/cutoff, assumed until two trials show it.
+// Order p in missed ~ cutoff^-p, assumed until two trials give an estimate.
 constexpr double usual_order = 2.0;
 constexpr int max_failures = 4;              // limit for successive trials that cannot run
 constexpr int max_moves = 8;                 // limit for moves of a cutoff if modes cannot be counted
 constexpr double cutoff_shift = 1.01;        // factor by which a cutoff is moved
-constexpr double raised = 1.5;               // factor for a cutoff with too few modes below it
+constexpr double raised = 1.5;               // growth of a cutoff with too few modes below it
 constexpr Eigen::Index min_compared = 2048;  // smallest number of compared instants; chosen value
-// Number of displacements that a trial stores for the comparison: 32 MB.
+// Limit of the number of displacements that a trial stores for the comparison: 32 MB.
 constexpr Eigen::Index max_compared = 1 << 22;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
@@ -206,7 +206,7 @@ class Watcher final : public Recorder {
   bool progress(double /*t*/) override { return go_on_(); }
 
   double greatest = 0.0;  ///< largest displacement
-  Eigen::MatrixXd at;     ///< places x instants of comparison
+  Eigen::MatrixXd at;     ///< displacements: places x compared instants
 
  private:
   TruncationError& left_out_;
@@ -413,7 +413,7 @@ class Search {
     return failed;
   }
 
-  /// Error of the last trial, as estimated before a finer trial.
+  /// Estimated error of the last trial, before a finer trial has been computed.
   [[nodiscard]] double estimated() const {
     const double before = trials_.size() > 1 ? feedback(trials_[trials_.size() - 2]) : 1.0;
     return trials_.back().missed * before;

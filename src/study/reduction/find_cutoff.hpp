@@ -4,13 +4,15 @@
 //   error = |u - u_finer| + missed_finer max(1, error / missed)
 //   the first trial with error <= tolerance is used
 //
+// missed: largest contribution of the modes left out, by TruncationError; finer: the next trial.
+//
 // The missing contribution changes contact forces, which emit waves, shift events and may change their
 // sequence. An estimate from one run includes none of these effects, and no forces that jump between its
 // samples. Therefore each trial is compared with a run with at least twice the cutoff, at all common sample
 // instants. The contribution that the finer run misses also changes the motion; this effect is scaled by the
 // ratio error / missed of the trial. If the finer run has all modes, the error is the difference from the
 // full model.
-// Errors are relative to the largest displacement of all requested places in the run.
+// Errors are relative to the largest displacement of all places (requested_places()) during the run.
 #pragma once
 
 #include <functional>
@@ -47,7 +49,7 @@ class TruncationError {
                   Eigen::Index kept, double step);
 
   [[nodiscard]] const ForceLayout& layout() const { return full_.layout; }
-  /// Takes the forces of contacts, in the order of the model's layout, at the times 0, step, 2 step, ...
+  /// Adds a sample: the forces of contacts, in the order of the model's layout, at the times 0, step, 2 step, ...
   void sample(double t, const std::vector<double>& forces);
   /// Completes the last step. Must be called after the last sample.
   void finish();
@@ -63,7 +65,7 @@ class TruncationError {
   double step_;
   Eigen::MatrixXd places_, inputs_;                           // places x modes, modes x (contact forces)
   Eigen::MatrixXd loads_;                                     // modes x loads
-  Array square_, decay_, to_z_z_, to_z_v_, to_v_z_, to_v_v_;  // free motion over a step
+  Array square_, decay_, to_z_z_, to_z_v_, to_v_z_, to_v_v_;  // coefficients of the free motion over a step
   Array z_, v_;
   std::vector<Array> forces_;  // modal forces of the last four samples
   std::vector<double> missed_;

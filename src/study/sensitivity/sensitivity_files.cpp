@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 std::optional<double> known(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
 base::Json json_number(double x) { return std::isfinite(x) ? base::Json(x) : base::Json(nullptr); }
 
-/// Row of a table: one event, figure or landing, and one key.
+/// Row of a table: one event, figure or landing, with its derivatives with respect to one key.
 template <class Figure>
 struct KeyRow {
   const Figure& figure;
@@ -107,7 +107,7 @@ std::string sequence_text(const Sensitivities& s) {
   return table.text(smallest_sequence_changes(s));
 }
 
-/// Derivatives of history's columns by the p-th key.
+/// Text of columns-N.csv, N = p + 1: derivatives with respect to the p-th key.
 std::string column_text(const Sensitivities& s, std::size_t p) {
   result::CsvTable<std::size_t> table = {{"t", [&s](std::size_t i) { return s.times[i]; }}};
   for (std::size_t j = 0; j < s.columns.size(); ++j)
@@ -273,7 +273,7 @@ double rate_in(const result::CsvReader& reader, std::size_t column) {
   return reader.cell(column).empty() ? EventRates::none : reader.number(column);
 }
 
-/// Index of a contact in s.contacts; an unknown name is added. -1 for the run itself.
+/// Index of a contact in s.contacts, to which an unknown name is added; -1 for an empty name: a row of the whole run.
 int contact_numbered(Sensitivities& s, const std::string& name) {
   if (name.empty()) return -1;
   const auto found = std::find(s.contacts.begin(), s.contacts.end(), name);

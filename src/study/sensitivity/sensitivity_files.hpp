@@ -6,8 +6,8 @@
 //   figures.csv         figure,contact,value,t,parameter,dvalue_dp,dt_dp,elasticity
 //                       peaks, residual values; losses of contacts and of the run
 //   landings.csv        contact,landing,start,...,parameter,dstart_dp,...      with losses
-//   columns-1.csv, ...  derivatives by the first parameter, ...: the columns of history.csv and of
-//                       contacts, with losses also those of energy.csv
+//   columns-1.csv, ...  derivatives of the columns of history.csv and of contacts, with losses also of energy.csv,
+//                       with respect to the first parameter, ...
 //   sensitivity.json    parameters, changes at which the sequence would differ, spreads
 //
 // elasticity = (p/x) dx/dp: the change of x in per cent if p changes by one per cent; x: a time or a figure.
@@ -25,7 +25,7 @@ namespace signorini::sensitivity_study {
 //   sigma_x = sqrt( sum_p (dx/dp sigma_p)^2 )       for independent keys
 //
 // The result is valid while the sequence of events does not change. `reach` is the smallest change of a key
-// at which two neighbouring events meet, divided by the key's sigma. If it is below 2, more than one run in
+// at which two neighbouring events meet, divided by the key's sigma. If `reach` is below 2, more than one run in
 // twenty has another sequence, and the result is only indicative.
 
 /// Standard deviations, one per parameter; 0: the parameter is known exactly.

@@ -23,7 +23,7 @@ constexpr std::size_t max_figures = 6, max_bars = 16, max_time_pictures = 12;
 constexpr std::size_t first_events = 24;
 constexpr const char* contact_colours[] = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                            "#e7298a", "#666666", "#a6761d", "#17becf"};
-// Relative change of a parameter that a picture of event times shows on each side.
+// Largest relative change of a parameter, to each side, that a picture of event times shows.
 constexpr double widest = 0.1;
 constexpr const char* rising = "#2166ac";
 constexpr const char* falling = "#c0182b";
@@ -87,7 +87,7 @@ double reach_of(const Sensitivities& s, const Sigmas& sigmas, const Response& r,
   return sigmas.empty() ? elasticity(s.parameters[p].value, r.value, r.rates[p]) : sigmas[p] * r.rates[p];
 }
 
-/// The figures with the largest elasticities.
+/// The figures with the largest elasticities, at most max_figures; figures whose elasticities are rounding are left out.
 std::vector<const Response*> moved_figures(const Sensitivities& s) {
   std::vector<std::pair<double, const Response*>> sizes;
   for (const Response& r : s.responses) {

@@ -53,7 +53,7 @@ std::string pareto_sentence(const std::vector<WorkRow>& rows, const std::string&
                                 : "no complete run has a meaningful error";
     return fmt::format("For errors of {}, no cheapest run can be named: {}.", what, why);
   }
-  // If neighbouring runs belong to one line, only the last run is named, which is the most accurate.
+  // If successive runs of the front belong to one line, only the last of these runs, the most accurate, is named.
   std::vector<std::size_t> last;
   for (const std::size_t i : best) {
     if (!last.empty() && rows[last.back()].point.line() == rows[i].point.line()) last.pop_back();

@@ -288,7 +288,7 @@ namespace {
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1a1a1a", "#1b9e77",
                                                 "#7b3294", "#e7298a", "#a6761d", "#666666"};
 constexpr std::array<const char*, 4> drawn = {"event_time", "displacement", "force_away", "energy"};
-// gnuplot point types of filled symbols; type n - 1 is the hollow form of type n.
+// gnuplot point types: type n is a filled symbol, and type n - 1 the same symbol, hollow.
 constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};
 constexpr double panel_height = 330.0;
 
@@ -330,7 +330,7 @@ const result::CsvTable<const WorkRow*>& line_table() {
 
 struct Axis {
   std::string label;
-  double floor = 0.0;  ///< position of an error of exactly zero
+  double floor = 0.0;  ///< value at which an error of zero is drawn
 };
 
 /// Axis of a quantity's errors; nullopt if no run has a positive error of this quantity.

@@ -25,7 +25,7 @@ namespace signorini::speed {
 /// The value rounded to few digits, as a user would write it: 1e-05, not 1.0000000000000003e-05.
 [[nodiscard]] double rounded_decimal(double value);
 
-/// The accuracy key of the engine with this name: "run.rtol", "run.dt", or "".
+/// Path of the key that sets the accuracy of the engine with this name: "run.rtol" or "run.dt"; "" if there is none.
 [[nodiscard]] std::string accuracy_key(const std::string& engine);
 
 /// An engine with a setting.

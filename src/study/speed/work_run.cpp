@@ -26,10 +26,10 @@ void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const 
   row.errors.clear();
   for (const compare::Quantity& quantity : compare::quantities(comparison, reference.figures.facts.units)) {
     const compare::Deviation& deviation = *quantity.deviation;
-    const bool times = quantity.name == "event_time";  // aligned events are before the split
+    const bool times = quantity.name == "event_time";  // all aligned events are before the split
     const bool part = split && !times;
     if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
-    // Before the first event differences are not significant.
+    // If no events are aligned, only the time before the first event is comparable, which is not significant.
     if (part && comparison.alignment.pairs.empty()) continue;
     const compare::MaxDifference& greatest = part ? deviation.until_split : deviation.whole;
     row.errors.push_back(

@@ -21,7 +21,7 @@ struct WorkError {
   /// Largest difference, and its time, up to the first difference of the sequences.
   double value = 0.0, t = 0.0;
   std::string where;
-  double whole = 0.0;  ///< value over the whole run
+  double whole = 0.0;  ///< largest difference over the whole run
 };
 
 struct WorkRow {
@@ -30,8 +30,8 @@ struct WorkRow {
   std::string outcome;              ///< done, stopped, refused, "too slow"
   /// True if the errors of all other runs are differences from this run.
   bool reference = false;
-  std::string reason;                               ///< empty when done
-  std::optional<double> t;                          ///< time reached
+  std::string reason;                               ///< reason for another outcome than "done"
+  std::optional<double> t;                          ///< time that the run reached
   bool whole = false;                               ///< true if the run reached the end of the reference
   std::optional<long> events, events_of_reference;  ///< numbers of events within the compared time
   std::size_t matched_events = 0;                   ///< number of events with a partner in the reference
@@ -40,7 +40,7 @@ struct WorkRow {
   std::optional<double> t_split;  ///< time of the first difference
 
   std::vector<WorkError> errors;
-  std::vector<double> wall_times;  ///< s, of repeated runs without output
+  std::vector<double> wall_times;  ///< in s, of the repeated runs without output
   std::optional<long> steps, factorisations, solves, restarts;
   std::optional<double> balance;  ///< relative error of the energy balance
 

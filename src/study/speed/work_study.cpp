@@ -77,7 +77,7 @@ double greatest_motion(const fs::path& directory) {
   return motion;
 }
 
-/// A time before t with no event of either run nearby; 0 if there is none.
+/// A time before t that is not near an event of either run; 0 if there is no such time.
 double quiet_before(double t, const std::vector<compare::LoggedEvent>& a,
                     const std::vector<compare::LoggedEvent>& b) {
   constexpr double near = 1e-6;  // relative to t
@@ -129,8 +129,8 @@ study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   std::vector<Override> changes = capture_velocities_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
-  for (Override& change : changes)
-    change.shown_as = change.path + "=" + change.value;  // no option has set the key
+  // Messages show a key without an option, because no option has set the key.
+  for (Override& change : changes) change.shown_as = change.path + "=" + change.value;
   return study::prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 
@@ -148,8 +148,8 @@ const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkL
   const study::PreparedRun run = prepare(point);
   Recorded recorded;
   std::size_t number = recorded_.size();
-  do  // a folder with foreign files remains from an earlier study
-    recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
+  // A folder with foreign files may remain from an earlier study. Then the next number is used.
+  do recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
   while (fs::exists(recorded.directory));
   const WorkOutcome outcome = record_run(run, recorded.directory, limits);
   report_.interrupted = report_.interrupted || outcome.interrupted;
@@ -205,8 +205,8 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
   }
   if (until < whole)
     report_.notes.push_back(
-        fmt::format("at t = {:.9g} such a change alters the sequence of events: all runs are compared up to "
-                    "t = {:.9g} only",
+        fmt::format("at t = {:.9g} a change of all masses in their last digits alters the sequence of "
+                    "events: all runs are compared up to t = {:.9g} only",
                     decided, until));
 }
 
@@ -257,7 +257,8 @@ bool WorkStudy::choose_reference() {
     tight.accuracy = rounded_decimal(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
     if (!try_reference(tight, why_not)) continue;
     report_.notes.push_back(
-        fmt::format("the reference is the tightest run, {}: errors near its own tolerance are not reliable",
+        fmt::format("the reference is the run with the smallest tolerance, {}: errors near this tolerance "
+                    "are not reliable",
                     tight.name()));
     return true;
   }
@@ -291,7 +292,7 @@ void WorkStudy::find_reference() {
   if (!whole) {
     report_.compared_until = reference_.figures.t;
     report_.notes.push_back(fmt::format(
-        "the reference, {}, {} at t = {:.9g}: {}; all runs are compared up to there", report_.reference,
+        "the reference, {}, {} at t = {:.9g}: {}; all runs are compared up to this time", report_.reference,
         reference_.figures.facts.outcome, reference_.figures.t, reference_.figures.reason));
   }
   WorkPoint exact;
@@ -349,8 +350,8 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
 }
 
 void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t round)>& before) {
-  constexpr double enough = 10.0;  // s; then a run is not repeated again
-  constexpr double brief = 0.05;   // s; a round repeats shorter runs several times
+  constexpr double enough = 10.0;  // s: total time after which a run is not repeated again
+  constexpr double brief = 0.05;   // s: shorter runs are repeated several times per round
   constexpr int most = 10;
   for (std::size_t round = 1; round <= request_.repeats; ++round) {
     for (WorkRow& row : report_.rows) {
@@ -363,7 +364,7 @@ void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t ro
       for (int i = 0; i < most && sum < brief; ++i) {
         const WorkOutcome outcome = time_run(run, request_.limits);
         report_.interrupted = outcome.interrupted;
-        // The machine is busy: no time from this repetition.
+        // The machine is busy, so the time of this repetition is not used.
         if (outcome.interrupted || outcome.too_slow) break;
         least = std::min(least, outcome.report.wall_time);
         sum += outcome.report.wall_time;

@@ -94,7 +94,7 @@ class WorkStudy {
   WorkReport report_;
   std::string fingerprint_;                   // fingerprint of the scene as first read
   std::vector<Override> capture_velocities_;  // capture velocities, the same in all runs
-  std::optional<ReductionSpec> reduction_;    // contains the cutoff, the same in all runs
+  std::optional<ReductionSpec> reduction_;    // reduction and its cutoff, the same in all runs
   std::map<std::string, Recorded> recorded_;
   // perturbed_reference_: `exact` with masses changed in their last digits
   compare::ComparedRun reference_, perturbed_reference_;

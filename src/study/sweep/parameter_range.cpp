@@ -90,7 +90,7 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   return values;
 }
 
-/// A round step that divides the interval in about four: 1, 2 or 5 times a power of ten.
+/// A round step (1, 2 or 5 times a power of ten) that divides the interval into about four parts.
 double round_step(double from, double to) {
   const double quarter = 0.25 * std::abs(to - from);
   if (!(quarter > 0.0)) return 1.0;
@@ -199,7 +199,7 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
           break;
         }
     if (by && lost == set.size())
-      throw UsageError(fmt::format("{}: has no effect, --{} {} sets it in every run",
+      throw UsageError(fmt::format("{}: has no effect, because --{} {} sets this key in every run",
                                    scene::override_text(setting), option_of(*by), by->path));
   }
 }
@@ -237,7 +237,7 @@ namespace {
 constexpr int sample_group = 1'000'000;  // group of all sampled keys: larger than any number of --together
 constexpr std::size_t max_samples = 1'000'000, max_sobol_keys = 40;
 
-/// The value at the probability u, 0 < u < 1.
+/// Inverse of a cumulative distribution function: the value at the probability u, 0 < u < 1.
 using Inverse = std::function<double(double u)>;
 
 struct Distribution {
@@ -372,8 +372,8 @@ std::vector<ParameterRange> draw_samples(const std::vector<std::string>& texts, 
       const double value = inverses[j](inner(u));
       if (!std::isfinite(value))
         throw UsageError(
-            fmt::format("--sample {}={}: draw {} is not a finite number, expected a distribution within the "
-                        "range of numbers",
+            fmt::format("--sample {}={}: draw {} is not a finite number, expected a distribution of finite "
+                        "numbers",
                         varied[k].path, varied[k].text, i + 1));
       varied[k].values.push_back(base::format_number(value));
     }

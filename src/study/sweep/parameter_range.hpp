@@ -19,7 +19,7 @@ struct ParameterRange {
   std::string path;
   std::string text;                 ///< text of the values, as given
   std::vector<std::string> values;  ///< each in the syntax of `--set`
-  int group = 0;                    ///< keys of the same group, above 0, vary together
+  int group = 0;                    ///< 0: none; keys of the same group vary together
   bool sampled = false;             ///< the values are draws from the distribution `text`
 
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
@@ -29,14 +29,14 @@ struct ParameterRange {
 [[nodiscard]] const char* option_of(const ParameterRange& vary);
 /// Override that sets the key of `vary` to this value.
 [[nodiscard]] Override override_of(const ParameterRange& vary, const std::string& value);
-/// Refuses two options that set the same key under different names (contacts.*.friction and
+/// Refuses two options that set the same key by different paths (contacts.*.friction and
 /// contacts.first.friction), and a setting without effect because all of its keys are varied. Errors:
 /// UsageError; errors of the scene file.
 void check_overlaps(const std::string& scene, const std::vector<ParameterRange>& varied,
                     const std::vector<Override>& settings);
 /// Parses PATH=VALUES of --vary. Errors: UsageError, also for more than 1e6 values.
 [[nodiscard]] ParameterRange parse_vary(const std::string& text);
-/// The product: entry i has one value for each ParameterRange, in their order. Errors: UsageError for more
+/// The product of all ranges: each entry has one value for each ParameterRange, in their order. Errors: UsageError for more
 /// than 1e6 points, for a repeated path, and for keys of one group with different numbers of values.
 [[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<ParameterRange>& varied);
 
@@ -50,9 +50,9 @@ void check_overlaps(const std::string& scene, const std::vector<ParameterRange>&
 //
 //   x_ij = F_j^-1(u_ij)      row i, draw j, which one or several keys share
 //   random   u from the Mersenne twister of the seed, draw by draw, row by row
-//   sobol    point i of Sobol's sequence, shifted by one vector of such draws, modulo 1
+//   sobol    point i of Sobol's sequence, shifted by one vector of random draws, modulo 1
 //
-// Row i depends only on the seed, i and the number of draws per row. Therefore more samples do not change earlier
+// The values of row i depend only on the seed, i and the number of draws per row. Therefore more samples do not change earlier
 // samples; parts of a sweep, resumed sweeps and other machines draw the same values. Source of both sequences: GSL.
 
 enum class Sequence { random, sobol };

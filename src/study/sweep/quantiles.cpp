@@ -15,12 +15,12 @@ namespace {
 constexpr double tail = 0.5 * (1.0 - confidence);
 constexpr std::size_t max_steps = 200, even_steps = 100;
 
-/// P(B <= k), B binomial(n, p).
+/// P(B <= k); B: binomial distribution with n trials of probability p.
 double below_or_at(std::size_t k, double p, std::size_t n) {
   return gsl_cdf_binomial_P(static_cast<unsigned>(k), p, static_cast<unsigned>(n));
 }
 
-/// The smallest k with P(B <= k) >= q; n if there is none.
+/// The smallest k with P(B <= k) >= q, for the binomial distribution B of n trials; n if there is no such k.
 std::size_t least_count(double q, double p, std::size_t n) {
   std::size_t low = 0, high = n;
   while (low < high) {
@@ -33,8 +33,8 @@ std::size_t least_count(double q, double p, std::size_t n) {
   return low;
 }
 
-/// Indices of the printed values among n sorted ones: all if n is small; otherwise some at equal distances, and
-/// additional ones towards both ends, each a third farther out than the one before, because rare values matter most.
+/// Indices of the printed values among n sorted values: all if n is small; otherwise even_steps equidistant indices, and,
+/// because rare values matter most, more indices towards both ends, whose distances from the end form a geometric series.
 std::set<std::size_t> shown_of(std::size_t n) {
   std::set<std::size_t> places;
   const std::size_t even = n <= max_steps ? n : even_steps;

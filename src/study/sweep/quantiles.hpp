@@ -30,12 +30,12 @@ struct Quantile {
 [[nodiscard]] Quantile quantile(const std::vector<double>& sorted, double probability, bool independent);
 
 struct Exceedance {
-  double value = 0.0, probability = 0.0;  ///< probability of a larger value
+  double value = 0.0, probability = 0.0;  ///< probability: of results above `value`
   std::optional<double> low, high;
 };
 /// Columns of exceedance tables.
 [[nodiscard]] const result::CsvTable<Exceedance>& exceedance_columns();
-/// Exceedance probabilities of at most 200 of the values.
+/// Exceedance probabilities of the values, or of at most 200 of them. sorted: ascending.
 [[nodiscard]] std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool independent);
 
 /// The results of one query for one combination of the keys that are not sampled.
@@ -45,7 +45,7 @@ struct SampledResults {
   std::vector<double> sorted;
   std::size_t missing = 0;  ///< rows without a result
 };
-/// Results query by query; empty if no key is sampled.
+/// Results of all queries for all combinations, query by query; empty if no key is sampled.
 [[nodiscard]] std::vector<SampledResults> sampled_results(const SweepSpec& spec, const SweepRows& rows);
 
 /// Text of quantiles.csv: quantity,unit,PATH,...,n,missing,probability,value,low,high.

@@ -71,7 +71,7 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
   const std::string rest = text.substr(colon + 1);
   const std::vector<std::string> contacts = names_of(model.contacts);
   std::size_t at = rest.find('@');
-  if (query.kind != Kind::count) {  // a name may contain an @
+  if (query.kind != Kind::count) {  // the name of an output or a contact may contain an @
     at = rest.rfind('@');
     if (std::find(contacts.begin(), contacts.end(), rest) != contacts.end()) at = std::string::npos;
   }
@@ -122,7 +122,7 @@ void QueryRecorder::sample(const Sample& sample) {
 double QueryRecorder::value(const ResponseQuery& query, std::size_t i, const Report& report) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (report.outcome.kind != Outcome::Kind::done)
-    return none;  // values would cover only a part of the motion
+    return none;  // the run ended early: values would cover only a part of the motion
   if (query.kind == Kind::count) return counts_[i];
   if (query.kind == Kind::residual) {
     if (last_slip_.empty()) return none;

@@ -4,7 +4,7 @@
 //   tmax:NAME  tmin:NAME  end:NAME    times of the maximum and the minimum; final value
 //   residual:CONTACT                  slip at the end minus slip at the start
 //   count:EVENT  count:EVENT@CONTACT  number of events of a type, at all contacts or one
-//   impulse:CONTACT  impulse:CONTACT@2     the largest impulse of its landings, or the impulse of the second landing
+//   impulse:CONTACT  impulse:CONTACT@2     largest impulse of the contact's landings, or impulse of the second landing
 //
 // A missing result is NaN, an empty cell: all results of a run that stops early, and landings that do not occur.
 #pragma once
@@ -71,7 +71,7 @@ class QueryRecorder : public Recorder {
 
   /// Results, one per query; NaN if the run has none.
   [[nodiscard]] std::vector<double> values(const Report& report) const;
-  /// Hash of contacts, types and new states of all events in their order: equal for equal sequences.
+  /// Hash of contact, type and new state of all events in their order: equal for equal sequences of events.
   [[nodiscard]] std::string sequence() const;
 
  private:
@@ -79,9 +79,9 @@ class QueryRecorder : public Recorder {
 
   const std::vector<ResponseQuery>& queries_;
   const Model& model_;
-  std::vector<double> counts_;                      // per query
-  std::uint64_t sequence_ = 14695981039346656037U;  // FNV-1a
-  std::vector<double> first_slip_, last_slip_;      // per contact
+  std::vector<double> counts_;                      // number of events, one per query
+  std::uint64_t sequence_ = 14695981039346656037U;  // FNV-1a hash, with its standard initial value
+  std::vector<double> first_slip_, last_slip_;      // slip at the start and at the end, one per contact
 };
 
 /// The unit of a query's result; empty if the result has no unit.

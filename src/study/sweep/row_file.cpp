@@ -22,7 +22,7 @@ namespace {
 void check_kind(const fs::path& file) {
   std::error_code ignored;
   std::string why = base::input_file_error(file);
-  if (fs::is_symlink(fs::symlink_status(file, ignored))) why = "is a link";
+  if (fs::is_symlink(fs::symlink_status(file, ignored))) why = "is a symbolic link";
   if (!why.empty()) throw FileError(file.string(), why + ", expected the rows of a sweep");
 }
 
@@ -71,7 +71,8 @@ RowFile::RowFile(fs::path path)
   if (ftruncate(file_, static_cast<off_t>(good_)) == 0) return;
   const int error = errno;
   close(file_);
-  throw FileError(path_.string(), "cannot be cut to whole lines" + base::system_error_text(error));
+  throw FileError(path_.string(),
+                  "cannot be truncated after its last complete line" + base::system_error_text(error));
 }
 
 RowFile::~RowFile() { close(file_); }
@@ -90,7 +91,7 @@ void RowFile::append(const std::string& lines) {
     return;
   }
   const int error = errno;
-  // If this truncation also fails, the next sweep truncates the file.
+  // If this truncation also fails, the next sweep that opens the file truncates it.
   [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(good_));
   throw FileError(path_.string(), "cannot be written" + base::system_error_text(error));
 }
@@ -147,10 +148,10 @@ std::optional<Place> array(const Environment& environment) {
   const bool even = *count >= 1 && step >= 1 && first + step * (*count - 1) == last && *id >= first &&
                     *id <= last && (*id - first) % step == 0;
   if (!even)
-    throw UsageError(
-        fmt::format("--share auto: task {} of {} from {} to {} does not belong to an evenly spaced array; "
-                    "give --share K/N, or --array=1-N",
-                    *id, *count, first, last));
+    throw UsageError(fmt::format(
+        "--share auto: Slurm task {} ({} tasks, from {} to {}) does not belong to an evenly spaced array; "
+        "give --share K/N, or --array=1-N",
+        *id, *count, first, last));
   return Place{(*id - first) / step, *count};
 }
 

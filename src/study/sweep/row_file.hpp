@@ -43,7 +43,7 @@ class RowFile {
  private:
   std::filesystem::path path_;
   int file_ = -1;
-  std::uintmax_t good_ = 0;  // size of the complete lines
+  std::uintmax_t good_ = 0;  // size of the complete lines, in bytes
 };
 
 // The rows of a sweep that one of several processes computes.
@@ -55,16 +55,16 @@ class RowFile {
 // share 10/32.
 
 struct Share {
-  std::size_t number = 1, count = 1;  ///< number counts from 1
+  std::size_t number = 1, count = 1;  ///< number: from 1 to count
 
-  /// True if the row belongs to this share; rows count from 0.
+  /// True if the row belongs to this share; row: index from 0.
   [[nodiscard]] bool holds(std::size_t row) const { return row % count == number - 1; }
   [[nodiscard]] bool all() const { return count == 1; }
   [[nodiscard]] std::string text() const { return std::to_string(number) + "/" + std::to_string(count); }
   friend bool operator==(const Share&, const Share&) = default;
 };
 
-/// Returns the value of an environment variable; nullopt if it is not set.
+/// Function that returns the value of an environment variable; nullopt if the variable is not set.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 
 /// Parses a share. Errors: UsageError for texts other than K/N with 1 <= K <= N or "auto", and for "auto" if

@@ -21,7 +21,8 @@ double whole_periods(double t, double period) { return std::floor(t / period * (
 
 StroboscopicMap strobe_of_loads(const std::string& option, const Scene& scene) {
   const std::optional<double> period = orbit::load_period(scene).period;
-  if (!period) throw UsageError(option + ": the scene has no periodic load; expected a period");
+  if (!period)
+    throw UsageError(option + ": the scene has no periodic load; expected a period in place of `loads`");
   if (whole_periods(scene.run.t_end, *period) < 1.0)
     throw UsageError(fmt::format("{}: the loads' period {:g} is longer than the run, t_end = {:g}", option,
                                  *period, scene.run.t_end));
@@ -61,7 +62,7 @@ std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene) {
   std::optional<double> period;
   try {
     period = orbit::load_period(scene).period;
-  } catch (const SceneError&) {  // if loads have no common period, points have no phase of the loads
+  } catch (const SceneError&) {  // if the loads have no common period, points have no phase
     return {};
   }
   if (!period) return {};
@@ -93,7 +94,7 @@ void StroboscopicRecorder::sample(const Sample& sample) {
   // Rows are at k times the period up to rounding; the end of the run is also a row.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(sample.t);
   if (turns < 1.0 || std::abs(sample.t - turns * strobe_.period) > rounding) return;
-  // The point is the state after the instant: the state before it is removed.
+  // The sample before a jump of the state has the same time. The point is the state after the jump.
   if (!points_.empty() && points_.back().t == sample.t) points_.pop_back();
   add(sample);
 }

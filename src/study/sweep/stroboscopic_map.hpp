@@ -7,7 +7,7 @@
 //
 //   point = (t, columns of history.csv, outputs),  t >= settle
 //
-// If an instant has a state before and a state after it, the point is the state after it. Units: those of the scene.
+// If the state jumps at t, the point is the state after the jump. Units: those of the scene.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@
 namespace signorini::sweep {
 
 struct StroboscopicMap {
-  std::string text;       ///< as given
+  std::string text;       ///< value of --strobe
   double period = 0.0;    ///< time between points; 0: points are after events
   bool of_loads = false;  ///< the period is that of the scene's loads
   EventQuery event;
@@ -75,7 +75,7 @@ class StroboscopicRecorder : public run::ForwardingRecorder {
   std::vector<double> outputs_;
 };
 
-/// Copy of `run` with output rows at the points. With `loads` it ends after an integer number of load periods.
+/// Copy of `run` with output rows at the points. With `loads` the run ends after an integer number of load periods.
 [[nodiscard]] RunSpec with_strobe_rows(RunSpec run, const StroboscopicMap& strobe);
 
 }  // namespace signorini::sweep

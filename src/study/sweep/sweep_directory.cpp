@@ -89,7 +89,7 @@ bool is_own_folder(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) return false;
   if (fs::is_directory(status)) return true;
-  throw FileError(path.string(), "is not the directory of a sweep; --force removes nothing there");
+  throw FileError(path.string(), "is not a folder that a sweep has created; --force removes nothing in it");
 }
 
 /// Folders of the runs of an earlier sweep.
@@ -127,7 +127,8 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::sweep::points(spec_.vary)) {
   check_directory(path_);
   base::make_directory(path_);
-  if (!lock_.take(path_)) throw FileError(path_.string(), "another sweep is running in it");
+  if (!lock_.take(path_))
+    throw FileError(path_.string(), "is in use: another sweep is running in this directory");
   if (is_sweep(path_) && !force) {
     const SweepSpec was = read_sweep_spec(path_);
     std::string differs = difference(was, spec_);
@@ -155,12 +156,12 @@ std::map<std::size_t, NumberedRow> SweepDirectory::rows_in(const fs::path& file)
       return FileError(file.string(), fmt::format("line {}: row {} is {}", found.line, index + 1, what));
     };
     if (index >= points_.size())
-      throw wrong(fmt::format("no row of this sweep, which has {} rows", points_.size()));
+      throw wrong(fmt::format("not a row of this sweep, which has {} rows", points_.size()));
     if (!spec_.share.holds(index)) throw wrong("not of share " + spec_.share.text());
     const auto& point = points_[index];
     bool ours = found.row.values.size() == point.size();
     for (std::size_t i = 0; ours && i < point.size(); ++i) ours = found.row.values[i] == point[i].value;
-    if (!ours) throw wrong("not the row of this sweep with that number");
+    if (!ours) throw wrong("not from this sweep: its values of the varied keys differ");
   }
   // A crashed row is computed again.
   std::erase_if(rows, [](const auto& entry) { return entry.second.row.outcome == "crashed"; });
@@ -220,7 +221,8 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
                              [](const char*) -> std::optional<std::string> { return std::nullopt; });
     const std::string by = json.at("signorini");
     if (by != version)
-      throw FileError(file.string(), "was written by Signorini " + by + ", this is " + version);
+      throw FileError(file.string(),
+                      "was written by Signorini " + by + ", but this program is version " + version);
     return spec;
   } catch (const base::Json::exception& error) {
     throw FileError(file.string(), std::string("is not the specification of a sweep: ") + error.what());
@@ -251,7 +253,7 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   if (was.carry != is.carry) return differ("--carry", carry(was), carry(is));
   if (was.settings != is.settings) return differ("--set", text_of(was.settings), text_of(is.settings));
   if (was.fingerprint != is.fingerprint)
-    return fmt::format("the content of the scene {} has changed ({})", is.scene, was.scene);
+    return fmt::format("the content of the scene {} has changed (earlier file: {})", is.scene, was.scene);
   return "";
 }
 
@@ -268,7 +270,7 @@ std::vector<std::size_t> merge_sweeps(const std::vector<fs::path>& from, SweepDi
         to.add(found.row);
       else if (!same_result(known->second, found.row))
         throw FileError(file.string(),
-                        fmt::format("line {} contradicts another share's row {}", found.line, index + 1));
+                        fmt::format("line {} differs from row {} of another share", found.line, index + 1));
     }
   }
   std::vector<std::size_t> missing;

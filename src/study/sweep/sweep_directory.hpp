@@ -29,20 +29,20 @@ struct StroboscopicSpec {
   std::vector<StroboscopicColumn> columns = {};
 };
 
-/// Option --carry: each run along the last range begins with the final state of the previous run.
+/// Option --carry: along the last range each run begins with the final state of the previous run.
 struct CarrySpec {
   bool on = false;
-  bool back = false;  ///< the second half of the last range repeats its values in the opposite order
+  bool back = false;  ///< the last range contains its values twice, the second time in the opposite order
   friend bool operator==(const CarrySpec&, const CarrySpec&) = default;
 };
 
 /// Specification of a sweep. Two sweeps are the same if their specifications are equal apart from scene and share.
 struct SweepSpec {
-  std::string scene;  ///< file, as given
+  std::string scene;  ///< scene file, as given by the user
   /// Fingerprint of the scene's content, with settings and the first valid values of the varied keys.
   std::string fingerprint;
-  std::vector<std::string> settings;  ///< --set, in order
-  std::vector<ParameterRange> vary;   ///< the sampled keys last
+  std::vector<std::string> settings;  ///< values of --set, in their order
+  std::vector<ParameterRange> vary;   ///< varied keys; sampled keys are last
   /// Queries for every run (response_query.hpp), and the unit of each result.
   std::vector<std::string> responses, response_units;
   StroboscopicSpec strobe;
@@ -56,8 +56,8 @@ struct SweepSpec {
 /// Directory of a sweep. Errors of all members: FileError.
 class SweepDirectory {
  public:
-  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is
-  /// removed first. No other process can open the directory while this object, or a process that inherited
+  /// Opens a new directory, or the directory of a sweep with the same specification; with `force` an existing sweep
+  /// is removed first. No other process can open the directory while this object, or a process that inherited
   /// the object, exists.
   SweepDirectory(std::filesystem::path path, SweepSpec spec, bool force);
   ~SweepDirectory() = default;
@@ -72,8 +72,8 @@ class SweepDirectory {
   [[nodiscard]] const std::map<std::size_t, SweepRow>& rows() const { return rows_; }
   [[nodiscard]] std::filesystem::path run_directory(std::size_t index) const;
 
-  /// Rows of a file in another directory of this sweep, or of one of its shares, without crashed rows.
-  /// Errors: also if a row is altered or does not belong to this sweep.
+  /// Rows of a file that belongs to this sweep or to one of its shares, without crashed rows. Errors: FileError,
+  /// also if a row is altered or does not belong to this sweep.
   [[nodiscard]] std::map<std::size_t, NumberedRow> rows_in(const std::filesystem::path& file) const;
   /// Appends a row, or lines of row_line(), to the file and to rows().
   void add(const SweepRow& row);

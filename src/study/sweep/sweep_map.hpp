@@ -44,7 +44,7 @@ struct Border {
 };
 struct Borders {
   std::vector<Border> sides;
-  std::size_t neighbours = 0;  ///< number of sides between cells with runs
+  std::size_t neighbours = 0;  ///< number of common sides of two cells with runs
 };
 /// Columns of borders.csv.
 [[nodiscard]] const result::CsvTable<Border>& border_table();

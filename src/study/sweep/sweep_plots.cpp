@@ -98,7 +98,7 @@ constexpr std::array<const char*, 12> colours = {"#1f77b4", "#d95f02", "#1b9e77"
 constexpr std::size_t max_panels = 6;
 constexpr std::size_t max_curves = 24;  // limit for the curves of a panel, whose names are in a legend
 
-/// Columns of curve-N.csv: a row of the sweep, its x, and figures of contacts.
+/// Columns of curve-N.csv. For a row of the sweep: x, number of events, figures of all contacts.
 result::CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweepAxis& axis,
                                               const std::vector<std::string>& contacts) {
   result::CsvTable<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
@@ -123,7 +123,7 @@ std::vector<const SweepRow*> from_left(const SweepCurve& curve, const SweepAxis&
   return rows;
 }
 
-/// A panel of a picture or of a map.
+/// One panel of a picture.
 struct Shown {
   enum class Kind { events, contacts, answer };
   std::string label;
@@ -230,7 +230,7 @@ void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const result:
   if (std::none_of(answers.begin(), answers.end(), drawn)) return;
   const result::CsvTable<Exceedance>& table = exceedance_columns();
   const std::size_t panels = std::min(spec.responses.size(), max_panels);
-  result::Picture picture{"exceedance", "Probability of more; " + spec.sampling,
+  result::Picture picture{"exceedance", "Probability of a larger result; " + spec.sampling,
                           result::canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false),
                           false};
   picture.space = 80.0;

@@ -34,7 +34,7 @@ struct SweepAxis {
 /// The first key with more than one value, or with `last` the last such key. `spec` must outlive the result.
 [[nodiscard]] SweepAxis axis_of(const SweepSpec& spec, bool last = false);
 
-/// Rows with equal values of all keys except the axis.
+/// Rows that have equal values of all keys except the key on the axis.
 struct SweepCurve {
   std::string name;  ///< values of the other keys, as text
   std::vector<const SweepRow*> rows;

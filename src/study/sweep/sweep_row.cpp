@@ -48,7 +48,7 @@ class LastRow : public run::ForwardingRecorder {
     last_.rows.clear();
     last_.sample(sample);
   }
-  /// The state without scales and damping, because the continuing run computes both itself.
+  /// The final state without scales and damping, which the continuing run computes itself.
   [[nodiscard]] SavedState state(const Model& model) const {
     SavedState state = last_state(model, last_);
     state.scales.reset();
@@ -60,11 +60,11 @@ class LastRow : public run::ForwardingRecorder {
   Result last_;
 };
 
-/// Computes the row by a run with output rows only at both ends and at points, which is fast. If the run is
+/// Computes the row by a run with output rows only at both ends and at stroboscopic points, which is fast. If the run is
 /// kept, a separate run with all rows is stored, so that the row does not depend on --keep.
 Report run(const RowTask& task, const study::PreparedRun& prepared, Recorder& heard, const RunSpec& spec) {
   if (!task.keep.empty()) {
-    result::remove_run(task.keep);  // remains of an interrupted sweep
+    result::remove_run(task.keep);  // files of an interrupted sweep
     result::RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
     run::ForwardingRecorder all(&directory);
     prepared.run_to_disk(directory, all);
@@ -81,7 +81,7 @@ void drop_outputs(const RowTask& task, const std::vector<ResponseQuery>& queries
   model.reaction_sums.clear();
 }
 
-double number_or_none(const base::Json& value) {  // NaN was written as null
+double number_or_none(const base::Json& value) {  // row_json() writes NaN as null
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
@@ -98,8 +98,8 @@ std::optional<double> SweepRow::response(std::size_t i) const {
 
 namespace {
 
-/// Prepares the run. A file that cannot be read only refuses this run, so its FileError becomes an Error; a
-/// file that cannot be written ends the sweep.
+/// Prepares the run. If a file cannot be read, only this run is refused, so the FileError becomes an Error. A FileError
+/// for a file that cannot be written ends the sweep.
 study::PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) try {
   Scene scene = parse_scene(task.text, task.scene, task.changes);
   if (carried != nullptr && *carried) scene.initial = {.saved = **carried};

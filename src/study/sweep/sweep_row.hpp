@@ -22,8 +22,8 @@ struct SweepRow {
   std::size_t index = 0;            ///< index of the row in the whole sweep, from 0
   std::vector<std::string> values;  ///< values of the varied keys
   std::string outcome;              ///< done, stopped, refused (no run began), crashed
-  std::string reason;               ///< empty when done
-  double t = 0.0;                   ///< time reached
+  std::string reason;               ///< reason for another outcome than "done"
+  double t = 0.0;                   ///< time that the run reached
   std::map<std::string, long> events;
   /// Peaks over all steps: tangential and normal motion relative to the start, |N|, |T|. friction: dissipated work.
   struct Contact {
@@ -35,7 +35,7 @@ struct SweepRow {
   std::vector<double> responses;
   std::vector<StroboscopicPoint> points;  ///< points of a stroboscopic sweep
   std::string sequence;    ///< hash of the events: equal for equal sequences (response_query.hpp)
-  double wall_time = 0.0;  ///< s
+  double wall_time = 0.0;  ///< in s
   long steps = 0;
   double balance = 0.0;  ///< relative error of the energy balance
   std::size_t warnings = 0;

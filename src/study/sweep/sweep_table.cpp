@@ -109,7 +109,7 @@ struct RowPoint {
   const StroboscopicPoint* point;
 };
 
-/// True if the row belongs to the half of the last range that has the opposite order.
+/// True if the row belongs to the second half of the last range, which has the opposite order (CarrySpec).
 bool goes_back(const SweepSpec& spec, const SweepRow& row) {
   if (!spec.carry.back) return false;
   const std::size_t count = spec.vary.back().values.size();

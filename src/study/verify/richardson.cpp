@@ -43,9 +43,9 @@ ObservedRun observe(const Model& model, const RunSpec& run, const std::function<
 namespace {
 
 constexpr double second_order = 3.0;  // denominator of the extrapolation, 2^2 - 1
-// Number of later values that an error bar includes.
+// Number of later values whose differences an error bar includes, too.
 constexpr std::size_t ahead = 5;
-/// Part of the last difference that a bar includes: errors of third order that vary from step to step.
+/// Part of the difference |x_h/2 - x_h/4| that a bar includes, for errors of third order that vary from step to step.
 constexpr double third_order_part = 0.02;
 /// Largest deviations from order two, for is_second_order() and for usable().
 constexpr double settled_within = 0.1, usable_within = 0.6;

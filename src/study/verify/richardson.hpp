@@ -47,7 +47,7 @@ struct ObservedColumn {
 /// Columns of ObservedRun::rows for this model.
 [[nodiscard]] std::vector<ObservedColumn> observed_columns(const Model& model);
 
-/// Recorder that stores no data. It calls go_on periodically, which returns false to interrupt the run.
+/// Recorder that stores no data. go_on: called periodically; the run is interrupted if go_on returns false.
 class ObservingRecorder : public Recorder {
  public:
   explicit ObservingRecorder(const std::function<bool()>& go_on) : go_on_(go_on) {}
@@ -85,15 +85,15 @@ class ConvergenceOrder {
   double coarse_ = 0.0, fine_ = 0.0, rounding_ = 0.0;
 };
 
-/// True if the order is that of the method, within a tenth, or nullopt.
+/// True if the order is two within a tenth, or if it is unknown (nullopt).
 [[nodiscard]] bool is_second_order(const std::optional<double>& order);
-/// True if the order is near enough to two that differences between steps bound the errors, or nullopt.
+/// True if the order is so near to two that differences between steps bound the errors, or if it is unknown (nullopt).
 [[nodiscard]] bool usable(const std::optional<double>& order);
 
 /// Properties of all series of one kind, which have the same unit.
 struct SeriesKind {
   std::optional<double> order;
-  double scale = 0.0;  ///< largest magnitude
+  double scale = 0.0;  ///< largest magnitude of the values
   double steps = 1.0;  ///< number of steps of the finest run
 };
 

@@ -11,11 +11,11 @@ namespace signorini::verify {
 namespace {
 
 const char* const event_time = "event_time";
-/// Part of the time with a certain sequence up to which newmark's sequences must agree to be settled.
+/// settled(): newmark's sequences must agree up to this fraction of the time in which IDA's sequence is certain.
 constexpr double nearly = 0.99;
-/// Error bound of an extreme relative to the largest bound of the rows, because an extreme is between rows.
+/// Error bound of an extreme / largest error bound of the rows: above 1, because an extreme lies between rows.
 constexpr double between_rows = 2.0;
-/// Differences of newmark are ignored below this part of IDA's own error.
+/// Differences between newmark's runs are ignored below this fraction of IDA's error.
 constexpr double negligible = 0.1;
 
 /// Difference relative to the allowed difference; 0 without a difference.
@@ -283,12 +283,14 @@ void VerificationRuns::conclude(const Sequence& here, Verification& result) cons
     result.sentence = fmt::format("the sequences of events differ, and exact agrees with ida: {}; use {}",
                                   here.reason, finer);
   } else if (rough) {
-    result.sentence = "newmark's steps are too coarse: its orders have not converged; use " + finer;
+    result.sentence =
+        "newmark's steps are too coarse: its observed orders of convergence differ too much from two; use " +
+        finer;
   } else if (here.until < t_end_) {
     result.sentence = fmt::format("ida and newmark agree until t = {:.9g} {}; {}", here.until,
                                   model_.units.time, here.reason);
   } else if (short_bars) {
-    result.sentence = "newmark's error bars are too short: exact agrees with ida; use " + finer;
+    result.sentence = "newmark's error bars are too small: exact agrees with ida; use " + finer;
   } else {
     result.verdict = Agreement::agree;
     result.sentence = fmt::format("ida and newmark agree to the end, on {} events and {} output times",

@@ -48,7 +48,7 @@ class VerificationRuns {
   /// Time up to which the three sequences of newmark are equal, and equal to IDA's sequence.
   struct Sequence {
     double until = 0.0;
-    std::string reason;        ///< reason why the sequences differ afterwards; empty: equal to the end
+    std::string reason;  ///< reason why the sequences differ after `until`; empty: they are equal to the end
     bool differs = false;      ///< true if IDA's sequence certainly differs from newmark's
     double exact_until = 0.0;  ///< time up to which exact's sequence equals IDA's
   };

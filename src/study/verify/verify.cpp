@@ -60,7 +60,7 @@ class Study {
     return run;
   }
 
-  /// Newmark has values only at the ends of its steps, and peaks are between them. Halved steps share their
+  /// Newmark has values only at the ends of its steps, and peaks lie between these ends. Halved steps share their
   /// ends, so all step sizes miss the same part of a peak, up to |r''| h^2 / 8. Therefore newmark also reports
   /// its values at the times of ida's peaks; the shift of a peak by O(h^2) changes its value by O(h^4) only.
   void find_peaks() {
@@ -74,7 +74,7 @@ class Study {
     std::sort(peaks_.begin(), peaks_.end());
   }
 
-  /// Runs newmark with the step dt. Its rows at peaks_ are removed, so that it has the rows of the other runs.
+  /// Runs newmark with the step dt. Rows at peaks_ are removed, so that the result has the same rows as the other runs.
   [[nodiscard]] ObservedRun watch_newmark(double dt) const {
     ObservedRun run = observe(model_, newmark(dt), request_.go_on);
     const auto width = static_cast<std::ptrdiff_t>(run.rows.width);
@@ -141,7 +141,7 @@ class Study {
                     least_seconds_of_step * run_.t_end / dt);
   }
 
-  /// Records the effect of doubling the last step.
+  /// Stores the change of the displacements between the last two runs, whose steps differ by a factor of two.
   void test_step(const VerificationRuns& witnesses) {
     if (witnesses.newmark.size() < 2) return;
     const ObservedRun& fine = witnesses.newmark.back();
@@ -160,7 +160,7 @@ class Study {
         {witnesses.dt.back(), whole ? relative : std::numeric_limits<double>::infinity()});
   }
 
-  /// The paper's criterion for the step, applied to the finest step.
+  /// True if the finest step satisfies the paper's criterion: doubling it changes displacements little.
   [[nodiscard]] bool changes_little() const { return result_.step_tests.back().change < paper_change; }
 
   void find_paper_dt() {

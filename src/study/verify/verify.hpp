@@ -37,7 +37,7 @@ struct VerifyRequest {
   std::function<bool()> go_on = [] { return true; };  ///< returns false if the user interrupts
 };
 
-/// Comparison of one value at one instant: the time of an event, or a column.
+/// Comparison of one value: the time of an event, or the value of a column at an output time.
 struct Observation {
   double t = 0.0;
   double ida = 0.0, ida_error = 0.0;
@@ -47,7 +47,7 @@ struct Observation {
   [[nodiscard]] double difference() const;
   [[nodiscard]] double allowed() const { return bar + ida_error; }
   [[nodiscard]] bool agrees() const { return difference() <= allowed(); }
-  /// True if the third engine agrees with IDA, and not with newmark.
+  /// True if the third engine, exact, agrees with IDA and not with newmark.
   [[nodiscard]] bool exact_agrees() const;
 };
 
@@ -62,7 +62,7 @@ struct VerifiedEvent {
 /// "output [UNIT]", "extremes [UNIT]".
 struct VerifiedKind {
   std::string name, unit;
-  std::optional<double> order;  ///< nullopt: differences consist of rounding
+  std::optional<double> order;  ///< observed order; nullopt: differences consist of rounding
   std::size_t compared = 0, disagreeing = 0, exact_agreements = 0;
   Observation worst;                 ///< observation with the largest difference relative to the allowed one
   std::string where;                 ///< column of `worst`; empty for events
@@ -82,7 +82,7 @@ struct Verification {
   Agreement verdict = Agreement::undecided;
   std::string sentence;
   std::vector<double> dt;  ///< steps of newmark: h, h/2, h/4
-  double until = 0.0;      ///< time up to which everything was compared
+  double until = 0.0;      ///< end of the compared time
   std::vector<VerifiedKind> kinds;
   std::vector<VerifiedEvent> events;
   std::vector<StepTest> step_tests;

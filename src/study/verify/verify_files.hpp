@@ -1,7 +1,7 @@
 // verify_files.hpp: files of `verify` (docs/command-line.md).
 //
 //   verify.json   verdict, orders, richardson, bars, step tests
-//   events.csv    one row per event: its time with IDA, the limit of newmark's three times, both errors
+//   events.csv    one row per event: its time by IDA, the limit of newmark's three times, error bounds of both
 //   plots/verify  differences relative to the allowed ones
 #pragma once
 

@@ -156,10 +156,10 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
     return &cases.back().tables;
   };
   add("no such column in both", "displacement=1",
-      "A.ux, B.ux are in one of the two runs only; in both: A.rz, A.vx")
+      "A.ux, B.ux are in one of the two runs only; columns in both runs: A.rz, A.vx")
       ->history = "t,B.ux,A.rz,A.vx\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n4,4,0,0\n";
   add("no such column in either", "angular_velocity=1",
-      "neither run has any; in both: A.ux, A.rz, A.vx and 2 more");
+      "neither run has such a column; columns in both runs: A.ux, A.rz, A.vx and 2 more");
   add("forces cut off", "force=1", "contacts.csv of b has 1 row, expected 5 at the times of its history.csv")
       ->contacts = "0,c,-1,0\n";
   add("forces cut off", "force_away=1", "contacts.csv of b has 1 row")->contacts = "0,c,-1,0\n";

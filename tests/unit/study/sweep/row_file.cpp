@@ -106,7 +106,7 @@ TEST_CASE("row file: what is no file of its own is refused, by name") {
   refused(folder.path() / "folder", "is a directory");
   std::ofstream(folder.path() / "mine") << "mine";
   fs::create_symlink(folder.path() / "mine", folder.path() / "link");
-  refused(folder.path() / "link", "is a link");
+  refused(folder.path() / "link", "is a symbolic link");
   CHECK(text(folder.path() / "mine") == "mine");
   CHECK_THROWS_AS(sweep::RowFile{folder.path() / "nowhere" / "rows.jsonl"}, FileError);
 }

@@ -69,7 +69,7 @@ class CheckpointWriter {
   }
   void write(BranchCheckpoint mark) const {
     mark.point_count += before_;
-    orbit_study::write_mark(path_, read_, over_, mark);
+    orbit_study::write_checkpoint(path_, read_, over_, mark);
   }
 
  private:
@@ -132,11 +132,11 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
   std::vector<BranchPoint> before;
   if (resume) {
-    over.resume_from = orbit_study::read_mark(path, read, over);
+    over.resume_from = orbit_study::read_checkpoint(path, read, over);
     before = orbit_study::read_branch(path, outputs.size(), over.resume_from->point_count);
   } else {
     begin_folder(path, branch_folder());
-    orbit_study::remove_mark(path);
+    orbit_study::remove_checkpoint(path);
   }
   orbit_study::BranchWriter writer(path, outputs);
   Interrupt interrupt;
@@ -306,7 +306,7 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   SearchWatch watch;
   const Orbit orbit = find_orbit(read, options.search, &watch);
   if (!orbit.found) return not_found(options, orbit);
-  const Scene scene = orbit_study::scene_beginning_in(orbit_scene(read, orbit), path);
+  const Scene scene = orbit_study::scene_starting_from(orbit_scene(read, orbit), path);
   const Model model = build_model(scene);
   result::RunDirectory directory(path, scene, model, {options.force, command_line, false, !options.no_plots});
   const CertifiedReport certified =

@@ -124,10 +124,11 @@ struct RawElement {
 /// Contents of the file, from which a body is made.
 struct GmshContent {
   std::vector<PlaneMesh::Node> nodes;
-  std::unordered_map<long, int> by_number;
+  std::unordered_map<long, int> node_index;
   std::vector<RawElement> elements;
-  std::map<Tag, std::string> names;              // names of physical groups
-  std::map<Tag, std::vector<long>> of_entities;  // tags of the physical groups of each entity (format 4.1)
+  std::map<Tag, std::string> names;  // names of physical groups
+  std::map<Tag, std::vector<long>>
+      groups_of_entity;  // tags of the physical groups of each entity (format 4.1)
 
   [[nodiscard]] std::string name(int dimension, long tag) const {
     const auto known = names.find({dimension, tag});
@@ -199,7 +200,7 @@ class GmshReader {
       for (long n = counts[static_cast<std::size_t>(dimension)]; n > 0; --n) {
         const long tag = words_.integer("the tag of an entity");
         for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) static_cast<void>(words_.number("a coordinate"));
-        std::vector<long>& groups = content_.of_entities[{dimension, tag}];
+        std::vector<long>& groups = content_.groups_of_entity[{dimension, tag}];
         for (long k = words_.count("the number of physical groups of an entity"); k > 0; --k)
           groups.push_back(std::abs(words_.integer("a physical tag")));
         if (dimension == 0) continue;
@@ -209,7 +210,7 @@ class GmshReader {
   }
 
   void add_node(long number, SourcePlace place, double x, double y, double z) {
-    if (!content_.by_number.emplace(number, static_cast<int>(content_.nodes.size())).second)
+    if (!content_.node_index.emplace(number, static_cast<int>(content_.nodes.size())).second)
       words_.fail(fmt::format("found node {} twice", number));
     if (content_.nodes.empty()) z_ = z;
     if (z != z_)
@@ -262,8 +263,8 @@ class GmshReader {
     RawElement element{&type, {}, std::move(physical), number, words_.place()};
     for (std::size_t i = 0; i < type.nodes; ++i) {
       const long node = words_.integer("the number of a node");
-      const auto known = content_.by_number.find(node);
-      if (known == content_.by_number.end())
+      const auto known = content_.node_index.find(node);
+      if (known == content_.node_index.end())
         words_.fail(fmt::format("element {} has node {}, which is not in $Nodes", number, node));
       element.nodes.push_back(known->second);
     }
@@ -279,7 +280,7 @@ class GmshReader {
       const long n = words_.count("a number of elements");
       for (long i = 0; i < n; ++i) {
         const long number = words_.integer("the tag of an element");
-        read_element(type_of(type, number), number, content_.of_entities[{dimension, entity}]);
+        read_element(type_of(type, number), number, content_.groups_of_entity[{dimension, entity}]);
       }
     }
   }
@@ -400,7 +401,7 @@ class BodyBuilder {
       const std::string name = content_.name(raw.type->dimension, tag);
       PlaneMesh::Group& g = group(name);
       if (edge && edge->elements > 1)
-        inside_.try_emplace(name, &raw);
+        inner_lines_.try_emplace(name, &raw);
       else if (edge && taken_.insert({name, edge}).second)  // format 2.2 lists a line once per group
         g.edges.push_back({edge->nodes});
       for (const int n : edge ? edge->nodes : nodes)
@@ -431,7 +432,7 @@ class BodyBuilder {
   /// only selects nodes.
   void check_boundaries() const {
     for (const PlaneMesh::Group& g : mesh_.groups)
-      if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())
+      if (const auto inside = inner_lines_.find(g.name); !g.edges.empty() && inside != inner_lines_.end())
         throw SceneError(inside->second->place, key_,
                          fmt::format("line {} of the physical curve \"{}\" has elements on both sides, but "
                                      "other lines of this curve bound the body: give each part its own group",
@@ -445,7 +446,7 @@ class BodyBuilder {
   SharedEdges edges_;
   std::set<std::pair<std::string, const SharedEdge*>> taken_;
   std::set<std::pair<std::string, int>> in_group_;
-  std::map<std::string, const RawElement*> inside_;  ///< per group: one of its lines inside the body
+  std::map<std::string, const RawElement*> inner_lines_;  ///< per group: one of its lines inside the body
 };
 
 /// The smallest and the largest Jacobian determinant at nodes and integration points.

@@ -80,7 +80,7 @@ double reach_of(std::initializer_list<const Curves*> all) {
 }
 
 /// Sorts edges into chains of connected edges.
-Curves in_order(Curves curves) {
+Curves sorted_into_chains(Curves curves) {
   std::map<int, std::size_t> by_start;
   std::map<int, int> ends;
   for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -272,7 +272,7 @@ std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master, c
 MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
                           const std::vector<PlaneMesh::Edge>& master, const NodePosition& place,
                           const std::vector<PlaneMesh::Edge>& outline) {
-  const Curves own = in_order(curves_of(slave, place)), other = curves_of(master, place),
+  const Curves own = sorted_into_chains(curves_of(slave, place)), other = curves_of(master, place),
                body = curves_of(outline, place);
   MortarSums sums(own, reach_of({&own, &other, &body}));
   for (const EdgeCurve& edge : own) sums.add(edge, overlaps_of(edge, other, body));
@@ -280,7 +280,7 @@ MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
 }
 
 MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const NodePosition& place) {
-  const Curves own = in_order(curves_of(slave, place));
+  const Curves own = sorted_into_chains(curves_of(slave, place));
   const double reach = reach_of({&own});
   MortarSums sums(own, reach);
   for (const EdgeCurve& edge : own) sums.add(edge, {{-1.0, 1.0, nullptr}});
@@ -291,7 +291,7 @@ MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const Nod
 
 MortarSeam mortar_on_line(const std::vector<PlaneMesh::Edge>& slave, const PlanePoint& point,
                           const PlanePoint& normal, const NodePosition& place) {
-  const Curves all = in_order(curves_of(slave, place));
+  const Curves all = sorted_into_chains(curves_of(slave, place));
   Curves own;
   for (const EdgeCurve& edge : all)
     if (edge.outward().dot(Point2(normal[0], normal[1])) < 0.0) own.push_back(edge);

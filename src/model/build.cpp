@@ -54,7 +54,7 @@ namespace {
 
 /// Takes from a saved run: the shear forces of contacts (they define the anchors), the slip directions, and the
 /// states of user laws.
-void take_contacts(const SavedState& saved, Model& model) {
+void take_saved_contact_states(const SavedState& saved, Model& model) {
   for (Contact& c : model.contacts) {
     for (const SavedState::UserLawMemory& own : saved.user_law_states)
       if (c.name == own.contact)
@@ -87,7 +87,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
     model.u0 = state.u;
     model.v0 = state.v;
     if (!scene.initial.saved) return;
-    take_contacts(*scene.initial.saved, model);
+    take_saved_contact_states(*scene.initial.saved, model);
     model.saved_contacts = final_contacts(*scene.initial.saved, model);
     return;
   }
@@ -125,7 +125,7 @@ std::vector<bool> closed_at_start(const Model& model) {
 }
 
 /// The saved run that the scene continues; null if there is none, or if its structure differs.
-const SavedState* same_run(const Scene& scene) {
+const SavedState* continued_run(const Scene& scene) {
   const auto& saved = scene.initial.saved;
   return saved && saved->structure_differences.empty() ? &*saved : nullptr;
 }
@@ -135,7 +135,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   const DampingSpec& spec = scene.damping;
   model.alpha = spec.alpha;
   model.beta = spec.beta;
-  const SavedState* before = same_run(scene);
+  const SavedState* before = continued_run(scene);
   const auto saved = before ? scene::saved_motion(*before, scene::saved_alpha) : std::nullopt;
   if (spec.alpha_over_omega1 && saved) {
     model.alpha = *saved;
@@ -172,7 +172,7 @@ void start_with_geometric_stiffness(const Scene& scene, DofMap& map, Model& mode
 void start(const Scene& scene, DofMap& map, Model& model) {
   const bool stands = scene.initial.is_static || scene.initial.is_frictional;
   if (!stands || !has_pressed_pendulums(scene)) {
-    if (same_run(scene)) set_pendulum_forces(scene, saved_pendulum_forces(scene), model);
+    if (continued_run(scene)) set_pendulum_forces(scene, saved_pendulum_forces(scene), model);
     start_with_geometric_stiffness(scene, map, model);
     return;
   }
@@ -256,7 +256,7 @@ void exclude_prestress_damping(const Scene& scene, const DofMap& map, Assembly& 
 /// Scales of the saved run that the scene continues; if there is none, scales computed from the model.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
-  const SavedState* before = same_run(scene);
+  const SavedState* before = continued_run(scene);
   if (!before || !before->scales) return own;
   const auto& s = *before->scales;
   return {s[0], s[1], s[2], s[3], s[4]};
@@ -267,7 +267,7 @@ enum class Extent { structure, without_warnings, all };
 /// Builds the model in the units of `scene`. unit: the scene's units of force, length and time, in the units of messages.
 Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
   DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
-  map.shown_length = unit.length;
+  map.message_length_factor = unit.length;
   if (map.size() == 0)
     throw SceneError(
         place_of_structure(scene), "",

@@ -95,11 +95,11 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
 }
 
 /// Errors: SceneError if beta K or a damper acts on motions along the columns of S.
-void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vector<Row>& rows,
-                 const SparseMatrix& s) {
+void check_undamped(const Scene& scene, const SparseMatrix& dampers, const std::vector<Row>& rows,
+                    const SparseMatrix& s) {
   const bool beta = scene.damping.beta > 0.0;
   const SparseMatrix damped = dampers * s;
-  const auto strange = [&](Eigen::Index j, const std::string& what, const char* instead) {
+  const auto refuse_damping = [&](Eigen::Index j, const std::string& what, const char* instead) {
     const Row& row = rows[static_cast<std::size_t>(j)];
     refuse_compliance_split(
         scene, row.contact, "law",
@@ -108,8 +108,8 @@ void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vec
                     row.dof->displacement, what, instead));
   };
   for (Eigen::Index j = 0; j < s.cols(); ++j) {
-    if (beta) strange(j, "damping.beta damps it", "beta = 0");
-    if (damped.col(j).norm() > 0.0) strange(j, "a damper acts on it", "no damper");
+    if (beta) refuse_damping(j, "damping.beta damps it", "beta = 0");
+    if (damped.col(j).norm() > 0.0) refuse_damping(j, "a damper acts on it", "no damper");
   }
 }
 
@@ -185,19 +185,19 @@ Compliance compliance_of(const Model& model) {
   const SparseMatrix pick = assembly::selection(light, model.size());
   const assembly::SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
   const auto m = static_cast<Eigen::Index>(f.contacts.size());
-  Eigen::MatrixXd n(static_cast<Eigen::Index>(light.size()), m), t = n, of_n = n;
+  Eigen::MatrixXd n(static_cast<Eigen::Index>(light.size()), m), t = n, response_to_normal = n;
   t.setZero();
   f.friction = Eigen::VectorXd::Zero(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Contact& c = model.contacts[f.contacts[static_cast<std::size_t>(i)]];
     n.col(i) = pick.transpose() * assembly::dense_vector(c.normal, model.size());
-    of_n.col(i) = solver.solve(Vector(n.col(i)));
+    response_to_normal.col(i) = solver.solve(Vector(n.col(i)));
     if (!c.has_friction()) continue;
     t.col(i) = pick.transpose() * assembly::dense_vector(c.tangent, model.size());
     f.friction[i] = std::max(c.friction.static_, c.friction.kinetic);
   }
-  f.nn = of_n.transpose() * n;
-  f.nt = of_n.transpose() * t;
+  f.nn = response_to_normal.transpose() * n;
+  f.nt = response_to_normal.transpose() * t;
   for (Eigen::Index i = 0; i < m; ++i)
     f.nn(i, i) += 1.0 / model.contacts[f.contacts[static_cast<std::size_t>(i)]].normal_stiffness;
   return f;
@@ -210,7 +210,7 @@ std::optional<ComplianceSplit> split_compliance(const Scene& scene, const Sparse
   const std::vector<Row> rows = rows_of(scene, model);
   if (rows.empty()) return std::nullopt;
   const SparseMatrix s = shifts(scene, model, rows);
-  check_alone(scene, dampers, rows, s);
+  check_undamped(scene, dampers, rows, s);
   const SparseMatrix ks = model.stiffness * s;
   const Eigen::MatrixXd g(SparseMatrix(s.transpose() * ks));
   const Eigen::VectorXd l = 2.0 * g.cwiseAbs().rowwise().sum();

@@ -103,7 +103,7 @@ struct GivenPlace {
   int dof = 0;
 };
 /// Names, for messages, of the degrees of freedom that determine the tied motion `tied`.
-std::string given_for(const assembly::DofMap& map, int tied) {
+std::string determining_dofs(const assembly::DofMap& map, int tied) {
   std::vector<std::string> names;
   for (const assembly::TiedTerm& term : map.terms(tied))
     if (term.number >= 0) names.push_back(map.dofs[static_cast<std::size_t>(term.number)].displacement);
@@ -128,7 +128,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
     throw SceneError(c.place, key,
                      fmt::format("found a motion of node '{}', which follows from other motions because the "
                                  "node is part of a rigid body; expected one of {}",
-                                 c.node, given_for(map, number)));
+                                 c.node, determining_dofs(map, number)));
   if (number < 0) return std::nullopt;
   return GivenPlace{named->rate, number};
 }
@@ -300,7 +300,7 @@ std::vector<double> saved_pendulum_forces(const Scene& scene) {
 namespace {
 
 /// Word in run.stages for all loads of this kind; empty if each load of this kind is listed by its own name.
-std::string word_of(LoadKind kind) {
+std::string stage_word(LoadKind kind) {
   switch (kind) {
     case LoadKind::temperature:
       return "temperature";
@@ -327,7 +327,7 @@ std::string word_of(LoadKind kind) {
   const std::string& name = spec.loads[index];
   std::vector<std::string> names;
   for (const Load& load : model.loads)
-    for (const std::string& known : {word_of(load.kind), load.name})
+    for (const std::string& known : {stage_word(load.kind), load.name})
       if (!known.empty() && std::find(names.begin(), names.end(), known) == names.end())
         names.push_back(known);
   throw SceneError(spec.load_places[index], key,
@@ -338,16 +338,16 @@ std::string word_of(LoadKind kind) {
 /// then valid and has no effect.
 bool is_zero_kind(const Scene& scene, const std::string& name) {
   const auto expands = [](const auto& part) { return part.thermal_expansion != 0.0; };
-  if (name == word_of(LoadKind::temperature))
+  if (name == stage_word(LoadKind::temperature))
     return std::any_of(scene.members.begin(), scene.members.end(), expands) ||
            std::any_of(scene.bodies.begin(), scene.bodies.end(), expands);
-  if (name == word_of(LoadKind::preload)) return !scene.springs.empty();
-  return name == word_of(LoadKind::base) && !scene.base_motion.empty();
+  if (name == stage_word(LoadKind::preload)) return !scene.springs.empty();
+  return name == stage_word(LoadKind::base) && !scene.base_motion.empty();
 }
 
 /// True if the stage's name refers to the load, by its own name or by its kind.
-bool is_called(const Load& load, const std::string& name) {
-  return name == load.name || name == word_of(load.kind);
+bool matches_name(const Load& load, const std::string& name) {
+  return name == load.name || name == stage_word(load.kind);
 }
 
 /// Sums up the loads of stage `number` (from 1). taken: for each load, the number of stages that applied it so far.
@@ -359,7 +359,7 @@ statics::Stage made(const Scene& scene, std::size_t number, const Model& model, 
     bool any = false;
     for (std::size_t i = 0; i < model.loads.size(); ++i) {
       const Load& load = model.loads[i];
-      if (!is_called(load, spec.loads[j])) continue;
+      if (!matches_name(load, spec.loads[j])) continue;
       any = true;
       if (++taken[i] > 1)
         throw SceneError(
@@ -405,7 +405,7 @@ bool presses(const StageSpec& spec, const Model& model) {
   return std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
     return load.history.value(0.0) != 0.0 &&
            std::any_of(spec.loads.begin(), spec.loads.end(),
-                       [&](const std::string& name) { return is_called(load, name); });
+                       [&](const std::string& name) { return matches_name(load, name); });
   });
 }
 

@@ -133,7 +133,7 @@ namespace {
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Massless degrees of freedom with a damper.
-std::vector<int> damped_without_mass(const Model& model) {
+std::vector<int> damped_massless_dofs(const Model& model) {
   std::vector<int> list;
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless && model.damping.coeff(i, i) > 0.0)
@@ -212,7 +212,7 @@ void change_basis(Model& model, const SparseMatrix& basis, const std::vector<boo
 }  // namespace
 
 void separate_undamped(Model& model) {
-  const std::vector<int> damped = damped_without_mass(model);
+  const std::vector<int> damped = damped_massless_dofs(model);
   if (damped.empty()) return;
   Eigen::MatrixXd z = statics::null_motions(part_of(model.damping, damped));
   if (z.cols() == 0) return;
@@ -257,7 +257,7 @@ class Turning {
     const Node& here = nodes_[static_cast<std::size_t>(n)];
     return here.carried && !here.turns && map_.body[static_cast<std::size_t>(n)] == assembly::DofMap::absent;
   }
-  [[nodiscard]] bool of_plane_elements(const std::string& node) const {
+  [[nodiscard]] bool has_plane_element(const std::string& node) const {
     return nodes_[static_cast<std::size_t>(map_.mesh.by_name.at(node))].plane;
   }
 
@@ -297,7 +297,7 @@ std::vector<std::string> unconnected_rotations(const Scene& scene, const assembl
       if (!node.empty() && turning.idle(node)) name(moved, "a rotational spring", node);
   }
   for (const Support& support : scene.supports)
-    if (support.rz && turning.idle(support.node) && turning.of_plane_elements(support.node))
+    if (support.rz && turning.idle(support.node) && turning.has_plane_element(support.node))
       name(held, support.key, support.node);
   std::vector<std::string> warnings;
   for (const auto& [what, nodes] : moved)

@@ -77,14 +77,14 @@ class ModelWarnings {
     warn_of_loads_without_effect();
     for (std::string& idle : unconnected_rotations(scene_, map_)) found_.push_back(std::move(idle));
     falls();
-    sudden_weight();
+    warn_of_sudden_weight();
     drag();
     friction();
     shear();
-    another_run();
+    warn_of_other_structure();
     pulses();
-    sudden_supports();
-    sudden_heat();
+    warn_of_sudden_supports();
+    warn_of_sudden_heat();
     growth();
     for (std::string& doubt : outputs::hanger_warnings(scene_, model_)) found_.push_back(std::move(doubt));
     warn_of_instability();
@@ -128,7 +128,7 @@ class ModelWarnings {
     std::size_t number = 0;
     for (const assembly::Part& part : parts) {
       const std::vector<std::size_t>& own = supports[number];
-      if (!own.empty() && !gripped[number] && flees(part, own))
+      if (!own.empty() && !gripped[number] && moves_away(part, own))
         falling_.insert(falling_.end(), own.begin(), own.end());
       ++number;
     }
@@ -139,7 +139,7 @@ class ModelWarnings {
                     names(model_, falling_)));
   }
 
-  [[nodiscard]] bool flees(const assembly::Part& part, const std::vector<std::size_t>& contacts) const {
+  [[nodiscard]] bool moves_away(const assembly::Part& part, const std::vector<std::size_t>& contacts) const {
     const Eigen::MatrixXd z = statics::null_motions(part.matrix(model_.stiffness));
     if (z.cols() == 0) return false;
     const SparseMatrix mass = part.matrix(model_.mass);
@@ -156,7 +156,7 @@ class ModelWarnings {
     return away;
   }
 
-  void sudden_weight() {
+  void warn_of_sudden_weight() {
     if (model_.static_start || weight_.isZero(0.0) || !model_.u0.isZero(0.0)) return;
     if (scene_.gravity[0] == 0.0 && scene_.gravity[1] == 0.0) return;
     std::vector<std::size_t> touching;
@@ -227,7 +227,7 @@ class ModelWarnings {
   }
 
   /// Warns of supports that jump at t = 0: the initial state is the one after the jump, and no impulse acts.
-  void sudden_supports() {
+  void warn_of_sudden_supports() {
     for (const Load& load : model_.loads) {
       if (load.kind != LoadKind::support || scene_.initial.saved) continue;
       const History f = history::resolved(load.history, scene_.run.t_end);
@@ -249,7 +249,7 @@ class ModelWarnings {
 
   /// Warns of temperatures that act suddenly at t = 0. A static start omits loads whose history is not constant, but a nonzero
   /// temperature at t = 0 was probably meant to be part of the start.
-  void sudden_heat() {
+  void warn_of_sudden_heat() {
     if (scene_.initial.saved || !scene_.initial.stages.empty()) return;
     if (!scene_.initial.is_static && !scene_.initial.is_frictional) return;
     for (const Load& load : model_.loads) {
@@ -263,7 +263,7 @@ class ModelWarnings {
     }
   }
 
-  void another_run() {
+  void warn_of_other_structure() {
     if (!scene_.initial.saved) return;
     const std::string& run = scene_.initial.saved->run;
     if (const std::string why = run.empty() ? "" : base::unchecked_reason(run); !why.empty())
@@ -351,9 +351,9 @@ double share_at(const History& f, double amplitude, double t_end, double omega) 
 }
 
 /// Computes the frequency of an oscillation along the static response to a load; 0 if the load has no static response.
-class HalfPeriods {
+class StaticResponseFrequencies {
  public:
-  HalfPeriods(const Model& model, const modes::ContactConstraints& holding) : model_(model) {
+  StaticResponseFrequencies(const Model& model, const modes::ContactConstraints& holding) : model_(model) {
     const SparseMatrix k = assembly::with_springs(model.stiffness, holding.springs);
     if (statics::null_motions(modes::with_constraint_springs(k, holding.fixed)).cols() == 0)
       structure_.emplace(k, holding.fixed);
@@ -374,7 +374,7 @@ class HalfPeriods {
 
 EffectiveAmplitudes effective_amplitudes(const Model& model, const modes::ContactConstraints& holding,
                                          double omega, double t_end) {
-  std::optional<HalfPeriods> swings;
+  std::optional<StaticResponseFrequencies> swings;
   const auto own = [&](double along) { return along * t_end > 1.0 ? along : free_phase / t_end; };
   // The effective share of a load increases with the frequency: if it is 1 at the lowest frequency, it is always 1.
   const double lowest = std::max(omega, 1.0 / t_end);

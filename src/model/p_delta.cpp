@@ -15,7 +15,8 @@ constexpr int shown_factors = 5;
 constexpr const char* asked_by = "run.geometric";
 
 /// Constraints by the normals of closed contacts and the tangents of sticking contacts.
-modes::ContactConstraints held_at(const std::vector<Contact>& contacts, const std::vector<State>& states) {
+modes::ContactConstraints constraints_in_states(const std::vector<Contact>& contacts,
+                                                const std::vector<State>& states) {
   modes::ContactConstraints holding;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
@@ -44,7 +45,7 @@ std::vector<double> factors_at(const Scene& scene, const assembly::DofMap& map, 
                                const std::vector<State>& states, int count) {
   const SparseMatrix geometric = assembly::assemble_geometric_stiffness(scene, map).matrix;
   const SparseMatrix elastic = model.stiffness - geometric;
-  return modes::load_factors(elastic, geometric, held_at(model.contacts, states), count);
+  return modes::load_factors(elastic, geometric, constraints_in_states(model.contacts, states), count);
 }
 
 /// Errors: SceneError if the lowest load factor is at most 1, so that the start is not a stable equilibrium.

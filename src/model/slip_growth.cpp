@@ -59,14 +59,14 @@ constexpr double rigid = 1e4;  // stiffness of rigid contacts / stiffness of the
 constexpr double no_growth = 1e-6;
 
 /// A slipping contact. push = n - s f t: direction of the sum of its normal and friction force.
-struct Drive {
+struct SlippingContact {
   Vector normal, push;
   double stiffness, damping;
 };
 
 struct Slipping {
   SparseMatrix stiffness;  ///< of the structure and of contacts that do not slip; symmetric
-  std::vector<Drive> drives;
+  std::vector<SlippingContact> drives;
   std::vector<std::size_t> contacts;
 };
 
@@ -109,7 +109,8 @@ Window window(const Model& model, const Slipping& slip, double sigma) {
   const Eigen::Index n = model.size();
   if (n <= all_up_to) return {Eigen::MatrixXd::Identity(n, n)};
   Eigen::MatrixXd k = slip.stiffness;
-  for (const Drive& drive : slip.drives) k += drive.stiffness * drive.normal * drive.normal.transpose();
+  for (const SlippingContact& drive : slip.drives)
+    k += drive.stiffness * drive.normal * drive.normal.transpose();
   // Eigenvalues 1 / (omega^2 + sigma^2), ascending: the last ones belong to the lowest frequencies.
   const base::EigenPairs pairs =
       base::generalized_eigen(model.mass, k + sigma * sigma * Eigen::MatrixXd(model.mass));
@@ -146,7 +147,7 @@ std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<Stat
   const auto [q, end] = window(model, slip, sigma);
   if (q.cols() == 0) return std::nullopt;
   Eigen::MatrixXd k = q.transpose() * (slip.stiffness * q), c = q.transpose() * (model.damping * q);
-  for (const Drive& drive : slip.drives) {
+  for (const SlippingContact& drive : slip.drives) {
     const Eigen::MatrixXd way = (q.transpose() * drive.push) * (drive.normal.transpose() * q);
     k += drive.stiffness * way;
     c += drive.damping * way;

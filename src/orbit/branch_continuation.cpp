@@ -41,7 +41,7 @@ bool BranchContinuation::restart(CorrectedPoint& here, double sign) {
     ShootingStart start{state, next.duration, map_.autonomous(), newton_.accepted_residual(), {}};
     start.energy = map_.energy(next.s);
     ShootingResult shot = shoot(*at, start, correction_tolerance);
-    if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
+    if (!shot.closed || shot.pass.end_derivatives.size() == 0) return false;
     here.state = {shot.state, shot.duration, next.s};
     here.pass = std::move(shot.pass);
     here.residual = shot.residual;
@@ -85,7 +85,7 @@ void BranchContinuation::choose_new_section(CorrectedPoint& here, std::optional<
   moved.pass = map_.pass(moved.state);
   moved.derivative_by_s = {};
   moved.multipliers.clear();
-  if (!(moved.pass.done() && moved.pass.end_rates.size() > 0)) {
+  if (!(moved.pass.done() && moved.pass.end_derivatives.size() > 0)) {
     map_.set_section(before);
     return;
   }
@@ -93,15 +93,16 @@ void BranchContinuation::choose_new_section(CorrectedPoint& here, std::optional<
   place = std::move(place_there);
 }
 
-/// Stores in ahead_ the component of the tangent at `next` along the parameter. Its sign is the same in every section,
+/// Stores in parameter_component_ the component of the tangent at `next` along the parameter. Its sign is the same in every section,
 /// although the branch may bend more in another section.
-void BranchContinuation::look_ahead(const std::optional<SecantPoint>& place, CorrectedPoint& next) {
-  ahead_ = 0.0;
-  if (!place || map_.autonomous() || turning_) return;
+void BranchContinuation::store_parameter_direction(const std::optional<SecantPoint>& place,
+                                                   CorrectedPoint& next) {
+  parameter_component_ = 0.0;
+  if (!place || map_.autonomous() || tangent_deviates_) return;
   const std::optional<Vector> secant = newton_.secant(*place, next);
   if (!secant) return;
   const double along = newton_.examine(next, *secant)[secant->size() - 1];
-  if (std::abs(along) > location_tolerance) ahead_ = along;
+  if (std::abs(along) > location_tolerance) parameter_component_ = along;
 }
 
 /// Direction of the next step: the tangent if it agrees with the secant of the last step, otherwise the
@@ -114,11 +115,11 @@ Vector BranchContinuation::direction(const std::optional<SecantPoint>& place, Co
   if (!secant) return newton_.examine(here, before);
   newton_.examine(here, *secant, {}, true);
   const auto [way, drift] = newton_.split(here, *secant);
-  if (turning_ && newton_.fixes_parameter(way)) return way + drift;
+  if (tangent_deviates_ && newton_.fixes_parameter(way)) return way + drift;
   Vector tangent = newton_.examine(here, *secant);
-  if (ahead_ * tangent[tangent.size() - 1] < 0.0) tangent = newton_.examine(here, -tangent);
-  turning_ = tangent.dot(way) < same_direction_cosine;
-  return (turning_ ? way : tangent) + drift;
+  if (parameter_component_ * tangent[tangent.size() - 1] < 0.0) tangent = newton_.examine(here, -tangent);
+  tangent_deviates_ = tangent.dot(way) < same_direction_cosine;
+  return (tangent_deviates_ ? way : tangent) + drift;
 }
 
 /// Text of the sequence of events. The events are rotated to the alphabetically first order, since the section may move.
@@ -148,7 +149,7 @@ bool BranchContinuation::add(const CorrectedPoint& here, const std::string& spec
   Orbit orbit;
   const OrbitPass next =
       map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s}, true, true);
-  const bool known = next.done() && next.end_rates.size() == here.pass.end_rates.size();
+  const bool known = next.done() && next.end_derivatives.size() == here.pass.end_derivatives.size();
   newton_.update_noise(here.pass, next);
   set_multipliers(here.multipliers, known ? monodromy(model, next) : Eigen::MatrixXd(), here.ones, here.error,
                   map_.keeps_energy(), orbit);
@@ -338,7 +339,7 @@ void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
       ds = 0.25 * options_.step;
     }
     const bool changes = sequence_of(here.pass) != sequence_of(next.pass);
-    look_ahead(place, next);
+    store_parameter_direction(place, next);
     choose_new_section(next, place);
     const Vector before = t.size() == newton_.size(next.pass)
                               ? t
@@ -349,10 +350,10 @@ void BranchContinuation::continue_branch(CorrectedPoint here, Vector t) {
     here.family = {};  // the stored directions refer to the norm of the previous point
     t = direction(place, here, t);
     if (move_to_representative(here, t)) t = direction(place, here, t);
-    keep_mark(here, t);
+    store_checkpoint(here, t);
     folds_ = folds_ && special.empty() && along * t[t.size() - 1] < 0.0 && changes;
     if (!add(here, special)) return;
-    offer_mark();
+    report_checkpoint();
     complete_ = last && special.empty() && length == whole;
     if (complete_) {
       report_end(here, along);
@@ -381,20 +382,20 @@ void BranchContinuation::report_end(const CorrectedPoint& here, double along) {
   complete_ = false;
 }
 
-void BranchContinuation::walk_from_start() {
+void BranchContinuation::follow_from_start() {
   CorrectedPoint here;
   if (!begin(here)) return;
   const bool back = options_.resume_from && !options_.resume_from->towards_to;
   const Vector t = newton_.examine(here, newton_.parameter_direction(here.pass, back ? -1.0 : 1.0));
   move_to_representative(here, t);
   if (options_.resume_from) {
-    keep_mark(here, t);
+    store_checkpoint(here, t);
     continue_branch(std::move(here), t);
     return;
   }
   if (!add(here, "")) return;
-  keep_mark(here, t);
-  offer_mark();
+  store_checkpoint(here, t);
+  report_checkpoint();
   if (is_time_shift(here, t)) {
     end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all values of this key",
                        options_.path);
@@ -403,7 +404,7 @@ void BranchContinuation::walk_from_start() {
   continue_branch(std::move(here), t);
 }
 
-void BranchContinuation::keep_mark(const CorrectedPoint& here, const Vector& t) {
+void BranchContinuation::store_checkpoint(const CorrectedPoint& here, const Vector& t) {
   last_ = here.state;
   last_section_ = map_.section();
   towards_to_ = t[t.size() - 1] >= 0.0;
@@ -416,7 +417,7 @@ std::optional<BranchCheckpoint> BranchContinuation::mark() {
                           last_points_};
 }
 
-void BranchContinuation::offer_mark() {
+void BranchContinuation::report_checkpoint() {
   last_points_ = branch_.points.size();
   if (number_ == 1 && options_.on_checkpoint) options_.on_checkpoint([this] { return mark().value(); });
 }
@@ -436,7 +437,7 @@ void BranchContinuation::guarded(const std::function<void()>& walk) {
 }
 
 void BranchContinuation::follow() {
-  guarded([&] { walk_from_start(); });
+  guarded([&] { follow_from_start(); });
 }
 
 /// Finds the first point `here` on the other branch and the branch's direction t there. Returns false if no
@@ -445,7 +446,7 @@ bool BranchContinuation::begin_from(const Junction& junction, CorrectedPoint& he
   here = junction.at;
   if (doubled_) here.state.duration *= 2.0;
   here.pass = map_.pass(here.state);
-  if (!here.pass.done() || here.pass.end_rates.size() == 0) return false;
+  if (!here.pass.done() || here.pass.end_derivatives.size() == 0) return false;
   here.derivative_by_s = {};
   newton_.measure(here.pass);
   t = newton_.in_norm(junction.away);

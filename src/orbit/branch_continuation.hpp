@@ -57,7 +57,7 @@ class BranchContinuation {
  private:
   [[nodiscard]] bool begin(CorrectedPoint& here);
   [[nodiscard]] bool begin_from(const Junction& junction, CorrectedPoint& here, Vector& t);
-  void walk_from_start();
+  void follow_from_start();
   void continue_branch(CorrectedPoint here, Vector t);
   [[nodiscard]] CorrectedPoint step(const CorrectedPoint& here, const Vector& t, double ds, bool last) const;
   [[nodiscard]] bool is_time_shift(const CorrectedPoint& here, const Vector& t) const;
@@ -68,7 +68,7 @@ class BranchContinuation {
   [[nodiscard]] bool search_beyond_gap(const CorrectedPoint& here, CorrectedPoint& next, Vector& t);
   [[nodiscard]] bool returns(const CorrectedPoint& here);
   bool move_to_representative(CorrectedPoint& here, const Vector& t);
-  void look_ahead(const std::optional<SecantPoint>& place, CorrectedPoint& next);
+  void store_parameter_direction(const std::optional<SecantPoint>& place, CorrectedPoint& next);
   void choose_new_section(CorrectedPoint& here, std::optional<SecantPoint>& before);
   [[nodiscard]] Vector direction(const std::optional<SecantPoint>& place, CorrectedPoint& here,
                                  const Vector& before);
@@ -87,8 +87,8 @@ class BranchContinuation {
                                                   const Vector& t, double& length);
   [[nodiscard]] std::vector<LocatedPoint> between(const CorrectedPoint& here, CorrectedPoint& next,
                                                   const Vector& t, double& length);
-  [[nodiscard]] bool changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
-                                    const std::vector<LocatedPoint>& points) const;
+  [[nodiscard]] bool has_unlocated_change(const CorrectedPoint& here, const CorrectedPoint& next,
+                                          const std::vector<LocatedPoint>& points) const;
   /// True if the chord between the points `from` and `to` deviates from the branch's direction at `from`,
   /// given as `direction`, or, if at_to is true, from the direction at `to`.
   [[nodiscard]] bool chord_deviates(const SecantPoint& from, CorrectedPoint& to, const Vector* direction,
@@ -103,8 +103,8 @@ class BranchContinuation {
   [[nodiscard]] std::optional<LocatedPoint> end_of_sequence(const CorrectedPoint& here,
                                                             const CorrectedPoint& next, const Vector& t,
                                                             double ds) const;
-  void keep_mark(const CorrectedPoint& here, const Vector& t);
-  void offer_mark();
+  void store_checkpoint(const CorrectedPoint& here, const Vector& t);
+  void report_checkpoint();
   void keep_junction(const LocatedPoint& point);
   [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
   [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
@@ -142,10 +142,10 @@ class BranchContinuation {
   int points_ = 0;
   bool located_ = false;  // the last point is a special point located within a step
   bool folds_ = false;    // the parameter reverses between the last two points, without a located fold
-  bool turning_ = false;  // the tangent deviates from the secant of the last step (direction())
+  bool tangent_deviates_ = false;  // the tangent deviates from the secant of the last step (direction())
   // Component along the parameter of the tangent at the last point, in the section of the step that led to
   // this point; 0: unknown.
-  double ahead_ = 0.0;
+  double parameter_component_ = 0.0;
   bool doubled_ = false;  // the branch began at a flip
   double half_section_ = 0.0;
   Vector half_;  // for a doubled branch: z(T/2) - z at the last point

@@ -204,7 +204,7 @@ Vector BranchMap::parameter_derivative(const BranchState& state, const OrbitPass
     return rows_of(other);
   };
   const Vector here = rows_of(pass);
-  const double noise = residual_of(section, pass, here.head(n));
+  const double noise = gap_residual(section, pass, here.head(n));
   const double h = engine_info(at(state.s)->run().engine).accuracy == Accuracy::rounding
                        ? std::clamp(std::sqrt(noise), difference, greatest_difference)
                        : difference_of_steps;

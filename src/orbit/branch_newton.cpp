@@ -17,9 +17,9 @@ constexpr int max_corrections = 10;
 constexpr double longest_correction = 0.1;
 constexpr double slow = 0.02;  // ratio of successive residuals above which dG/ds is recomputed
 // Residual / amplitude up to which a stagnating correction is accepted, as in shooting.cpp.
-constexpr double corrected_at_last = 1e-9;
+constexpr double stagnated_correction = 1e-9;
 // Residual / noise of the map at which a correction ends: the noise prevents smaller residuals. Chosen value.
-constexpr double of_noise = 4.0;
+constexpr double residual_per_noise = 4.0;
 // Residual / amplitude up to which damped steps are tried. Chosen value.
 constexpr double worth_damping = 1e-3;
 // A direction is split only if its part outside all families is longer than this. Chosen value.
@@ -75,7 +75,7 @@ Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass
   const Eigen::Index of_energy = map_.keeps_energy() ? 1 : 0, rows = n + extra + of_energy;
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, n + extra + 1);
   const Vector over = sizes_.cwiseInverse();
-  J.topLeftCorner(n, n) = over.asDiagonal() * (B.transpose() * pass.end_rates) * sizes_.asDiagonal();
+  J.topLeftCorner(n, n) = over.asDiagonal() * (B.transpose() * pass.end_derivatives) * sizes_.asDiagonal();
   J.topLeftCorner(n, n) -= Eigen::MatrixXd::Identity(n, n);
   if (by_s.size() == n + of_energy) {
     J.block(0, n + extra, n, 1) = over.cwiseProduct(by_s.head(n));
@@ -105,12 +105,12 @@ Vector BranchNewton::parameter_derivative(const BranchState& state, const OrbitP
 /// Reason why a pass cannot be used for a correction; empty if the pass can be used.
 std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) const {
   if (!pass.done()) return "the run over one period stopped: " + pass.outcome.reason;
-  if (pass.end_rates.size() == 0) return "the state after one period has no derivative: " + pass.reason;
+  if (pass.end_derivatives.size() == 0) return "the state after one period has no derivative: " + pass.reason;
   return size(pass) != unknowns ? "the contact state at the section changes" : "";
 }
 
 double BranchNewton::accepted_residual() const {
-  return std::max(corrected_at_last, accepted_noise_factor * noise_);
+  return std::max(stagnated_correction, accepted_noise_factor * noise_);
 }
 
 /// E*(s) - E(x, s), in the scene's units; 0 if no energy is prescribed.
@@ -125,7 +125,7 @@ CorrectedPoint BranchNewton::correct(BranchState guess, const Vector& direction,
   const bool held = fixes_parameter(direction);
   Vector t = direction, slope = by_s;
   if (held) t = Vector::Unit(t.size(), t.size() - 1);
-  const double enough = std::max(correction_tolerance, of_noise * noise_);
+  const double enough = std::max(correction_tolerance, residual_per_noise * noise_);
   double before = 0.0;
   for (c.iterations = 0; c.iterations <= max_corrections; ++c.iterations) {
     c.pass = map_.pass(c.state);
@@ -220,7 +220,8 @@ Vector BranchNewton::examine(CorrectedPoint& at, const Vector& before, std::opti
   if (at.multipliers.empty()) {
     at.monodromy = monodromy(map_.model(), at.pass);
     at.multipliers = multipliers_of(at.monodromy);
-    at.error = error_of(at.monodromy, at.pass.rates_error, orbit_state_error(map_.at(at.state.s)->run()));
+    at.error =
+        error_of(at.monodromy, at.pass.derivatives_error, orbit_state_error(map_.at(at.state.s)->run()));
     at.family = {};
   }
   const std::size_t of_time = map_.keeps_energy() ? 2 : map_.autonomous() ? 1 : 0;

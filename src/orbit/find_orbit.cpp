@@ -209,7 +209,7 @@ std::string Search::repeated(const orbit::OrbitState& state) const {
       return {};  // the motion is nearly an orbit
     const orbit::OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
-    if (k > 1 && orbit::residual_of(section, *first, gap) <= repetition_tolerance)
+    if (k > 1 && orbit::gap_residual(section, *first, gap) <= repetition_tolerance)
       return fmt::format("; the transient repeats itself only after {} periods: use --times {}", k,
                          k * options_.times);
   }
@@ -268,14 +268,14 @@ void Search::shorten() {
 /// Computes multipliers and families.
 void Search::stability() {
   const orbit::OrbitPass& pass = shot_.pass;
-  if (pass.end_rates.size() == 0) {
+  if (pass.end_derivatives.size() == 0) {
     orbit_.reason = "multipliers are not available: " + pass.reason;
     return;
   }
   const Model& model = map_->model();
   const Eigen::MatrixXd phi = orbit::monodromy(model, pass);
   const orbit::OrbitPass next = map_->pass({orbit::orbit_state(pass.end), shot_.duration});
-  const Eigen::MatrixXd again = next.done() && next.end_rates.size() == pass.end_rates.size()
+  const Eigen::MatrixXd again = next.done() && next.end_derivatives.size() == pass.end_derivatives.size()
                                     ? orbit::monodromy(model, next)
                                     : Eigen::MatrixXd();
   const orbit::Multipliers all = orbit::multipliers_of(phi);
@@ -293,7 +293,7 @@ void Search::stability() {
   }
   if (families > 0) orbit_.families.push_back("a motion without a restoring force");
   orbit::set_multipliers(all, again, orbit_.families.size() + of_time,
-                         orbit::error_of(phi, pass.rates_error, closed_), options_.energy.has_value(),
+                         orbit::error_of(phi, pass.derivatives_error, closed_), options_.energy.has_value(),
                          orbit_);
   if (!orbit_.families.empty()) check_family_edge(phi);
 }
@@ -308,7 +308,7 @@ void Search::check_family_edge(const Eigen::MatrixXd& phi) {
       A, std::min(A.cols(), static_cast<Eigen::Index>(orbit_.families.size())));
   for (Eigen::Index k = 0; k < ways.cols(); ++k)
     for (const double side : {-beside, beside}) {
-      const Vector way = ways.col(k) / orbit::residual_of(section, pass, section.basis() * ways.col(k));
+      const Vector way = ways.col(k) / orbit::gap_residual(section, pass, section.basis() * ways.col(k));
       const orbit::OrbitPass other =
           map_->pass({section.moved(orbit::orbit_state(pass.begin), side * way), shot_.duration, false});
       for (std::size_t c = 0; c < pass.never_slips.size() && other.done(); ++c)
@@ -320,9 +320,9 @@ void Search::check_family_edge(const Eigen::MatrixXd& phi) {
     }
 }
 
-/// Number of samples of one period. A smooth extreme is missed by (pi / places_recorded)^2 / 2 of the amplitude,
-/// the extreme at an impact by pi / places_recorded of the amplitude.
-constexpr int places_recorded = 720;
+/// Number of samples of one period. A smooth extreme is missed by (pi / samples_per_period)^2 / 2 of the amplitude,
+/// the extreme at an impact by pi / samples_per_period of the amplitude.
+constexpr int samples_per_period = 720;
 /// An event that precedes the orbit's time 0 by less than this fraction of the period is an event at time 0.
 /// Chosen value: the remaining error of an orbit that closed to 1e-9.
 constexpr double same_instant = 1e-9;
@@ -348,7 +348,7 @@ void Search::report(const orbit::OrbitState& at_section, double section) {
   const Result rows = map.rows(start, shot_.duration);
   orbit_.start = last_state(orbit::with_shifted_excitation(given_, orbit_.phase), rows);
   orbit::PassOptions leg{at_section, shot_.duration, false};
-  leg.samples = places_recorded;
+  leg.samples = samples_per_period;
   const orbit::OrbitPass once = from_section.pass(leg);
   orbit_.sequence = events_from_time_zero(once.events, orbit_.section, orbit_.period);
   orbit_.cycle = once.cycle_energy;

@@ -61,12 +61,12 @@ bool repeats(const HistorySpec& spec) {
          (spec.type == HistoryType::harmonic && std::isinf(spec.end) && spec.omega != 0.0 && !spec.in_code);
 }
 
-double own_period(const HistorySpec& spec) {
+double history_period(const HistorySpec& spec) {
   return spec.period > 0.0 ? spec.period : 2.0 * std::numbers::pi / std::abs(spec.omega);
 }
 
 /// Time from which the history is periodic or constant.
-double settled_at(const HistorySpec& spec) {
+double periodic_since(const HistorySpec& spec) {
   if (spec.in_code) return spec.in_code->starts().empty() ? 0.0 : spec.in_code->starts().back();
   if (spec.type == HistoryType::table)
     return (spec.period > 0.0 ? spec.times.front() : spec.times.back()) + spec.shift;
@@ -77,7 +77,7 @@ double settled_at(const HistorySpec& spec) {
 LoadPeriod settled(const std::vector<Driver>& all) {
   LoadPeriod found;
   for (const Driver& d : all) {
-    found.periodic_from = std::max(found.periodic_from, settled_at(*d.spec));
+    found.periodic_from = std::max(found.periodic_from, periodic_since(*d.spec));
     if (d.surface) found.surfaces_move = true;
   }
   return found;
@@ -127,7 +127,7 @@ LoadPeriod load_period(const Scene& scene, const CountedLoads& count) {
   LoadPeriod found = settled(all);
   for (const Driver& d : all) {
     if (!repeats(*d.spec)) continue;
-    const double own = own_period(*d.spec);
+    const double own = history_period(*d.spec);
     const std::optional<double> both = found.period ? common(*found.period, own) : own;
     if (!both)
       throw SceneError(
@@ -183,9 +183,9 @@ namespace {
 
 // The search for a return to an earlier state ends at this distance or less. Distances are relative to the range of the
 // motion. Chosen value.
-constexpr double near_enough = 0.02;
+constexpr double accepted_return_distance = 0.02;
 // A return to a state at a larger distance is ignored.
-constexpr double too_far = 0.5;
+constexpr double max_return_distance = 0.5;
 // Smallest distance from the section to an event, relative to the period. Chosen value.
 constexpr double least_distance = 0.02;
 
@@ -223,9 +223,9 @@ ReturnMapStart return_map_start(const Model& model, const std::vector<OrbitPoint
     if (best != count && d >= found.distance) continue;
     best = i;
     found.distance = d;
-    if (d <= near_enough) break;
+    if (d <= accepted_return_distance) break;
   }
-  if (best == count || found.distance > too_far) return found;
+  if (best == count || found.distance > max_return_distance) return found;
   found.period = last.t - instants[best].t;
   double longest = 0.0;
   for (std::size_t i = best; i + 1 < count; ++i) {

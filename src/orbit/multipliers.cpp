@@ -77,9 +77,9 @@ std::size_t count_ones(const Multipliers& all) {
       std::count_if(all.begin(), all.end(), [](const auto& mu) { return std::abs(mu - 1.0) <= one; }));
 }
 
-double error_of(const Eigen::MatrixXd& phi, double rates_error, double states) {
+double error_of(const Eigen::MatrixXd& phi, double derivatives_error, double states) {
   const double size = phi.size() == 0 ? 0.0 : phi.cwiseAbs().maxCoeff();
-  return (static_cast<double>(phi.rows()) * rounding::eps + rates_error + states) * size;
+  return (static_cast<double>(phi.rows()) * rounding::eps + derivatives_error + states) * size;
 }
 
 void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& again, std::size_t ones, double error,

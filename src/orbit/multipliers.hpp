@@ -34,9 +34,9 @@ using Multipliers = std::vector<std::complex<double>>;
 /// All multipliers except the `count` multipliers nearest to 1.
 [[nodiscard]] Multipliers without_ones(Multipliers all, std::size_t count);
 
-/// Error of Phi, and thus of its simple multipliers. rates_error: OrbitPass::rates_error; states: error of
+/// Error of Phi, and thus of its simple multipliers. derivatives_error: OrbitPass::derivatives_error; states: error of
 /// the orbit's states / amplitude.
-[[nodiscard]] double error_of(const Eigen::MatrixXd& phi, double rates_error, double states);
+[[nodiscard]] double error_of(const Eigen::MatrixXd& phi, double derivatives_error, double states);
 
 /// Error of the distance from the unit circle. error: error of the multipliers; keeps: true if energy is conserved.
 [[nodiscard]] inline double error_at_circle(double error, bool keeps) {

@@ -152,11 +152,11 @@ class Bundle {
         return;
       }
     for (const sensitivity::TangentState& state : states)
-      pass.rates_error = std::max(pass.rates_error, state.error);
+      pass.derivatives_error = std::max(pass.derivatives_error, state.error);
     const auto columns = section_.size();
-    pass.end_rates.resize(section_.basis().rows(), columns);
+    pass.end_derivatives.resize(section_.basis().rows(), columns);
     for (Eigen::Index k = 0; k < columns; ++k)
-      pass.end_rates.col(k) = end_of(states[static_cast<std::size_t>(k)]);
+      pass.end_derivatives.col(k) = end_of(states[static_cast<std::size_t>(k)]);
   }
 
  private:

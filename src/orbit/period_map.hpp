@@ -27,10 +27,10 @@ struct OrbitPass {
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   double amplitude = 0.0;  ///< half the largest range of a displacement, rotations excluded; scene's unit
   /// Phi B, rows: coordinates at the section; empty: not requested, or not available
-  Eigen::MatrixXd end_rates;
-  /// Error of end_rates by rounding and truncation of series, relative to the largest entry of end_rates.
-  double rates_error = 0.0;
-  std::string reason;  ///< reason why end_rates are not available
+  Eigen::MatrixXd end_derivatives;
+  /// Error of end_derivatives by rounding and truncation of series, relative to the largest entry of end_derivatives.
+  double derivatives_error = 0.0;
+  std::string reason;  ///< reason why end_derivatives are not available
   std::vector<OutputExtremes> response;
   /// Minimum over the rows of f_s |N| - T and of f_s |N| + T, one per contact, in scales of the model.
   std::vector<std::array<double, 2>> margins;

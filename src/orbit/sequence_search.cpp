@@ -12,7 +12,7 @@ namespace {
 constexpr double first_doubt = 0.2, least_doubt = 1e-3, greatest_doubt = 0.5;
 
 /// Up to three positions x with the lengths d of one stretch. The position nearest to the change is last.
-struct Course {
+struct StretchHistory {
   std::size_t count = 0;
   std::array<double, 3> x{}, d{};
 
@@ -73,7 +73,7 @@ std::optional<SequenceSearch::Guess> SequenceSearch::guess_from(const std::vecto
   const auto inside = [&](double x) { return x > low() - enough_ && x < high() + enough_; };
   std::optional<Guess> nearest;
   for (std::size_t k = 0; k < places.back().stretches.size(); ++k) {
-    Course course;
+    StretchHistory course;
     course.count = std::min<std::size_t>(3, places.size());
     for (std::size_t i = 0; i < course.count; ++i) {
       const Place& place = places[places.size() - course.count + i];

@@ -17,7 +17,7 @@ constexpr std::size_t patience = 8;
 constexpr double reached = 1e-2;  // residual / tolerance at which Newton's method stops
 // Residual / amplitude at which an orbit is accepted although the residual no longer decreases: the rounding
 // of a long or stiff period. With a larger residual the search has failed. Chosen value.
-constexpr double closed_at_last = 1e-9;
+constexpr double stagnated_residual = 1e-9;
 // Singular values of Phi - I up to this limit are regarded as zero, relative to the largest one and to Phi. The limit
 // is the rounding of Phi. A disturbance that decays within 1e7 periods has a far larger singular value. Chosen value.
 constexpr double least_singular = 1e-9;
@@ -32,7 +32,7 @@ constexpr double at_rest = 1e-14;
 double over(double value, double amplitude) { return amplitude > at_rest ? value / amplitude : value; }
 
 /// Residual of the state; if an energy is given, the larger one of this residual and the energy's relative residual.
-double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
+double residual_with_energy(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
   const double gap = orbit_residual(model, pass);
   return start.energy ? std::max(gap, std::abs(pass.energy - *start.energy) / *start.energy) : gap;
 }
@@ -46,7 +46,7 @@ Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStar
   const Eigen::Index n = section.size(), all = n + (free_period ? 1 : 0);
   if (all == 0) return {};
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(all, all);
-  const Eigen::MatrixXd phi = B.transpose() * pass.end_rates;
+  const Eigen::MatrixXd phi = B.transpose() * pass.end_derivatives;
   A.topLeftCorner(n, n) = phi - Eigen::MatrixXd::Identity(n, n);
   Vector b = Vector::Zero(all);
   b.head(n) = -gap;
@@ -82,7 +82,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, ShootingResul
       shot.reason = "interrupted";
       return false;
     }
-    const double residual = pass.done() ? residual_to(model, start, pass) : shot.residual;
+    const double residual = pass.done() ? residual_with_energy(model, start, pass) : shot.residual;
     if (residual < shot.residual) {
       shot.steps.push_back({shot.residual, part});
       shot.state = std::move(state);
@@ -90,7 +90,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, ShootingResul
       shot.residual = residual;
       return true;
     }
-    if (shot.residual <= closed_at_last) return false;  // at rounding level a shorter step is no better
+    if (shot.residual <= stagnated_residual) return false;  // at rounding level a shorter step is no better
   }
   return false;
 }
@@ -111,7 +111,7 @@ Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSectio
   return unit * slope;
 }
 
-double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap) {
+double gap_residual(const OrbitSection& section, const OrbitPass& pass, const Vector& gap) {
   double worst = 0.0;
   const std::size_t nu = section.displacements(), nv = section.velocities();
   for (Eigen::Index i = 0; i < gap.size(); ++i) {
@@ -140,8 +140,9 @@ double sticking_shear_change(const Model& model, const OrbitPass& pass) {
 
 double orbit_residual(const Model& model, const OrbitPass& pass) {
   const OrbitSection section(model, pass.begin);
-  return std::max(residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin)),
-                  sticking_shear_change(model, pass));
+  return std::max(
+      gap_residual(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin)),
+      sticking_shear_change(model, pass));
 }
 
 namespace {
@@ -157,24 +158,26 @@ bool same_sequence(const OrbitPass& a, const OrbitPass& b) {
 }  // namespace
 
 std::optional<double> map_noise(const Model& model, const OrbitPass& first, const OrbitPass& second) {
-  if (first.end_rates.size() == 0 || !second.done() || !same_sequence(first, second)) return std::nullopt;
+  if (first.end_derivatives.size() == 0 || !second.done() || !same_sequence(first, second))
+    return std::nullopt;
   const OrbitSection section(model, first.begin);
   if (OrbitSection(model, second.begin).size() != section.size()) return std::nullopt;
   const Vector gap = section.coordinates(first.end) - section.coordinates(first.begin);
   const Vector next = section.coordinates(second.end) - section.coordinates(first.end);
-  return residual_of(section, first, next - first.end_rates * (section.basis().transpose() * gap));
+  return gap_residual(section, first, next - first.end_derivatives * (section.basis().transpose() * gap));
 }
 
 Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass) {
   const OrbitSection section(model, pass.begin);
-  return section.basis().transpose() * pass.end_rates;
+  return section.basis().transpose() * pass.end_derivatives;
 }
 
 namespace {
 
 /// True if the remaining residual is at most accepted_noise_factor times the noise of the map.
 bool is_noise(const PeriodMap& map, const ShootingResult& shot) {
-  if (shot.residual > accepted_noise_factor * max_noise || shot.pass.end_rates.size() == 0) return false;
+  if (shot.residual > accepted_noise_factor * max_noise || shot.pass.end_derivatives.size() == 0)
+    return false;
   const OrbitPass next = map.pass({orbit_state(shot.pass.end), shot.duration, false});
   const std::optional<double> noise = map_noise(map.model(), shot.pass, next);
   return noise && shot.residual <= accepted_noise_factor * std::min(*noise, max_noise);
@@ -199,7 +202,7 @@ ShootingResult shoot(const PeriodMap& map, const ShootingStart& start, double to
   const Model& model = map.model();
   ShootingResult shot{false, "", false, start.state, start.duration, 0.0, {}, {}};
   if (!run_period(map, shot)) return shot;
-  shot.residual = residual_to(model, start, shot.pass);
+  shot.residual = residual_with_energy(model, start, shot.pass);
   bool decreased = true;
   while (decreased && static_cast<int>(shot.steps.size()) < max_steps) {
     if (!shot.pass.reason.empty()) {
@@ -213,17 +216,18 @@ ShootingResult shoot(const PeriodMap& map, const ShootingStart& start, double to
       break;
     decreased = damped_step(map, start, shot, least_singular);
     for (const double finer : finer_steps)
-      if (!decreased && !shot.interrupted && shot.residual > closed_at_last)
+      if (!decreased && !shot.interrupted && shot.residual > stagnated_residual)
         decreased = damped_step(map, start, shot, finer);
     if (shot.interrupted) return shot;
-    if (shot.residual > 0.5 * before && shot.residual <= closed_at_last) {
+    if (shot.residual > 0.5 * before && shot.residual <= stagnated_residual) {
       if (decreased && !run_period(map, shot)) return shot;
       break;
     }
     if (decreased && !run_period(map, shot)) return shot;
   }
   shot.steps.push_back({shot.residual, 0.0});
-  shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed}) || is_noise(map, shot);
+  shot.closed =
+      shot.residual <= std::max({tolerance, stagnated_residual, start.closed}) || is_noise(map, shot);
   if (!shot.closed)
     shot.reason = fmt::format(
         "Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: {}", shot.residual,

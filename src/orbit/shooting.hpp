@@ -44,7 +44,7 @@ struct ShootingResult {
 
 /// max |gap| / amplitude of each kind (u, v, T). gap: any difference of two states, in coordinates at the section of the
 /// pass, which determines the amplitudes.
-[[nodiscard]] double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
+[[nodiscard]] double gap_residual(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
 
 /// Noise of the map: |z2 - z1 - Phi (z1 - z0)| / amplitude, where z1 and z2 are the images of z0 and z1.
 /// nullopt if Phi is unknown, or if the two passes have different events.

@@ -9,9 +9,9 @@
 namespace signorini::orbit {
 namespace {
 
-constexpr int max_places = 20;          // limit of the function evaluations in one root_between()
-constexpr double sharp_enough = 1e-10;  // |f| at which a search for a zero ends; chosen value
-constexpr double real_enough = 1e-12;   // a multiplier with a smaller imaginary part is real: rounding
+constexpr int max_places = 20;                // limit of the function evaluations in one root_between()
+constexpr double root_tolerance = 1e-10;      // |f| at which a search for a zero ends; chosen value
+constexpr double max_imaginary_part = 1e-12;  // a multiplier with a smaller imaginary part is real: rounding
 
 }  // namespace
 
@@ -20,7 +20,7 @@ TestValues test_values(const Multipliers& all, std::size_t ones, double along, d
   values.fold = along;
   double least = 0.0, greatest = 0.0, pair = 0.0;
   for (const auto& mu : without_ones(all, ones)) {
-    if (std::abs(mu.imag()) > real_enough) {
+    if (std::abs(mu.imag()) > max_imaginary_part) {
       pair = std::max(pair, std::abs(mu));
       continue;
     }
@@ -29,7 +29,7 @@ TestValues test_values(const Multipliers& all, std::size_t ones, double along, d
   }
   // A value within the error is regarded as just inside the unit circle.
   const auto inside = [error](double beyond) {
-    return std::abs(beyond) <= error ? -std::min(error, sharp_enough) : beyond;
+    return std::abs(beyond) <= error ? -std::min(error, root_tolerance) : beyond;
   };
   values.flip = -inside(-1.0 - least);
   values.neimark_sacker = inside(pair - 1.0);
@@ -45,7 +45,7 @@ std::optional<double> root_between(double a, double b,
     const double x = lo + (hi - lo) * a / (a - b);
     const std::optional<double> y = f(x);
     if (!y) return std::nullopt;
-    if (std::abs(*y) <= sharp_enough || !(x > lo && x < hi)) return x;
+    if (std::abs(*y) <= root_tolerance || !(x > lo && x < hi)) return x;
     if ((*y < 0.0) == (a < 0.0)) {
       lo = x;
       a = *y;
@@ -66,7 +66,7 @@ std::optional<double> root_between(double a, double b,
 namespace {
 
 // An event is at the section if its distance from the section is below this fraction of the period. Chosen value.
-constexpr double beside_section = 1e-4;
+constexpr double min_section_distance = 1e-4;
 // Width of the interval in which a change of the sequence is located, in the norm of branch_newton.hpp, and smallest
 // ratio of this width to the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
@@ -89,7 +89,7 @@ SecantPoint place_of(const CorrectedPoint& at) { return {at.pass.begin, at.state
 bool event_at_section(const CorrectedPoint& at) {
   const double T = at.state.duration;
   return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
-    return p.t < beside_section * T || p.t > (1.0 - beside_section) * T;
+    return p.t < min_section_distance * T || p.t > (1.0 - min_section_distance) * T;
   });
 }
 
@@ -178,15 +178,15 @@ std::optional<BranchContinuation::LocatedPoint> BranchContinuation::end_of_seque
 /// True if the parameter reverses on the step without a located fold, or if a multiplier passes 1 without a
 /// fold and without a located branch point. Direction and multipliers are continuous as long as the sequence
 /// of events does not change. Therefore the next orbit then belongs to another branch.
-bool BranchContinuation::changes_unseen(const CorrectedPoint& here, const CorrectedPoint& next,
-                                        const std::vector<LocatedPoint>& points) const {
+bool BranchContinuation::has_unlocated_change(const CorrectedPoint& here, const CorrectedPoint& next,
+                                              const std::vector<LocatedPoint>& points) const {
   const bool turns = here.tests.fold * next.tests.fold < 0.0;
   if (!turns && (here.tests.branch < 0.0) == (next.tests.branch < 0.0)) return false;
   const auto seen = [&](const LocatedPoint& p) { return p.kind == (turns ? "fold" : "branch point"); };
   return std::none_of(points.begin(), points.end(), seen) && sequence_of(here.pass) == sequence_of(next.pass);
 }
 
-/// If fast mode shapes rotate the tangent at `to` (turning_), this tangent is not the direction of the
+/// If fast mode shapes rotate the tangent at `to` (tangent_deviates_), this tangent is not the direction of the
 /// branch, and the chord is not compared with it.
 bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint& to, const Vector* direction,
                                         bool at_to) const {
@@ -196,7 +196,7 @@ bool BranchContinuation::chord_deviates(const SecantPoint& from, CorrectedPoint&
     return newton_.split(to, *secant).across.dot(newton_.split(to, other).across) < same_direction_cosine;
   };
   if (direction != nullptr && direction->size() == secant->size() && differs(*direction)) return true;
-  return at_to && !turning_ && differs(newton_.examine(to, *secant));
+  return at_to && !tangent_deviates_ && differs(newton_.examine(to, *secant));
 }
 
 /// True if the branch bends so much on the step that another part of the branch, or another branch, could lie
@@ -257,7 +257,8 @@ std::vector<BranchContinuation::LocatedPoint> BranchContinuation::located(const 
     if (zero) zero->part *= change->part;
     take(zero ? std::move(zero) : zero_of(kind, here, next, t, length));
   }
-  const bool unseen = changes_unseen(here, next, all) || (change && changes_unseen(here, change->at, all));
+  const bool unseen =
+      has_unlocated_change(here, next, all) || (change && has_unlocated_change(here, change->at, all));
   if (length > max_unchecked_step && unseen) {
     next.done = false;
     next.reason = "Newton's method ends at another branch";

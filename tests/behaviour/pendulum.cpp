@@ -359,8 +359,8 @@ TEST_CASE("a reaction has N u / R of an N that varies: it is what accelerates th
   }
   const std::string number =
       on_pier(0.0, "normal_force = 981.0\n", "[[supports]]\nnode = \"A\"\nfix = [\"uy\"]\n");
-  const Result by_number = run_text(number, "exact", "1e-10");  // N u / R pushes the pier along u
-  CHECK(by_number.report.response[0].minimum == doctest::Approx(-981.0 * 0.2 / 2.0).epsilon(1e-10));
+  const Result node_index = run_text(number, "exact", "1e-10");  // N u / R pushes the pier along u
+  CHECK(node_index.report.response[0].minimum == doctest::Approx(-981.0 * 0.2 / 2.0).epsilon(1e-10));
 }
 
 TEST_CASE("piers under a slab in the wind: reactions of damped pendulums balance loads and inertia") {

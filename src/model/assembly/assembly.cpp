@@ -12,7 +12,7 @@ namespace signorini::assembly {
 namespace {
 
 // Entries a_ij, a_ji may differ by this fraction of the largest entry: other programs print few digits.
-constexpr double printed_digits = 1e-9;
+constexpr double symmetry_tolerance = 1e-9;
 
 double largest(const SparseMatrix& a) {
   double result = 0.0;
@@ -40,7 +40,7 @@ SparseMatrix read_symmetric(const MatrixSpec& spec, int n, const std::string& ke
   const SparseMatrix a = read(spec, n, key);
   const SparseMatrix transposed = a.transpose();
   const SparseMatrix difference = a - transposed;
-  if (largest(difference) > printed_digits * largest(a))
+  if (largest(difference) > symmetry_tolerance * largest(a))
     throw SceneError(
         spec.place, key,
         "the matrix is not symmetric; expected entries ij and ji that agree to 1e-9 of the largest entry");
@@ -150,7 +150,7 @@ struct Builder {
     }
   }
   /// Sets rounding errors of the weight to zero, such as the moment of a body directly above its support.
-  void drop_rounding() {
+  void zero_rounding_errors() {
     for (Eigen::Index i = 0; i < weight.size(); ++i)
       if (std::abs(weight[i]) <= rounding::few_operations * weight_size[i]) weight[i] = 0.0;
   }
@@ -189,10 +189,10 @@ struct Builder {
     const Eigen::Matrix4d unit = a * a.transpose();
     add(stiffness, &SupportColumns::stiffness, Eigen::Matrix4d(s.stiffness * unit), numbers);
     add(dampers, &SupportColumns::dampers, Eigen::Matrix4d(s.damping * unit), numbers);
-    add_turning(s, {na[2], nb[2]});
+    add_rotational_spring(s, {na[2], nb[2]});
   }
 
-  void add_turning(const Spring& s, const std::array<int, 2>& turns) {
+  void add_rotational_spring(const Spring& s, const std::array<int, 2>& turns) {
     const Eigen::Matrix2d turning{{1.0, -1.0}, {-1.0, 1.0}};
     add(stiffness, &SupportColumns::stiffness, Eigen::Matrix2d(s.rotation_stiffness * turning), turns);
     add(dampers, &SupportColumns::dampers, Eigen::Matrix2d(s.rotation_damping * turning), turns);
@@ -211,7 +211,7 @@ struct Builder {
     const Eigen::MatrixXd unit = e.factors * e.factors.transpose();
     add_own(stiffness, &SupportColumns::stiffness, Eigen::MatrixXd(s.stiffness * unit), e.numbers);
     add_own(dampers, &SupportColumns::dampers, Eigen::MatrixXd(s.damping * unit), e.numbers);
-    add_turning(s, {na[2], nb[2]});
+    add_rotational_spring(s, {na[2], nb[2]});
   }
 };
 
@@ -253,7 +253,7 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
                      scene.masses[i].key.empty() ? fmt::format("masses.{}", i + 1) : scene.masses[i].key);
   for (std::size_t i = 0; i < scene.springs.size(); ++i)
     builder.add_spring(scene.springs[i], fmt::format("springs.{}", i + 1));
-  builder.drop_rounding();
+  builder.zero_rounding_errors();
   auto sparse = [n](const Triplets& entries) {
     SparseMatrix a(n, n);
     a.setFromTriplets(entries.begin(), entries.end());

@@ -22,9 +22,9 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   else
     return {};
   // Without friction the tangent is used for outputs only, where absent components are zero.
-  const bool measures_only = !spec.capabilities().normal_force_given && !spec.friction.any() &&
-                             !(spec.user_law && acts_along_tangent(*spec.user_law));
-  return combination(map, direction, spec.key("tangent"), true, measures_only);
+  const bool for_outputs_only = !spec.capabilities().normal_force_given && !spec.friction.any() &&
+                                !(spec.user_law && acts_along_tangent(*spec.user_law));
+  return combination(map, direction, spec.key("tangent"), true, for_outputs_only);
 }
 
 void check_gap(const ContactSpec& spec, const Contact& contact) {
@@ -64,7 +64,7 @@ void check_friction_by_force(const ContactSpec& spec) {
 }
 
 /// Errors: SceneError for a user law with invalid rows or guards, or with keys that cannot be combined with a user law.
-void check_own(const ContactSpec& spec, const Scene& scene) {
+void check_user_law(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
   const UserContactLaw& law = *spec.user_law;
   if (!spec.capabilities().normal_spring)
@@ -96,7 +96,7 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
 
 /// Removes the friction of a seam's contact if a support fixes its node along the tangent (a plane of symmetry): the node
 /// cannot slip, and the support carries T.
-void leave_out_held_friction(const Scene& scene, std::size_t k, Contact& contact) {
+void remove_friction_at_fixed_tangent(const Scene& scene, std::size_t k, Contact& contact) {
   const bool of_seam = std::any_of(scene.seams.begin(), scene.seams.end(), [k](const SeamSpec& seam) {
     return k >= seam.first_contact && k < seam.first_contact + seam.nodes.size();
   });
@@ -125,12 +125,12 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;
     c.tangent = tangent_form(spec, map);
-    leave_out_held_friction(scene, contacts.size(), c);
+    remove_friction_at_fixed_tangent(scene, contacts.size(), c);
     check_friction_by_force(spec);
     if (!c.normal_force_given()) {
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);
-      if (spec.user_law) check_own(spec, scene);
+      if (spec.user_law) check_user_law(spec, scene);
       if (c.normal_spring()) check_compliant(spec, c);
     } else {
       c.normal_force = scene::make_history(spec.normal_force, spec.key("normal_force"));

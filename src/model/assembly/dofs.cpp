@@ -18,7 +18,7 @@ void need(Numbers& numbers, int node, const std::array<double, 2>& direction) {
     if (direction[c] != 0.0) numbers[static_cast<std::size_t>(node)][c] = DofMap::needed;
 }
 
-void mark_needed(const Scene& scene, const element::Mesh& mesh, Numbers& numbers) {
+void mark_needed_dofs(const Scene& scene, const element::Mesh& mesh, Numbers& numbers) {
   for (const auto& e : mesh.elements)
     for (const element::ElementUnknown& unknown : e->unknowns())
       if (!unknown.internal)
@@ -43,26 +43,26 @@ void mark_needed(const Scene& scene, const element::Mesh& mesh, Numbers& numbers
     const auto d = clean_direction(s.direction);
     const bool pulls = s.stiffness != 0.0 || s.damping != 0.0;
     const bool turns = s.rotation_stiffness != 0.0 || s.rotation_damping != 0.0;
-    const auto need_end = [&](int node) {
+    const auto mark_spring_end = [&](int node) {
       if (pulls || !turns) need(numbers, node, d);
       if (turns) numbers[static_cast<std::size_t>(node)][2] = DofMap::needed;
     };
-    need_end(element::find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)));
+    mark_spring_end(element::find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)));
     if (!s.against.empty())
-      need_end(element::find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)));
+      mark_spring_end(element::find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)));
   }
   for (const ContactSpec& c : scene.contacts) {
-    const auto need_all = [&](const Direction& at, const std::array<double, 2>& direction) {
+    const auto mark_contact_nodes = [&](const Direction& at, const std::array<double, 2>& direction) {
       need(numbers, element::find_node(mesh, at.node, c.place, c.key("node")), direction);
       for (const auto& [node, weight] : at.against)
         if (weight != 0.0)
           need(numbers, element::find_node(mesh, node, c.place, c.key("against")), direction);
     };
-    if (const Direction* n = c.bearing_normal()) need_all(*n, clean_direction(n->vector));
+    if (const Direction* n = c.bearing_normal()) mark_contact_nodes(*n, clean_direction(n->vector));
     // A contact without friction takes no tangential force, so it needs no tangential motion either.
     if (c.capabilities().normal_force_given || c.friction.any()) {
       const Direction* at = c.tangent ? &*c.tangent : c.normal ? &*c.normal : nullptr;
-      if (at != nullptr && !at->node.empty()) need_all(*at, sliding_direction(c));
+      if (at != nullptr && !at->node.empty()) mark_contact_nodes(*at, sliding_direction(c));
     }
   }
 }
@@ -162,7 +162,7 @@ DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
   map.mesh = std::move(mesh);
   map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
   map.moving = map.number;  // all absent
-  mark_needed(scene, map.mesh, map.number);
+  mark_needed_dofs(scene, map.mesh, map.number);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
     auto& numbers =
@@ -365,7 +365,7 @@ std::string direction_name(double x, double y) {
   return fmt::format("motion along ({:.3g}, {:.3g})", sign * x / length, sign * y / length);
 }
 
-std::string largest_name(const Vector& motion, const DofMap& map, double size, bool rotations) {
+std::string name_of_largest_dof(const Vector& motion, const DofMap& map, double size, bool rotations) {
   int largest = -1;
   for (int i = 0; i < motion.size(); ++i) {
     if (map.dofs[static_cast<std::size_t>(i)].rotation != rotations) continue;
@@ -421,7 +421,7 @@ bool is_rigid(const Vector& motion, const DofMap& map) {
   if (map.is_matrix_scene() || !(size > 0.0)) return false;
   const auto nodes = node_motions(motion, map);
   std::string name;
-  return translates(nodes, size) || rigid_rotation(nodes, size, map.shown_length, name);
+  return translates(nodes, size) || rigid_rotation(nodes, size, map.message_length_factor, name);
 }
 
 double max_translation(const Vector& motion, const DofMap& map) {
@@ -434,8 +434,8 @@ double max_translation(const Vector& motion, const DofMap& map) {
 std::string describe_motion(const Vector& motion, const DofMap& map) {
   const double size = max_translation(motion, map);
   const double whole = motion.size() == 0 ? 0.0 : motion.cwiseAbs().maxCoeff();
-  if (!(size > 0.0)) return largest_name(motion, map, whole, true);
-  if (map.is_matrix_scene()) return largest_name(motion, map, size, false);
+  if (!(size > 0.0)) return name_of_largest_dof(motion, map, whole, true);
+  if (map.is_matrix_scene()) return name_of_largest_dof(motion, map, size, false);
   const auto nodes = node_motions(motion, map);
   int moving = 0;
   const NodeMotion* mover = nullptr;
@@ -446,10 +446,10 @@ std::string describe_motion(const Vector& motion, const DofMap& map) {
     return nodes.size() == 1 ? fmt::format("{} of node '{}'", name, mover->node->name) : name;
   }
   std::string name;
-  if (rigid_rotation(nodes, size, map.shown_length, name)) return name;
+  if (rigid_rotation(nodes, size, map.message_length_factor, name)) return name;
   if (moving == 1)
     return fmt::format("{} of node '{}'", direction_name(mover->x, mover->y), mover->node->name);
-  return largest_name(motion, map, size, false);
+  return name_of_largest_dof(motion, map, size, false);
 }
 
 }  // namespace signorini::assembly

@@ -51,7 +51,7 @@ struct DofMap {
   std::vector<double> body_stiffness;
   std::vector<TiedDof> tied;  ///< tied motions, whose numbers are size(), size() + 1, ...
   std::vector<signorini::Column> columns;
-  double shown_length = 1.0;  ///< factor from internal lengths to lengths in messages
+  double message_length_factor = 1.0;  ///< factor from internal lengths to lengths in messages
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool is_matrix_scene() const { return number.empty(); }

@@ -81,7 +81,7 @@ History finite(History history, const SourcePlace& place, const std::string& key
 }
 
 /// Converts an entry of [[loads]] to a form and a history. number: position in [[loads]], from 1.
-Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std::size_t number) {
+Load make_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std::size_t number) {
   const std::string key = fmt::format("loads.{}", number);
   Load load;
   load.name = name_of(spec, number);
@@ -145,7 +145,7 @@ Combination strain_form(const DofMap& map, int member) {
   return form_of((form.array().abs() > rounding::many_operations * size.array()).select(form, 0.0), 1.0);
 }
 
-void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
+void add_body_temperatures(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodySpec& body = scene.bodies[i];
     const std::string path = fmt::format("bodies.{}.temperature", body.name);
@@ -162,7 +162,7 @@ void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>
   }
 }
 
-void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
+void add_member_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const Member& member = scene.members[i];
     const auto add = [&](LoadKind kind, const char* key, const HistorySpec& spec, double factor) {
@@ -213,14 +213,14 @@ void add_base(const Scene& scene, const Assembly& assembly, std::vector<Load>& l
 }
 
 /// Time of the first jump of f between 0 and t_end; -1 if f has none.
-double jump_of(const History& f, double t_end) {
+double first_jump_time(const History& f, double t_end) {
   for (const Breakpoint& b : f.breakpoints())
     if (b.jump && b.time > 0.0 && b.time < t_end) return b.time;
   return -1.0;
 }
 
 /// Position of the support at the end of the saved run that the scene continues; 0 if the scene continues no run.
-double last_motion(const Scene& scene, const std::string& name) {
+double saved_support_position(const Scene& scene, const std::string& name) {
   return scene.initial.saved ? scene::saved_motion(*scene.initial.saved, name).value_or(0.0) : 0.0;
 }
 
@@ -239,7 +239,8 @@ SupportMotion support_motion(const Scene& scene, const Support& support) {
                        component.rotation,
                        {}};
   if (support.motion_is_acceleration) {
-    const double s = last_motion(scene, moving.name), rate = last_motion(scene, rate_of(moving.name));
+    const double s = saved_support_position(scene, moving.name),
+                 rate = saved_support_position(scene, rate_of(moving.name));
     moving.s =
         scene::make_integral(*support.motion, moving.key).scaled(1.0, rate).integrated().scaled(1.0, s);
   } else {
@@ -339,9 +340,9 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   const bool stiffens = scene.run.geometric && (scene.gravity[0] != 0.0 || scene.gravity[1] != 0.0);
   if (!gravity.direction.terms.empty() || stiffens) loads.push_back(std::move(gravity));
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
-    loads.push_back(given_load(scene, scene.loads[i], map, i + 1));
-  add_strains(scene, map, loads);
-  add_heat_of_bodies(scene, map, loads);
+    loads.push_back(make_load(scene, scene.loads[i], map, i + 1));
+  add_member_strains(scene, map, loads);
+  add_body_temperatures(scene, map, loads);
   add_preloads(scene, map, loads);
   add_base(scene, assembly, loads);
   add_supports(scene, map, assembly, loads);
@@ -374,12 +375,13 @@ void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& as
     const Vector damping = columns.dampers + alpha * columns.mass + beta * columns.stiffness;
     const bool moves_mass = !columns.mass.isZero(0.0);
     const History velocity = moving.s.with_rates(0.0, 1.0, 0.0);
-    if (const double t = jump_of(moving.s, scene.run.t_end); t >= 0.0 && (moves_mass || !damping.isZero(0.0)))
+    if (const double t = first_jump_time(moving.s, scene.run.t_end);
+        t >= 0.0 && (moves_mass || !damping.isZero(0.0)))
       throw SceneError(moving.place, moving.key,
                        fmt::format("the support motion jumps at t = {:.6g}; mass or damping would need an "
                                    "infinite force: replace the jump by a ramp",
                                    t));
-    if (const double t = jump_of(velocity, scene.run.t_end); t >= 0.0 && moves_mass)
+    if (const double t = first_jump_time(velocity, scene.run.t_end); t >= 0.0 && moves_mass)
       throw SceneError(moving.place, moving.key,
                        fmt::format("the support velocity jumps at t = {:.6g}, so mass would need an impulse: "
                                    "give a smooth motion (interpolation = \"steffen\") or an acceleration, "

@@ -22,12 +22,12 @@ Parts::Parts(const std::vector<const SparseMatrix*>& matrices, const std::vector
     for (const auto& term : form.terms)
       sets.join(static_cast<std::size_t>(form.terms.front().first), static_cast<std::size_t>(term.first));
   part_of_.resize(n);
-  place_in_.resize(n);
+  index_in_part_.resize(n);
   for (const std::vector<std::size_t>& members : sets.sets()) {
     std::vector<int>& dofs = dofs_.emplace_back();
     for (const std::size_t i : members) {
       part_of_[i] = dofs_.size() - 1;
-      place_in_[i] = static_cast<int>(dofs.size());
+      index_in_part_[i] = static_cast<int>(dofs.size());
       dofs.push_back(static_cast<int>(i));
     }
   }
@@ -42,7 +42,7 @@ SparseMatrix Part::matrix(const SparseMatrix& a) const {
   for (int column = 0; column < size(); ++column)
     for (SparseMatrix::InnerIterator it(a, dofs()[static_cast<std::size_t>(column)]); it; ++it) {
       const auto row = static_cast<std::size_t>(it.row());
-      if (all_->part_of_[row] == number_) entries.emplace_back(all_->place_in_[row], column, it.value());
+      if (all_->part_of_[row] == number_) entries.emplace_back(all_->index_in_part_[row], column, it.value());
     }
   SparseMatrix result(size(), size());
   result.setFromTriplets(entries.begin(), entries.end());
@@ -56,7 +56,7 @@ std::vector<Combination> Part::forms(const std::vector<Combination>& forms) cons
       continue;
     Combination& own = result.emplace_back();
     for (const auto& [dof, factor] : form.terms)
-      own.terms.emplace_back(all_->place_in_[static_cast<std::size_t>(dof)], factor);
+      own.terms.emplace_back(all_->index_in_part_[static_cast<std::size_t>(dof)], factor);
   }
   return result;
 }
@@ -117,7 +117,7 @@ std::vector<Combination> reaches(const Model& model) {
   return forms;
 }
 
-std::size_t pieces_of(const Model& model) {
+std::size_t history_piece_count(const Model& model) {
   std::size_t count = 0;
   for (const Load& load : model.loads) count += load.history.pieces().size();
   return count;
@@ -207,7 +207,7 @@ std::vector<PartModel> part_models(const Model& model) {
   if (model.size() == 0 || !model.is_physical() || !model.outputs.empty() || !model.reaction_sums.empty())
     return {};
   Split split(model);
-  if (split.with_contacts() < 2 || split.count() * pieces_of(model) > most_pieces) return {};
+  if (split.with_contacts() < 2 || split.count() * history_piece_count(model) > most_pieces) return {};
   return split.models();
 }
 

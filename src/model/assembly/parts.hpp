@@ -52,7 +52,7 @@ class Parts {
   friend class Part;
   std::vector<std::vector<int>> dofs_;
   std::vector<std::size_t> part_of_;  // for each degree of freedom: its part
-  std::vector<int> place_in_;         // per degree of freedom: its number in its part
+  std::vector<int> index_in_part_;    // per degree of freedom: its number in its part
   std::vector<Part> parts_;
 };
 

@@ -30,7 +30,7 @@ std::array<double, 2> unit_of(const Plane& v) {
 class PrestressAssembly {
  public:
   PrestressAssembly(const Scene& scene, const DofMap& map, const Model& model, const StaticForces& standing)
-      : scene_(scene), map_(map), standing_(standing), on_node_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
+      : scene_(scene), map_(map), standing_(standing), node_forces_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
     for (std::size_t i = 0; i < map.supports.size(); ++i)
       supports_.push_back(motion_of_support(scene, map, static_cast<int>(i)).value(0.0));
     double weight = 1.0;  // fraction of gravity that acts
@@ -46,9 +46,9 @@ class PrestressAssembly {
         values_[{is_strain(load.kind), load.name}] += value;
     }
     for (std::size_t c = 0; c < 2; ++c) {
-      pull_[c] = weight * scene.gravity[c];
+      body_acceleration_[c] = weight * scene.gravity[c];
       for (std::size_t i = 0; i < bases.size(); ++i)
-        pull_[c] += bases[i] * scene.base_motion[i].direction.vector[c];
+        body_acceleration_[c] += bases[i] * scene.base_motion[i].direction.vector[c];
     }
     for (std::size_t k = 0; k < model.contacts.size(); ++k) {
       const Contact& contact = model.contacts[k];
@@ -58,10 +58,10 @@ class PrestressAssembly {
   }
 
   Prestress all() {
-    spread_loads();
+    distribute_loads();
     Prestress forces;
     for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) forces.elements.push_back(element(i));
-    for (const PointMass& m : scene_.masses) add(m.node, pull_, m.mass);
+    for (const PointMass& m : scene_.masses) add(m.node, body_acceleration_, m.mass);
     for (std::size_t i = 0; i < scene_.springs.size(); ++i) add_spring(i);
     for (std::size_t k = 0; k < scene_.contacts.size(); ++k) add_contact(k);
     for (std::size_t i = 0; i < scene_.rigid.size(); ++i)
@@ -86,11 +86,11 @@ class PrestressAssembly {
     return sum;
   }
   void add(const std::string& node, const Plane& force, double factor) {
-    Plane& sum = on_node_[static_cast<std::size_t>(map_.mesh.by_name.at(node))];
+    Plane& sum = node_forces_[static_cast<std::size_t>(map_.mesh.by_name.at(node))];
     for (std::size_t c = 0; c < 2; ++c) sum[c] += factor * force[c];
   }
 
-  void spread_loads() {
+  void distribute_loads() {
     uniform_.assign(map_.mesh.elements.size(), Plane{0.0, 0.0});
     for (std::size_t i = 0; i < scene_.loads.size(); ++i) {
       const LoadSpec& load = scene_.loads[i];
@@ -123,7 +123,8 @@ class PrestressAssembly {
               "the elements of {} have no geometric stiffness: expected a structure of beams and bars",
               element_owner(e.member())));
     const element::PlaneVector& load = uniform_[i];
-    add_to_nodes(e, e.load_vector({load[0] + e.density() * pull_[0], load[1] + e.density() * pull_[1]}));
+    add_to_nodes(e, e.load_vector({load[0] + e.density() * body_acceleration_[0],
+                                   load[1] + e.density() * body_acceleration_[1]}));
     Prestress::Element result{map_.mesh.node(e.nodes().front()).name, map_.mesh.node(e.nodes().back()).name};
     if (map_.within_body(e)) return result;
     const std::vector<int> numbers = map_.element_numbers(i);
@@ -132,7 +133,7 @@ class PrestressAssembly {
     const double strain = value_of(true, name_of_strain(LoadKind::temperature, e.member())) +
                           value_of(true, name_of_strain(LoadKind::initial_strain, e.member()));
     add_to_nodes(e, strain * e.strain_forces() - e.stiffness() * u);
-    const element::AxialForces forces = e.axial_forces(u, strain, load, pull_);
+    const element::AxialForces forces = e.axial_forces(u, strain, load, body_acceleration_);
     result.at_from = forces.a;
     result.at_to = forces.b;
     return result;
@@ -142,7 +143,7 @@ class PrestressAssembly {
     const std::vector<element::ElementUnknown> unknowns = e.unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j)
       if (const std::size_t c = unknowns[j].component; c < 2)
-        on_node_[static_cast<std::size_t>(e.nodes()[unknowns[j].local_node])][c] +=
+        node_forces_[static_cast<std::size_t>(e.nodes()[unknowns[j].local_node])][c] +=
             forces[static_cast<Eigen::Index>(j)];
   }
 
@@ -217,15 +218,15 @@ class PrestressAssembly {
     Plane total{0.0, 0.0}, size{0.0, 0.0};
     for (std::size_t node = 0; node < map_.body.size(); ++node)
       for (std::size_t c = 0; map_.body[node] == owner && c < 2; ++c) {
-        total[c] += on_node_[node][c];
-        size[c] += std::abs(on_node_[node][c]);
+        total[c] += node_forces_[node][c];
+        size[c] += std::abs(node_forces_[node][c]);
       }
     const double x = origin(number, 0, total, size), y = origin(number, 1, total, size);
     double sum = 0.0, terms = 0.0;
     for (std::size_t node = 0; node < map_.body.size(); ++node) {
       if (map_.body[node] != owner) continue;
       const element::MeshNode& at = map_.mesh.nodes[node];
-      for (const double term : {on_node_[node][0] * (at.x - x), on_node_[node][1] * (at.y - y)}) {
+      for (const double term : {node_forces_[node][0] * (at.x - x), node_forces_[node][1] * (at.y - y)}) {
         sum += term;
         terms += std::abs(term);
       }
@@ -236,10 +237,10 @@ class PrestressAssembly {
   const Scene& scene_;
   const DofMap& map_;
   const StaticForces& standing_;
-  std::vector<Plane> on_node_, uniform_;                   // forces per node; forces per length, per element
+  std::vector<Plane> node_forces_, uniform_;               // forces per node; forces per length, per element
   std::vector<double> supports_;                           // positions of moving supports
   std::vector<double> restoring_forces_;                   // per contact: restoring force of a pendulum
-  Plane pull_{0.0, 0.0};                                   // acceleration of gravity minus that of the base
+  Plane body_acceleration_{0.0, 0.0};                      // acceleration of gravity minus that of the base
   std::map<std::pair<bool, std::string>, double> values_;  // factors of loads and strains, by name
 };
 

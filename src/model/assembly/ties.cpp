@@ -12,16 +12,16 @@
 namespace signorini::assembly {
 namespace {
 
-std::size_t place_of_node(int i) { return static_cast<std::size_t>(i); }
+std::size_t node_slot(int i) { return static_cast<std::size_t>(i); }
 
 /// Coordinate perpendicular to a component: y of the node for ux, x for uy.
 double across(const DofMap& map, int node, std::size_t c) {
-  const element::MeshNode& at = map.mesh.nodes[place_of_node(node)];
+  const element::MeshNode& at = map.mesh.nodes[node_slot(node)];
   return c == 0 ? at.y : at.x;
 }
 
 /// a - b; zero if the difference is within the rounding of coordinates that are meant to be equal.
-double arm_between(double a, double b) {
+double lever_arm(double a, double b) {
   const double d = a - b;
   return std::abs(d) <= rounding::few_operations * (std::abs(a) + std::abs(b)) ? 0.0 : d;
 }
@@ -31,7 +31,7 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
   BodyMotion motion;
   motion.centre = element::find_node(map.mesh, body.centre, body.place, key + "centre");
   const auto take = [&](int node, const std::string& name, const char* of) {
-    int& owner = map.body[place_of_node(node)];
+    int& owner = map.body[node_slot(node)];
     if (owner == number) return;
     if (owner != DofMap::absent)
       throw SceneError(
@@ -47,8 +47,8 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
   return motion;
 }
 
-[[noreturn]] void refuse_hold(const Scene& scene, const BodyConstraint& hold, const RigidBody& body,
-                              const std::string& why) {
+[[noreturn]] void refuse_support(const Scene& scene, const BodyConstraint& hold, const RigidBody& body,
+                                 const std::string& why) {
   const Support& s = scene.supports[hold.support];
   throw SceneError(s.place, s.key + ".node",
                    fmt::format("node '{}' is part of rigid body '{}': {}", s.node, body.name, why));
@@ -65,12 +65,12 @@ void add_body_constraint(const Scene& scene, const RigidBody& body, const BodyCo
   }
   if (before->moving == hold.moving && before->node == hold.node) return;
   if (before->moving >= 0 || hold.moving >= 0)
-    refuse_hold(
+    refuse_support(
         scene, hold, body,
         fmt::format(
             "another support also fixes its {}, and one of the two supports moves; expected one support",
             scene::plane_components[c].displacement));
-  if (c < 2 && arm_between(before->coordinate, hold.coordinate) != 0.0) turn = hold;
+  if (c < 2 && lever_arm(before->coordinate, hold.coordinate) != 0.0) turn = hold;
 }
 
 void find_body_constraints(const Scene& scene, const RigidBody& body, int number, const DofMap& map,
@@ -79,7 +79,7 @@ void find_body_constraints(const Scene& scene, const RigidBody& body, int number
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
     const int node = map.mesh.by_name.at(s.node);
-    if (map.body[place_of_node(node)] != number) continue;
+    if (map.body[node_slot(node)] != number) continue;
     const auto moving = std::find(map.supports.begin(), map.supports.end(), i);
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     for (std::size_t c = 0; c < 3; ++c)
@@ -88,12 +88,12 @@ void find_body_constraints(const Scene& scene, const RigidBody& body, int number
             scene, body,
             {c < 2 ? across(map, node, c) : 0.0,
              moving == map.supports.end() ? DofMap::absent : static_cast<int>(moving - map.supports.begin()),
-             i, place_of_node(node)},
+             i, node_slot(node)},
             c, motion, turn);
   }
   if (!turn) return;
   if (motion.constraints[2] && motion.constraints[2]->moving >= 0)
-    refuse_hold(
+    refuse_support(
         scene, *turn, body,
         "two supports together fix its rz, which another support moves; remove one of these supports");
   motion.constraints[2] = turn;
@@ -106,24 +106,24 @@ std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, 
     const std::optional<BodyConstraint>& hold = body.constraints[of];
     if (factor == 0.0 || (hold && hold->moving < 0)) return;
     terms.push_back(
-        {hold ? DofMap::support_code(hold->moving) : map.number[place_of_node(body.centre)][of], factor});
+        {hold ? DofMap::support_code(hold->moving) : map.number[node_slot(body.centre)][of], factor});
   };
   add(c, 1.0);
   if (c == 2) return terms;
   const double from = body.constraints[c] ? body.constraints[c]->coordinate : across(map, body.centre, c);
-  const double arm = arm_between(across(map, node, c), from);
+  const double arm = lever_arm(across(map, node, c), from);
   add(2, c == 0 ? -arm : arm);
   return terms;
 }
 
 void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map) {
-  int& moving = map.moving[place_of_node(node)][c];
+  int& moving = map.moving[node_slot(node)][c];
   std::vector<TiedTerm> terms = terms_of(body, node, c, map);
   // A node without an arm follows the support exactly; with an arm, its motion also contains a rotation.
   const bool follows = body.constraints[c] && body.constraints[c]->moving >= 0 && terms.size() == 1;
   moving = follows ? DofMap::support_of_code(terms[0].number) : DofMap::absent;
   if (terms.empty() || follows) {
-    map.number[place_of_node(node)][c] = DofMap::fixed;
+    map.number[node_slot(node)][c] = DofMap::fixed;
     return;
   }
   map.tie(node, c, std::move(terms));
@@ -140,9 +140,9 @@ std::vector<BodyMotion> find_bodies(const Scene& scene, DofMap& map) {
     BodyMotion& body = bodies[i];
     find_body_constraints(scene, scene.rigid[i], static_cast<int>(i), map, body);
     for (const int node : body.nodes)
-      map.number[place_of_node(node)] = {DofMap::absent, DofMap::absent, DofMap::absent};
+      map.number[node_slot(node)] = {DofMap::absent, DofMap::absent, DofMap::absent};
     for (std::size_t c = 0; c < 3; ++c)
-      map.number[place_of_node(body.centre)][c] = body.constraints[c] ? DofMap::fixed : DofMap::needed;
+      map.number[node_slot(body.centre)][c] = body.constraints[c] ? DofMap::fixed : DofMap::needed;
   }
   return bodies;
 }
@@ -159,7 +159,7 @@ std::vector<std::pair<int, std::size_t>> constrained_components(const Scene& sce
   std::vector<std::pair<int, std::size_t>> held;
   for (const Support& s : scene.supports) {
     const int node = map.mesh.by_name.at(s.node);
-    if (map.body[place_of_node(node)] != body) continue;
+    if (map.body[node_slot(node)] != body) continue;
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c] && std::find(held.begin(), held.end(), std::pair(node, c)) == held.end())

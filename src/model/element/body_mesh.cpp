@@ -27,12 +27,12 @@ class MassMover {
 
   [[nodiscard]] const Shares& shares(int node) {
     const auto [found, first] = shares_.try_emplace(node);
-    if (first) found->second = is_off(node) ? least_shares(node) : Shares{{node, 1.0}};
+    if (first) found->second = is_off(node) ? least_norm_shares(node) : Shares{{node, 1.0}};
     return found->second;
   }
 
  private:
-  Shares least_shares(int node) const {
+  Shares least_norm_shares(int node) const {
     std::set<int> reached{node};
     for (int ring = 0; ring < 4; ++ring) {
       std::set<int> next = reached;

@@ -119,7 +119,7 @@ SectionForce LineElement::section_force(OutputQuantity quantity, const PlaneVect
 namespace {
 
 /// The matrix without rows and columns of the rotations.
-ElementMatrix of_translations(const BeamMatrix& a) {
+ElementMatrix without_rotations(const BeamMatrix& a) {
   constexpr std::array<int, 4> kept{0, 1, 3, 4};
   return a(kept, kept);
 }
@@ -154,15 +154,15 @@ BeamMatrix bar_mass(double dx, double dy, double mass_per_length, MassKind kind)
 std::vector<ElementUnknown> BarElement::unknowns() const { return {{0, 0}, {0, 1}, {1, 0}, {1, 1}}; }
 
 ElementMatrix BarElement::mass() const {
-  return of_translations(bar_mass(axis().dx, axis().dy, density(), data().mass));
+  return without_rotations(bar_mass(axis().dx, axis().dy, density(), data().mass));
 }
 
 ElementMatrix BarElement::stiffness() const {
-  return of_translations(bar_stiffness(axis().dx, axis().dy, data().EA));
+  return without_rotations(bar_stiffness(axis().dx, axis().dy, data().EA));
 }
 
 ElementMatrix BarElement::geometric_stiffness(const AxialForces& forces) const {
-  return of_translations(bar_geometric_stiffness(axis().dx, axis().dy, forces.a, forces.b));
+  return without_rotations(bar_geometric_stiffness(axis().dx, axis().dy, forces.a, forces.b));
 }
 
 LineShapes BarElement::deflection_integral(double part) const { return linear_integral(axis().length, part); }

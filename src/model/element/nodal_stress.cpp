@@ -15,10 +15,10 @@ namespace signorini::element {
 namespace {
 
 // Limits of sum |c_j| >= 1, the factor by which errors at the stress points grow at a node: `inside` for the node's own
-// elements, most_amplified for neighbours. Chosen values; the tests body_stresses depend on them. At an inner node of squares
+// elements, max_amplification for neighbours. Chosen values; the tests body_stresses depend on them. At an inner node of squares
 // the sum is 1 (plane) or below 1.5 (parabola); at a boundary it is 2 for a line through two evenly spaced points, and 2.5
 // for a plane at a corner.
-constexpr double inside = 1.5, most_amplified = 10.0;
+constexpr double inside = 1.5, max_amplification = 10.0;
 constexpr double alike = 1e-6;  // relative difference of sum |c_j| below which two patches are equal
 constexpr double met = 1e-9;    // largest residual of the conditions for c, if a polynomial exists
 
@@ -52,7 +52,7 @@ class BodyStresses {
     if (best.amplified <= inside) return terms_of(best.sums);
     std::vector<Fit> fits{std::move(best)};
     for (const int other : neighbours(node)) fits.push_back(fitted(node, around_[own(other)]));
-    double least = most_amplified;
+    double least = max_amplification;
     for (const Fit& fit : fits) least = std::min(least, fit.amplified);
     double count = 0.0;
     for (const Fit& fit : fits) count += fit.amplified <= (1.0 + alike) * least ? 1.0 : 0.0;

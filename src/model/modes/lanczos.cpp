@@ -92,7 +92,7 @@ base::EigenPairs shift_invert_modes(int count, int width, const SparseMatrix& ma
 
 namespace {
 
-constexpr double nothing_new =
+constexpr double dependent_column_limit =
     1e-20;  // smallest x^T M x after orthogonalisation, relative: ten of sixteen digits lost
 constexpr double vector_tolerance =
     1e-8;  // residual of a Ritz vector; the error of omega^2 is the square of this value
@@ -202,7 +202,7 @@ class BlockKrylov {
       Eigen::MatrixXd v = x.col(j);
       deflate(q, mass_, v);
       const double square = v.col(0).dot(mass_ * v.col(0));
-      if (!(square > nothing_new * before[j])) continue;
+      if (!(square > dependent_column_limit * before[j])) continue;
       q.conservativeResize(Eigen::NoChange, q.cols() + 1);
       q.rightCols(1) = v / std::sqrt(square);
     }

@@ -17,7 +17,8 @@
 namespace signorini::modes {
 namespace {
 
-constexpr double digits_of_highest = 1e-4;  // relative error of the highest omega^2, which only scales steps
+constexpr double highest_frequency_tolerance =
+    1e-4;  // relative error of the highest omega^2, which only scales steps
 
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
@@ -78,7 +79,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return factor.solve_factor(condensed(factor.solve_transposed_factor(x)));
   };
-  return frequency(largest_eigenvalue(h, apply, digits_of_highest));
+  return frequency(largest_eigenvalue(h, apply, highest_frequency_tolerance));
 }
 
 double highest(const SparseMatrix& mass, const SparseMatrix& k) {

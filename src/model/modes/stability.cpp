@@ -29,8 +29,8 @@ struct Pencil {
 
 /// Fixes the common null motions that respect the constraints, each at its largest entry. Null motions have no
 /// energy, so fixing them does not change the load factors.
-Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
-                   const std::vector<Combination>& fixed) {
+Pencil without_common_null_motions(const SparseMatrix& loose, const SparseMatrix& geometric,
+                                   const std::vector<Combination>& fixed) {
   const SparseMatrix elastic = fixed.empty() ? loose : with_constraint_springs(loose, fixed);
   Vector size = elastic.diagonal().cwiseAbs() + geometric.diagonal().cwiseAbs();
   for (double& d : size) d = d > 0.0 ? d : 1.0;
@@ -97,7 +97,7 @@ std::vector<double> dense_factors(const SparseMatrix& elastic, const SparseMatri
     if (q.cols() == 0) return {};
     own = {restricted(elastic, q), restricted(geometric, q)};
   }
-  const Pencil pencil = held_pencil(own.elastic, own.geometric, {});
+  const Pencil pencil = without_common_null_motions(own.elastic, own.geometric, {});
   const auto shift = find_shift(pencil, {});
   if (!shift) return {0.0};
   return factors_of(shift->s, base::generalized_eigenvalues(-Eigen::MatrixXd(pencil.geometric),
@@ -107,7 +107,7 @@ std::vector<double> dense_factors(const SparseMatrix& elastic, const SparseMatri
 std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
                                    const std::vector<Combination>& fixed, int count) {
   const auto n = static_cast<int>(elastic.rows());
-  const Pencil pencil = held_pencil(elastic, geometric, fixed);
+  const Pencil pencil = without_common_null_motions(elastic, geometric, fixed);
   const auto shift = find_shift(pencil, fixed);
   if (!shift) return {0.0};
   const assembly::CholeskyFactor factor(shift->matrix);
@@ -153,7 +153,8 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
 namespace {
 
 constexpr double no_inertia = 1e-14;  // smaller inertias, relative to the terms of x.Mx, are rounding errors
-constexpr double no_faster = 1e-9;    // relative change of the rate at which the iteration has converged
+constexpr double converged_rate_change =
+    1e-9;  // relative change of the rate at which the iteration has converged
 
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = statics::null_motions(k);  // includes motions of negative energy
@@ -173,7 +174,7 @@ std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix&
       return growth;
     }
     const double rate = std::sqrt(std::max(-energy / inertia, 0.0));
-    const bool settled = rate <= (1.0 + no_faster) * growth.rate;
+    const bool settled = rate <= (1.0 + converged_rate_change) * growth.rate;
     if (rate > growth.rate) growth = {rate, x};
     if (settled) break;
     const assembly::SymmetricSolver solver(SparseMatrix(k + 1.5 * growth.rate * growth.rate * mass));

@@ -73,7 +73,7 @@ class Maker {
     for (const Support& support : scene_.supports) {
       const auto node = static_cast<std::size_t>(map_.mesh.by_name.at(support.node));
       if (!(c == 0 ? support.ux : support.uy) || held[node]) continue;
-      for (const int all : together_with(static_cast<int>(node))) {
+      for (const int all : nodes_moving_with(static_cast<int>(node))) {
         held[static_cast<std::size_t>(all)] = true;
         rows_->add_reaction(row, all, c, 1.0);
       }
@@ -322,7 +322,7 @@ class Maker {
   }
 
   /// All nodes of the rigid body to which the node belongs; the node alone if it belongs to no body.
-  [[nodiscard]] std::vector<int> together_with(int node) const {
+  [[nodiscard]] std::vector<int> nodes_moving_with(int node) const {
     const int body = map_.body[static_cast<std::size_t>(node)];
     if (body < 0) return {node};
     return nodes_of_body(map_, body);

@@ -11,7 +11,7 @@ namespace {
 
 // Largest imbalance r, relative to its terms, that is treated as rounding: half of the digits. Chosen value; rounding leaves
 // 1e-11, a load that the start does not include leaves its full value.
-constexpr double no_rounding = 1e-8;
+constexpr double max_rounding_imbalance = 1e-8;
 // Several steps are needed, because a step neglects that the friction of sliding contacts changes with N.
 constexpr int steps = 3;
 // A contact is at its friction limit if its relative distance from the limit is smaller.
@@ -134,7 +134,7 @@ void equilibrate_start(Model& model) {
   if (!is_known(model)) return;
   ReducedStart start(model);
   auto [r, most] = start.left_over();
-  if (!(r.cwiseAbs().maxCoeff() <= no_rounding * most)) return;
+  if (!(r.cwiseAbs().maxCoeff() <= max_rounding_imbalance * most)) return;
   start.clamp();
   double least = start.left_over().first.norm();
   for (int i = 0; i < steps; ++i) {

@@ -57,7 +57,7 @@ void check_reducible(const Scene& scene, const Model& model) {
 
 /// Errors: SceneError for moving supports with beta K and prestress. Shapes that follow a support immediately are
 /// computed without damping; the omitted damping would have to be that of the elastic stiffness alone.
-void check_frozen(const Scene& scene, const Model& model) {
+void check_support_damping(const Scene& scene, const Model& model) {
   const bool follows = std::any_of(model.loads.begin(), model.loads.end(),
                                    [](const Load& load) { return load.kind == LoadKind::support_rate; });
   if (model.geometric && model.beta != 0.0 && follows)
@@ -279,8 +279,9 @@ double noise_of(const Basis& b, const Combination& physical, const Combination& 
 
 /// Sets gaps and gap rates that were zero in the saved reduced run to zero again: in the saved state they have rounding
 /// errors.
-void close_saved(const Model& model, const Basis& b, const std::vector<Contact>& contacts, const Vector& q,
-                 const Vector& w, std::vector<double>& gap, std::vector<double>& rate) {
+void restore_saved_zeros(const Model& model, const Basis& b, const std::vector<Contact>& contacts,
+                         const Vector& q, const Vector& w, std::vector<double>& gap,
+                         std::vector<double>& rate) {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Combination& reduced = model.contacts[k].normal;
     if (!contacts[k].takes_impulses()) continue;
@@ -311,7 +312,7 @@ void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model&
     gap.push_back(c.normal.dot(model.u0));
     rate.push_back(c.normal.dot(model.v0));
   }
-  if (scene.initial.saved) close_saved(model, b, contacts, q, w, gap, rate);
+  if (scene.initial.saved) restore_saved_zeros(model, b, contacts, q, w, gap, rate);
   keep_gaps(model, b, gap, rate, q, w);
   const Vector du = model.u0 - b.shapes * q, dv = model.v0 - b.shapes * w;
   for (int i = 0; i < model.size(); ++i) {
@@ -400,7 +401,7 @@ bool static_shapes_are_damped(double beta, double first_left_out) {
 
 void reduce(const Scene& scene, const SparseMatrix& dampers, const SparseMatrix& dashpots, Model& model) {
   check_reducible(scene, model);
-  check_frozen(scene, model);
+  check_support_damping(scene, model);
   const double cutoff = scene.reduction->cutoff_omega;
   KeptModes modes;
   StaticShapes shapes;

@@ -238,8 +238,9 @@ class LoadingPath {
   /// Threshold below which a force is zero. It is relative to the largest force so far, because after contacts open, all forces
   /// may be rounding errors of earlier forces.
   double zero() {
-    for (const LimitMargin& s : standing_) carried_ = std::max({carried_, std::abs(s.N), std::abs(s.T)});
-    return force_tolerance(carried_);
+    for (const LimitMargin& s : standing_)
+      largest_force_ = std::max({largest_force_, std::abs(s.N), std::abs(s.T)});
+    return force_tolerance(largest_force_);
   }
 
   /// Computes the derivatives of all quantities by the load factor, and the contact states for which they are valid.
@@ -412,8 +413,8 @@ class LoadingPath {
   std::vector<LimitMargin> standing_;
   StaticStart found_;
   const Stage* stage_ = nullptr;
-  double part_ = 0.0;     // load factor of the stage, 0 to 1
-  double carried_ = 0.0;  // largest force of a contact so far
+  double part_ = 0.0;           // load factor of the stage, 0 to 1
+  double largest_force_ = 0.0;  // largest force of a contact so far
 };
 
 }  // namespace

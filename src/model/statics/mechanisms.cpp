@@ -62,7 +62,7 @@ bool surely_constrained(const SparseMatrix& a) {
   return solver.ok() && solver.smallest_pivot() > 0.0;
 }
 
-Eigen::MatrixXd of_whole(const SparseMatrix& k) {
+Eigen::MatrixXd null_motions_of_part(const SparseMatrix& k) {
   const auto n = static_cast<int>(k.rows());
   const Vector s = scaling(k);
   const SparseMatrix a = s.asDiagonal() * k * s.asDiagonal();
@@ -77,13 +77,13 @@ Eigen::MatrixXd of_whole(const SparseMatrix& k) {
   }
 }
 
-Eigen::MatrixXd of_parts(const SparseMatrix& k) {
+Eigen::MatrixXd null_motions_by_parts(const SparseMatrix& k) {
   const assembly::Parts parts({&k});
-  if (parts.count() == 1) return of_whole(k);
+  if (parts.count() == 1) return null_motions_of_part(k);
   std::vector<Eigen::MatrixXd> own;
   Eigen::Index found = 0;
   for (const assembly::Part& part : parts) {
-    own.push_back(of_whole(part.matrix(k)));
+    own.push_back(null_motions_of_part(part.matrix(k)));
     found += own.back().cols();
   }
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(k.rows(), found);
@@ -111,7 +111,7 @@ bool may_have_null_motions(const SparseMatrix& k) {
 
 Eigen::MatrixXd null_motions(const SparseMatrix& k) {
   if (k.rows() == 0) return Eigen::MatrixXd(0, 0);
-  return of_parts(k);
+  return null_motions_by_parts(k);
 }
 
 namespace {

@@ -42,7 +42,7 @@ std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSampl
 
 /// Factor for the stiffness of the springs that replace rigid contacts. With prestress (run.geometric) the
 /// factor is larger, because contacts may have to stabilise the structure.
-double firmness_of(const Model& model) { return model.geometric ? 1e6 : 1.0; }
+double replacement_stiffness_factor(const Model& model) { return model.geometric ? 1e6 : 1.0; }
 
 }  // namespace
 
@@ -79,7 +79,8 @@ std::string unstable_motion(const Scene& scene, const Model& model,
                             const std::vector<ContactSample>& contacts) {
   const Vector load = assembly::static_load(model.loads, model.size());
   const assembly::DofMap map = map_of(scene);
-  const statics::StaticProblem problem{model.stiffness, load, model.contacts, map, firmness_of(model)};
+  const statics::StaticProblem problem{model.stiffness, load, model.contacts, map,
+                                       replacement_stiffness_factor(model)};
   const auto growth = modes::fastest_growth(problem.matrix(closed_ones(model, contacts)), model.mass);
   if (!growth) return "";
   const std::string pace =
@@ -158,11 +159,13 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
   if (model.static_start) return model.statics.free_motions;
   const assembly::DofMap map = map_of(scene);
   const WithoutSlipPoints own(model, std::min(map.size(), model.size()));
-  const statics::StaticProblem problem{own.stiffness, own.load, own.contacts, map, firmness_of(model)};
+  const statics::StaticProblem problem{own.stiffness, own.load, own.contacts, map,
+                                       replacement_stiffness_factor(model)};
   const std::vector<bool> closed = closed_ones(model, contacts);
   const Vector load = assembly::static_load(model.loads, model.size());
   const SparseMatrix k =
-      statics::StaticProblem{model.stiffness, load, model.contacts, map, firmness_of(model)}.matrix(closed);
+      statics::StaticProblem{model.stiffness, load, model.contacts, map, replacement_stiffness_factor(model)}
+          .matrix(closed);
   std::vector<std::string> names;
   for (const statics::FreeMotion& f :
        statics::constrain_free_motions(problem, statics::null_motions(k).topRows(own.size), closed, true)) {

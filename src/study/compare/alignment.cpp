@@ -62,9 +62,9 @@ bool same(const LoggedEvent& a, const LoggedEvent& b) {
 }
 
 /// Position in one list of events: the events taken so far (paired or skipped), and the next event of each contact.
-class Walk {
+class EventCursor {
  public:
-  Walk(const std::vector<LoggedEvent>& events, double t_end, double instant)
+  EventCursor(const std::vector<LoggedEvent>& events, double t_end, double instant)
       : events_(events), t_end_(t_end), instant_(instant) {
     for (std::size_t i = 0; i < events.size(); ++i) {
       if (!events[i].is_change() || events[i].contact.empty() || events[i].t > t_end + instant) continue;
@@ -135,7 +135,7 @@ enum class Order { same, one_instant, undetermined, different };
 
 /// Decides if `event` of the reference may be paired with `partner`, although `other` has earlier events that
 /// are not paired yet.
-Order order_of(Walk& reference, Walk& other, std::size_t event, std::size_t partner) {
+Order order_of(EventCursor& reference, EventCursor& other, std::size_t event, std::size_t partner) {
   Order order = Order::same;
   for (const std::size_t before : other.passed_over(partner)) {
     const auto later = reference.next_of(other[before].contact);
@@ -159,7 +159,7 @@ Alignment align(const std::vector<LoggedEvent>& reference, const std::vector<Log
                 const AlignmentSettings& settings) {
   const double roundoff = rounding::few_operations * std::abs(settings.t_end);
   const double instant = std::max(settings.instant, roundoff);
-  Walk a(reference, settings.t_end, instant), b(other, settings.t_end, instant);
+  EventCursor a(reference, settings.t_end, instant), b(other, settings.t_end, instant);
   Alignment result;
   std::optional<std::size_t> event;
   while ((event = a.first())) {

@@ -171,12 +171,12 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
 
   // An output time is evaluated when the next output time is known: force_away requires that no event lies
   // between the two neighbouring output times.
-  struct Waiting {
+  struct PendingRow {
     double t, before;
     MaxDifference greatest;
     bool any = false;
   };
-  std::optional<Waiting> waiting;
+  std::optional<PendingRow> waiting;
   const auto judge = [&](double next) {
     if (!waiting || !waiting->any || events.any(waiting->before, next)) return;
     c.force_away.update(waiting->greatest.value, waiting->t, waiting->greatest.where, split);
@@ -193,7 +193,7 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
     }
     const double t = rows_a.t();
     judge(t);
-    waiting = Waiting{t, before, {}, false};
+    waiting = PendingRow{t, before, {}, false};
     before = t;
     double N = 0.0, T = 0.0;
     for (const auto& [name, forces] : rows_a.forces()) {

@@ -38,8 +38,8 @@ std::string of_rows(const RowCount& rows) {
 /// Text about rows of the quantity's table that were not compared; empty if all were compared. Tables have a
 /// row at each time of history.csv, and contacts.csv has a row per time and contact. response.csv also has
 /// rows at events, whose times differ from run to run.
-std::string not_covered(const std::string& quantity, const RunFigures& reference, const RunFigures& other,
-                        const Comparison& c) {
+std::string uncompared_rows_text(const std::string& quantity, const RunFigures& reference,
+                                 const RunFigures& other, const Comparison& c) {
   const auto sentence = [](const char* file, const RowCount& rows) {
     return fmt::format("{} rows of {} were compared", of_rows(rows), file);
   };
@@ -74,7 +74,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// Text about columns or contacts of the quantity that only one run has. Empty if the quantity has at least
 /// one column or contact, and both runs have all of them.
-std::string not_common(const Quantity& quantity, const Comparison& c) {
+std::string unmatched_columns_text(const Quantity& quantity, const Comparison& c) {
   const std::vector<std::string>& alone = quantity.deviation->unmatched;
   if (quantity.deviation->count > 0 && alone.empty()) return "";
   std::vector<std::string> common;
@@ -88,12 +88,12 @@ std::string not_common(const Quantity& quantity, const Comparison& c) {
 }
 
 /// Reason why a limit on the quantity cannot be applied to both runs; empty if it can be applied.
-std::string no_comparison(const Quantity& quantity, const RunFigures& reference, const RunFigures& other,
-                          const Comparison& c) {
+std::string reason_not_comparable(const Quantity& quantity, const RunFigures& reference,
+                                  const RunFigures& other, const Comparison& c) {
   if (quantity.name == "event_time") return "";  // exceeded() also checks events without a partner
   if (c.common_times < 2) return "the two runs have fewer than two common output times";
-  if (std::string why = not_common(quantity, c); !why.empty()) return why;
-  return not_covered(quantity.name, reference, other, c);
+  if (std::string why = unmatched_columns_text(quantity, c); !why.empty()) return why;
+  return uncompared_rows_text(quantity.name, reference, other, c);
 }
 
 }  // namespace
@@ -191,7 +191,7 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
     for (const Quantity& quantity : known) {
       if (quantity.name != limit.name) continue;
       const MaxDifference& greatest = quantity.deviation->whole;
-      const std::string why = whole ? no_comparison(quantity, reference, other, comparison) : "";
+      const std::string why = whole ? reason_not_comparable(quantity, reference, other, comparison) : "";
       if (!why.empty())
         list.push_back(
             fmt::format("{}: {} has a limit, which cannot be checked: {}", other.name, limit.name, why));

@@ -108,11 +108,11 @@ class DirectoryLawChecker {
     if (recorded_.ended && t_ < end - rounding::few_operations * end)
       refuse(path, truncation_message(reader, fmt::format("the instant at t = {:.9g}", end)));
     if (recorded_.ended && reader.is_cut()) refuse(path, truncation_message(reader, "a line break"));
-    if (last_change_ > last_event_ && lacking_ > 0)
+    if (last_change_ > last_event_ && missing_events_ > 0)
       refuse((directory_ / "events.csv").string(),
              fmt::format("line {}: found the end of the file, expected {} up to t = {:.9g}; the file is cut",
-                         result_.events + 2, base::count_text(static_cast<std::size_t>(lacking_), "event"),
-                         last_change_));
+                         result_.events + 2,
+                         base::count_text(static_cast<std::size_t>(missing_events_), "event"), last_change_));
   }
 
   /// True if motion.csv exists. `run --no-plots` omits the tables for pictures; otherwise motion.csv and
@@ -138,14 +138,14 @@ class DirectoryLawChecker {
     const auto of_summary = [this](const char* law, double off) {
       if (off > 0.0) add({recorded_.t, "summary.json", -1, law, off, 0.0, {}, true});
     };
-    for (const auto& [type, count] : recorded_.events_by_type) lacking_ += count;
-    of_summary("count of events", std::abs(static_cast<double>(lacking_ - recorded_.total)));
+    for (const auto& [type, count] : recorded_.events_by_type) missing_events_ += count;
+    of_summary("count of events", std::abs(static_cast<double>(missing_events_ - recorded_.total)));
     of_summary("engine",
                scene_.run.engine != Engine::automatic && scene_.run.engine != recorded_.engine ? 1.0 : 0.0);
     for (const Event& event : events_)
       if (event.type != EventType::time || event.contact < 0) {
         ++counts[to_string(event.type)];
-        --lacking_;
+        --missing_events_;
       }
     for (const auto& [type, count] : recorded_.events_by_type)
       if (const long off = std::abs(count - counts[type]); off > 0)
@@ -285,7 +285,7 @@ class DirectoryLawChecker {
   std::vector<law_check::Driven> left_driven_;   // prescribed motions of contacts just after that instant
   double t_ = 0.0;                               // time of the previous instant
   double last_event_ = 0.0, last_change_ = 0.0;  // times of the last event and of the last change of a state
-  long lacking_ = 0;                             // number of events of summary.json that events.csv lacks
+  long missing_events_ = 0;                      // number of events of summary.json that events.csv lacks
 };
 
 }  // namespace

@@ -144,7 +144,7 @@ std::optional<RecordedSummary::Load> load_of(const base::Json& contact) {
 }
 
 /// Reads the results of a completed run.
-void take_end(const base::Json& json, const Model& model, const std::string& file,
+void read_end(const base::Json& json, const Model& model, const std::string& file,
               RecordedSummary& recorded) {
   const auto refuse = [&](const std::string& why) { throw FileError(file, why); };
   const base::Json& outcome = json.at("outcome");
@@ -230,7 +230,7 @@ RecordedSummary read_recorded_summary(const std::filesystem::path& directory, co
     if (const auto settings = json.find("settings"); settings != json.end())
       recorded.flow = settings->value("flow", "");
     check_units(json, model, path.string());
-    if (recorded.ended) take_end(json, model, path.string(), recorded);
+    if (recorded.ended) read_end(json, model, path.string(), recorded);
     return recorded;
   } catch (const base::Json::exception& error) {
     throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());

@@ -272,17 +272,17 @@ void TableRowChecker::reach(const RecordedRow& row) {
   load.greatest_T = std::max(load.greatest_T, row.T);
 }
 
-double TableRowChecker::noise_of_length(std::size_t k) const {
+double TableRowChecker::length_limit_of(std::size_t k) const {
   return rounding::elimination * (sizes_[k].place + model_.scales.displacement) +
          law_check::tolerance_factor * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
 }
 
-double TableRowChecker::noise_of_force(std::size_t k) const {
+double TableRowChecker::force_limit_of(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   return (rounding::elimination + law_check::tolerance_factor * engine_.limits.rtol) *
              (peaks_[k].N + peaks_[k].T) +
          law_check::tolerance_factor * engine_.limits.force +
-         (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * noise_of_length(k);
+         (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length_limit_of(k);
 }
 
 /// Checks that no row exceeds the recorded extremes, and that the extreme with the larger magnitude equals the peak.
@@ -291,7 +291,7 @@ void TableRowChecker::check_loads(const std::vector<std::optional<RecordedSummar
   for (std::size_t k = 0; k < recorded.size(); ++k) {
     if (!recorded[k]) continue;
     const bool held = !model_.contacts[k].normal_spring();
-    const double noise = noise_of_force(k) + (held ? rounding::elimination * sizes_[k].force : 0.0);
+    const double noise = force_limit_of(k) + (held ? rounding::elimination * sizes_[k].force : 0.0);
     const auto check = [&](double off, double limit) {
       if (off > limit) found(violation("summary.json", 0.0, k, "load", off, limit, seen::force));
     };
@@ -316,12 +316,12 @@ void TableRowChecker::check_peaks(const std::vector<std::optional<Peak>>& record
   if (engine_.limits.step > 0.0) return;  // the engine records extremes only at ends of steps
   for (std::size_t k = 0; k < recorded.size(); ++k) {
     if (!recorded[k]) continue;
-    const double length = noise_of_length(k);
+    const double length = length_limit_of(k);
     const auto check = [&](double seen_one, double recorded_one, double limit, const Unit& unit) {
       if (const double off = seen_one - recorded_one; off > limit)
         found(violation("summary.json", 0.0, k, "peak", off, limit, unit));
     };
-    const double force = noise_of_force(k);
+    const double force = force_limit_of(k);
     check(peaks_[k].tangential, recorded[k]->tangential, length, seen::length);
     check(peaks_[k].normal, recorded[k]->normal, length, seen::length);
     check(peaks_[k].N, recorded[k]->N, force, seen::force);

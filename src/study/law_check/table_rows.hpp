@@ -111,8 +111,8 @@ class TableRowChecker {
   void check_slip(const RecordedRow& row, const char* file, double of_force, const Found& found) const;
   void check_ratio(const RecordedRow& row, const char* file, const Found& found) const;
   void reach(const RecordedRow& row);
-  [[nodiscard]] double noise_of_length(std::size_t k) const;
-  [[nodiscard]] double noise_of_force(std::size_t k) const;
+  [[nodiscard]] double length_limit_of(std::size_t k) const;
+  [[nodiscard]] double force_limit_of(std::size_t k) const;
 
   const Model& model_;
   const run::CheckedEngine& engine_;

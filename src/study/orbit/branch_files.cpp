@@ -80,13 +80,13 @@ std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outp
 
 namespace {
 
-fs::path mark_folder(const fs::path& directory) {
+fs::path checkpoint_folder(const fs::path& directory) {
   const fs::path last = directory / "last", before = directory / "last.before";
   return !fs::exists(last) && fs::exists(before) ? before : last;
 }
 
 /// Identifies a branch: the scene at its beginning, and the options that determine the orbit.
-scene::ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& options) {
+scene::ResolvedKeys branch_identity(const SceneReader& read, const BranchOptions& options) {
   scene::ResolvedKeys keys = scene::resolved_keys(orbit::branch_reader(read, options.path, options.from)({}));
   const auto given = [](const std::optional<double>& value) {
     return value ? base::format_number(*value) : "none";
@@ -97,7 +97,8 @@ scene::ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& optio
   return keys;
 }
 
-base::Json mark_json(const SceneReader& read, const BranchOptions& options, const BranchCheckpoint& mark) {
+base::Json checkpoint_json(const SceneReader& read, const BranchOptions& options,
+                           const BranchCheckpoint& mark) {
   return {{"path", options.path},
           {"from", options.from},
           {"to", options.to},
@@ -105,13 +106,13 @@ base::Json mark_json(const SceneReader& read, const BranchOptions& options, cons
           {"points", mark.point_count},
           {"towards_to", mark.towards_to},
           {"sequences", mark.sequences},
-          {"scene", owner_of(read, options)}};
+          {"scene", branch_identity(read, options)}};
 }
 
-void check_owner(const fs::path& directory, const base::Json& kept, const SceneReader& read,
-                 const BranchOptions& options) {
+void check_branch_identity(const fs::path& directory, const base::Json& kept, const SceneReader& read,
+                           const BranchOptions& options) {
   constexpr std::size_t most = 3;
-  const auto differ = scene::differing_keys(kept.get<scene::ResolvedKeys>(), owner_of(read, options));
+  const auto differ = scene::differing_keys(kept.get<scene::ResolvedKeys>(), branch_identity(read, options));
   if (differ.empty()) return;
   const std::size_t shown = std::min(most, differ.size());
   std::string text =
@@ -125,17 +126,17 @@ void check_owner(const fs::path& directory, const base::Json& kept, const SceneR
 
 }  // namespace
 
-void write_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options,
-                const BranchCheckpoint& mark) {
+void write_checkpoint(const fs::path& directory, const SceneReader& read, const BranchOptions& options,
+                      const BranchCheckpoint& mark) {
   const SceneReader there = orbit::branch_reader(read, options.path, mark.parameter);
   const fs::path last = directory / "last", next = directory / "last.next",
                  before = directory / "last.before";
   std::error_code error;
   fs::remove_all(next, error);
   base::make_directory(next);
-  const Scene scene = scene_beginning_in(orbit_scene(there, mark.orbit), last);
+  const Scene scene = scene_starting_from(orbit_scene(there, mark.orbit), last);
   write_orbit(next, scene, build_model(scene), mark.orbit);
-  result::write_file(next / "mark.json", base::json_text(mark_json(read, options, mark)));
+  result::write_file(next / "mark.json", base::json_text(checkpoint_json(read, options, mark)));
   fs::remove_all(before, error);
   fs::rename(last, before, error);  // last/ may not exist yet
   fs::rename(next, last, error);
@@ -143,13 +144,14 @@ void write_mark(const fs::path& directory, const SceneReader& read, const Branch
   fs::remove_all(before, error);
 }
 
-void remove_mark(const fs::path& directory) {
+void remove_checkpoint(const fs::path& directory) {
   std::error_code error;
   for (const char* name : {"last", "last.before", "last.next"}) fs::remove_all(directory / name, error);
 }
 
-BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options) {
-  const fs::path last = mark_folder(directory);
+BranchCheckpoint read_checkpoint(const fs::path& directory, const SceneReader& read,
+                                 const BranchOptions& options) {
+  const fs::path last = checkpoint_folder(directory);
   BranchCheckpoint mark;
   try {
     std::ifstream branch_stream(directory / "branch.json", std::ios::binary);
@@ -163,7 +165,7 @@ BranchCheckpoint read_mark(const fs::path& directory, const SceneReader& read, c
           fmt::format("--resume: the branch in {} follows {} from {} to {}; --over requests another branch",
                       directory.string(), saved.at("path").get<std::string>(), saved.at("from").get<double>(),
                       saved.at("to").get<double>()));
-    check_owner(directory, saved.at("scene"), read, options);
+    check_branch_identity(directory, saved.at("scene"), read, options);
     mark.parameter = saved.at("parameter");
     mark.towards_to = saved.at("towards_to");
     mark.sequences = saved.at("sequences");
@@ -297,21 +299,21 @@ bool has_unstable(const Branch& branch) {
                      [](const BranchPoint& p) { return p.stable.has_value() && !*p.stable; });
 }
 
-struct MarkOfPoint {
+struct SpecialPointStyle {
   const char *special, *look;
 };
 constexpr std::array marks{
-    MarkOfPoint{"fold", "with points pointtype 9 pointsize 1.1 linecolor '#1a1a1a'"},
-    MarkOfPoint{"flip", "with points pointtype 5 pointsize 0.9 linecolor '#c0182b'"},
-    MarkOfPoint{"neimark-sacker", "with points pointtype 7 pointsize 1.0 linecolor '#7b3294'"},
-    MarkOfPoint{"branch point", "with points pointtype 13 pointsize 1.2 linecolor '#1b9e77'"},
-    MarkOfPoint{"end", "with points pointtype 3 pointsize 1.1 linecolor '#1a1a1a'"},
-    MarkOfPoint{"restart", "with points pointtype 2 pointsize 1.0 linecolor '#666666'"}};
+    SpecialPointStyle{"fold", "with points pointtype 9 pointsize 1.1 linecolor '#1a1a1a'"},
+    SpecialPointStyle{"flip", "with points pointtype 5 pointsize 0.9 linecolor '#c0182b'"},
+    SpecialPointStyle{"neimark-sacker", "with points pointtype 7 pointsize 1.0 linecolor '#7b3294'"},
+    SpecialPointStyle{"branch point", "with points pointtype 13 pointsize 1.2 linecolor '#1b9e77'"},
+    SpecialPointStyle{"end", "with points pointtype 3 pointsize 1.1 linecolor '#1a1a1a'"},
+    SpecialPointStyle{"restart", "with points pointtype 2 pointsize 1.0 linecolor '#666666'"}};
 
 /// Adds symbols for all kinds of special points on the branch. first: true if the legend names the symbols.
-void add_marks(const BranchTable& table, const Branch& branch, const std::string& name, bool first,
-               result::Panel& panel) {
-  for (const MarkOfPoint& mark : marks) {
+void add_special_points(const BranchTable& table, const Branch& branch, const std::string& name, bool first,
+                        result::Panel& panel) {
+  for (const SpecialPointStyle& mark : marks) {
     const bool occurs = std::any_of(branch.points.begin(), branch.points.end(), [&](const BranchPoint& p) {
       return p.special.find(mark.special) != std::string::npos;
     });
@@ -348,7 +350,7 @@ result::Panel multiplier_panel(const BranchTable& table, const Branch& branch) {
   result::Panel panel{"greatest multiplier", {}, "set yrange [0:*]\n", 0.7};
   add_line(table, "multiplier", "#1a1a1a", "stable", has_unstable(branch), panel);
   panel.curves.push_back({"1", "", "with lines linewidth 0.8 linecolor '#c0182b'", "unit circle"});
-  add_marks(table, branch, "multiplier", false, panel);
+  add_special_points(table, branch, "multiplier", false, panel);
   return panel;
 }
 
@@ -392,13 +394,13 @@ result::PictureFiles branch_pictures(const std::string& title, const Units& unit
     result::Panel panel{outputs[i], {}, "set yrange [*:*]\n"};
     add_line(table, fmt::format("high {}", i), high_colour, "greatest", has_unstable(branch), panel);
     add_line(table, fmt::format("low {}", i), low_colour, "least", false, panel);
-    add_marks(table, branch, fmt::format("high {}", i), i == 0, panel);
+    add_special_points(table, branch, fmt::format("high {}", i), i == 0, panel);
     picture.panels.push_back(panel);
   }
   if (shown == 0) {
     result::Panel panel{"amplitude [" + units.length + "]", {}, "set yrange [0:*]\n"};
     add_line(table, "amplitude", high_colour, "stable", has_unstable(branch), panel);
-    add_marks(table, branch, "amplitude", true, panel);
+    add_special_points(table, branch, "amplitude", true, panel);
     picture.panels.push_back(panel);
   }
   picture.panels.push_back(multiplier_panel(table, branch));

@@ -34,14 +34,14 @@ class BranchWriter {
                                                    std::size_t outputs, std::size_t rows);
 
 /// Writes the checkpoint to DIR/last. Errors: FileError.
-void write_mark(const std::filesystem::path& directory, const SceneReader& read, const BranchOptions& options,
-                const BranchCheckpoint& mark);
+void write_checkpoint(const std::filesystem::path& directory, const SceneReader& read,
+                      const BranchOptions& options, const BranchCheckpoint& mark);
 /// Removes the checkpoint of an earlier branch.
-void remove_mark(const std::filesystem::path& directory);
+void remove_checkpoint(const std::filesystem::path& directory);
 /// Reads the checkpoint of a branch that ended early or was killed. Errors: FileError; UsageError if the
 /// branch is complete, or if it belongs to another scene or to other options.
-[[nodiscard]] BranchCheckpoint read_mark(const std::filesystem::path& directory, const SceneReader& read,
-                                         const BranchOptions& options);
+[[nodiscard]] BranchCheckpoint read_checkpoint(const std::filesystem::path& directory,
+                                               const SceneReader& read, const BranchOptions& options);
 
 /// Text of branch.json.
 [[nodiscard]] std::string branch_json(const BranchOptions& options, const Units& units, const Branch& branch);

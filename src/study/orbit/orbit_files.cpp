@@ -109,7 +109,7 @@ std::string orbit_json(const Model& model, const Orbit& orbit) {
   return base::json_text(json);
 }
 
-Scene scene_beginning_in(Scene scene, const fs::path& directory) {
+Scene scene_starting_from(Scene scene, const fs::path& directory) {
   constexpr std::array replaced{"t_end", "output_dt", "output_times", "frames", "initial", "stages"};
   std::istringstream lines(scene.resolved);
   std::string text;

@@ -16,7 +16,7 @@ namespace signorini::orbit_study {
 [[nodiscard]] std::string orbit_json(const Model& model, const Orbit& orbit);
 
 /// Changes the scene of orbit_scene() so that its run.toml starts from DIR/start.
-[[nodiscard]] Scene scene_beginning_in(Scene scene, const std::filesystem::path& directory);
+[[nodiscard]] Scene scene_starting_from(Scene scene, const std::filesystem::path& directory);
 
 /// Writes DIR/orbit.json and DIR/start. model: model of `scene`. Errors: FileError.
 void write_orbit(const std::filesystem::path& directory, const Scene& scene, const Model& model,

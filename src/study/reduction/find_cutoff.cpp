@@ -180,24 +180,24 @@ void restrict_to_places(const std::vector<RequestedPlace>& asked, Model& model) 
 }
 
 /// Records displacements, and passes the forces of contacts to a TruncationError, at equal time steps.
-class Watcher final : public Recorder {
+class TrialRecorder final : public Recorder {
  public:
   /// samples: number of steps of the run; instants: number of compared instants. Both are min_compared times
   /// a power of two.
-  Watcher(TruncationError& left_out, Eigen::Index places, Eigen::Index samples, Eigen::Index instants,
-          const std::function<bool()>& go_on)
-      : left_out_(left_out), every_(samples / instants), go_on_(go_on) {
+  TrialRecorder(TruncationError& left_out, Eigen::Index places, Eigen::Index samples, Eigen::Index instants,
+                const std::function<bool()>& go_on)
+      : truncation_(left_out), every_(samples / instants), go_on_(go_on) {
     at.setZero(places, instants + 1);
   }
   void event(const Event& /*event*/) override {}
   void sample(const Sample& s) override {
-    const ForceLayout& layout = left_out_.layout();
+    const ForceLayout& layout = truncation_.layout();
     forces_.assign(layout.size(), 0.0);
     for (std::size_t k = 0; k < s.contacts.size(); ++k) {
       forces_[layout.normal(k)] = s.contacts[k].N;
       forces_[layout.tangent(k)] = s.contacts[k].T;
     }
-    left_out_.sample(s.t, forces_);
+    truncation_.sample(s.t, forces_);
     if (at.rows() > 0) greatest = std::max(greatest, s.u->head(at.rows()).cwiseAbs().maxCoeff());
     if (samples_ % every_ == 0 && samples_ / every_ < at.cols())
       at.col(samples_ / every_) = s.u->head(at.rows());
@@ -209,7 +209,7 @@ class Watcher final : public Recorder {
   Eigen::MatrixXd at;     ///< displacements: places x compared instants
 
  private:
-  TruncationError& left_out_;
+  TruncationError& truncation_;
   Eigen::Index every_, samples_ = 0;
   const std::function<bool()>& go_on_;
   std::vector<double> forces_;
@@ -221,8 +221,8 @@ class SystemMatrices {
   explicit SystemMatrices(const Scene& scene)
       : model(built(scene)),
         null_(statics::null_motions(model.stiffness)),
-        heavies_(assembly::degrees_with_mass(model.mass)) {
-    if (heavies_ > reduce::all_modes_up_to) return;
+        mass_dof_count_(assembly::degrees_with_mass(model.mass)) {
+    if (mass_dof_count_ > reduce::all_modes_up_to) return;
     try {
       all_ = reduce::modes_up_to(std::numeric_limits<double>::max(), model.mass, model.stiffness, null_);
     } catch (const reduce::NotReducible& e) {
@@ -231,7 +231,7 @@ class SystemMatrices {
   }
 
   [[nodiscard]] Eigen::Index free() const { return null_.cols(); }
-  [[nodiscard]] Eigen::Index all() const { return all_ ? all_->squares.size() : heavies_; }
+  [[nodiscard]] Eigen::Index all() const { return all_ ? all_->squares.size() : mass_dof_count_; }
 
   struct Cutoff {
     double omega = 0.0;
@@ -272,7 +272,7 @@ class SystemMatrices {
   }
 
   Eigen::MatrixXd null_;
-  Eigen::Index heavies_;
+  Eigen::Index mass_dof_count_;
   std::optional<reduce::KeptModes> all_;
 };
 
@@ -308,7 +308,7 @@ Trial trial(const Scene& scene, const SystemMatrices& structure, const SystemMat
   const auto places = static_cast<Eigen::Index>(asked.size());
   Eigen::Index instants = samples;
   while (instants > min_compared && instants * places > max_compared) instants /= 2;
-  Watcher watcher(left_out, places, samples, instants, go_on);
+  TrialRecorder watcher(left_out, places, samples, instants, go_on);
   const Report report = simulate(model, run, watcher);
   Trial result;
   result.ended = report.outcome.kind == Outcome::Kind::interrupted;

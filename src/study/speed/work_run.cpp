@@ -17,8 +17,8 @@ std::optional<double> WorkRow::wall_time() const {
   return *std::min_element(wall_times.begin(), wall_times.end());
 }
 
-void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
-                     const compare::Comparison& comparison) {
+void set_errors(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
+                const compare::Comparison& comparison) {
   const auto& split = comparison.alignment.split;
   row.matched_events = comparison.alignment.pairs.size();
   row.split = split ? compare::split_text(reference, run, *split) : "";

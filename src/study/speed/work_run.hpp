@@ -51,8 +51,8 @@ struct WorkRow {
 };
 
 /// Sets errors and matched events of `row` from the comparison of `run` with the reference.
-void take_comparison(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
-                     const compare::Comparison& comparison);
+void set_errors(WorkRow& row, const compare::ComparedRun& reference, const compare::ComparedRun& run,
+                const compare::Comparison& comparison);
 
 struct WorkLimits {
   double seconds = 60.0;                              ///< wall time per run

@@ -78,8 +78,8 @@ double greatest_motion(const fs::path& directory) {
 }
 
 /// A time before t that is not near an event of either run; 0 if there is no such time.
-double quiet_before(double t, const std::vector<compare::LoggedEvent>& a,
-                    const std::vector<compare::LoggedEvent>& b) {
+double event_free_time_before(double t, const std::vector<compare::LoggedEvent>& a,
+                              const std::vector<compare::LoggedEvent>& b) {
   constexpr double near = 1e-6;  // relative to t
   std::vector<double> times = {0.0};
   for (const auto* events : {&a, &b})
@@ -201,7 +201,7 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
   while (const auto split =
              compare::align(reference_.events, perturbed_reference_.events, {until, 0.0}).split) {
     decided = split->t;
-    until = quiet_before(split->t, reference_.events, perturbed_reference_.events);
+    until = event_free_time_before(split->t, reference_.events, perturbed_reference_.events);
   }
   if (until < whole)
     report_.notes.push_back(
@@ -266,7 +266,7 @@ bool WorkStudy::choose_reference() {
 }
 
 /// Sets the ranges of meaningful errors: from the error of the reference itself up to the size of the quantity.
-void WorkStudy::take_ranges() {
+void WorkStudy::set_error_ranges() {
   compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
   if (reference_error_measured_) {
@@ -299,7 +299,7 @@ void WorkStudy::find_reference() {
   exact.engine = to_string(references[0]);
   const WorkPoint& reference = series_.value_or(exact);
   if (report_.reference == reference.name() && !report_.interrupted) measure_reference_error(reference);
-  take_ranges();
+  set_error_ranges();
 }
 
 void WorkStudy::compare(WorkRow& row, const compare::ComparedRun& run) const {
@@ -312,7 +312,7 @@ void WorkStudy::compare(WorkRow& row, const compare::ComparedRun& run) const {
   compare::ComparisonSettings settings;
   settings.t_end = report_.compared_until;
   const compare::ComparedRun& other = row.reference ? perturbed_reference_ : run;
-  take_comparison(row, reference_, other, compare::compare_runs(reference_, other, settings));
+  set_errors(row, reference_, other, compare::compare_runs(reference_, other, settings));
 }
 
 const WorkRow& WorkStudy::add(const WorkPoint& point) {

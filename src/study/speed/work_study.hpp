@@ -87,7 +87,7 @@ class WorkStudy {
   [[nodiscard]] std::optional<WorkPoint> series_of_exact();
   bool try_reference(const WorkPoint& point, std::string& why_not);
   void measure_reference_error(const WorkPoint& point);
-  void take_ranges();
+  void set_error_ranges();
   void compare(WorkRow& row, const compare::ComparedRun& run) const;
 
   WorkRequest request_;

@@ -16,16 +16,16 @@ constexpr double tail = 0.5 * (1.0 - confidence);
 constexpr std::size_t max_steps = 200, even_steps = 100;
 
 /// P(B <= k); B: binomial distribution with n trials of probability p.
-double below_or_at(std::size_t k, double p, std::size_t n) {
+double binomial_cdf(std::size_t k, double p, std::size_t n) {
   return gsl_cdf_binomial_P(static_cast<unsigned>(k), p, static_cast<unsigned>(n));
 }
 
 /// The smallest k with P(B <= k) >= q, for the binomial distribution B of n trials; n if there is no such k.
-std::size_t least_count(double q, double p, std::size_t n) {
+std::size_t binomial_quantile(double q, double p, std::size_t n) {
   std::size_t low = 0, high = n;
   while (low < high) {
     const std::size_t middle = (low + high) / 2;
-    if (below_or_at(middle, p, n) >= q)
+    if (binomial_cdf(middle, p, n) >= q)
       high = middle;
     else
       low = middle + 1;
@@ -94,10 +94,10 @@ Quantile quantile(const std::vector<double>& sorted, double probability, bool is
   Quantile q{probability, sorted[k - 1], {}, {}};
   if (!is_independent) return q;
   // l: the largest with P(B <= l - 1) <= a/2; u: the smallest with P(B <= u - 1) >= 1 - a/2.
-  std::size_t l = least_count(tail, probability, n);
-  if (below_or_at(l, probability, n) <= tail) ++l;
+  std::size_t l = binomial_quantile(tail, probability, n);
+  if (binomial_cdf(l, probability, n) <= tail) ++l;
   if (l >= 1) q.low = sorted[l - 1];
-  const std::size_t u = least_count(1.0 - tail, probability, n) + 1;
+  const std::size_t u = binomial_quantile(1.0 - tail, probability, n) + 1;
   if (u <= n) q.high = sorted[u - 1];
   return q;
 }

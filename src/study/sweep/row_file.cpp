@@ -28,7 +28,7 @@ void check_kind(const fs::path& file) {
 
 /// Calls take(line, number) for each complete line; returns the total size of these lines in bytes.
 template <class Take>
-std::uintmax_t whole_lines(const fs::path& file, const Take& take) {
+std::uintmax_t read_complete_lines(const fs::path& file, const Take& take) {
   check_kind(file);
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
@@ -48,7 +48,7 @@ std::uintmax_t whole_lines(const fs::path& file, const Take& take) {
 
 std::map<std::size_t, NumberedRow> read_rows(const fs::path& file) {
   std::map<std::size_t, NumberedRow> rows;
-  whole_lines(file, [&](const std::string& line, std::size_t number) {
+  read_complete_lines(file, [&](const std::string& line, std::size_t number) {
     const auto wrong = [&](const std::string& what) {
       return FileError(file.string(), fmt::format("line {} {}", number, what));
     };
@@ -65,7 +65,7 @@ std::map<std::size_t, NumberedRow> read_rows(const fs::path& file) {
 }
 
 RowFile::RowFile(fs::path path)
-    : path_(std::move(path)), good_(whole_lines(path_, [](const std::string&, std::size_t) {})) {
+    : path_(std::move(path)), good_(read_complete_lines(path_, [](const std::string&, std::size_t) {})) {
   file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file_ < 0) throw FileError(path_.string(), "cannot be opened" + base::system_error_text(errno));
   if (ftruncate(file_, static_cast<off_t>(good_)) == 0) return;

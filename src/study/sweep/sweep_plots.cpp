@@ -124,7 +124,7 @@ std::vector<const SweepRow*> from_left(const SweepCurve& curve, const SweepAxis&
 }
 
 /// One panel of a picture.
-struct Shown {
+struct SweepPanel {
   enum class Kind { events, contacts, answer };
   std::string label;
   Kind kind;
@@ -142,7 +142,7 @@ class SweepCurves {
         table_(curve_table(spec, axis, contacts)) {}
 
   [[nodiscard]] result::Picture picture(const std::string& name, const std::string& subtitle,
-                                        const std::vector<Shown>& panels,
+                                        const std::vector<SweepPanel>& panels,
                                         const result::PictureStyle& look) const {
     const std::size_t count = panels.size();
     result::Picture picture{
@@ -151,7 +151,7 @@ class SweepCurves {
     picture.setup = "set offsets 0,0,graph 0.05,0\n" + x_range(axis_);
     for (std::size_t i = 0; i < count; ++i) {
       result::Panel panel{panels[i].label, curves(panels[i])};
-      panel.axes = panels[i].kind == Shown::Kind::answer ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
+      panel.axes = panels[i].kind == SweepPanel::Kind::answer ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
       if (!axis_.numbers) panel.axes += tics(i + 1 == count);
       if (i + 1 == count)
         panel.axes += "set xlabel " + result::quoted(study::key_with_unit(axis_.vary->path, units_)) + "\n";
@@ -173,16 +173,17 @@ class SweepCurves {
     return result::named_tics('x', names) + "\n";
   }
 
-  [[nodiscard]] std::vector<result::Curve> curves(const Shown& panel) const {
+  [[nodiscard]] std::vector<result::Curve> curves(const SweepPanel& panel) const {
     std::vector<result::Curve> list;
-    const bool of_contacts = panel.kind == Shown::Kind::contacts;
+    const bool of_contacts = panel.kind == SweepPanel::Kind::contacts;
     for (std::size_t k = 0; k < (of_contacts ? contacts_.size() : 1); ++k) {
       for (std::size_t c = 0; c < combinations_.size() && list.size() < max_curves; ++c) {
         const std::size_t column = table_.number((of_contacts ? contacts_[k] + "." : "") + panel.column);
         const bool alone = !of_contacts || (contacts_.size() == 1 && combinations_.size() > 1);
-        std::string title = panel.kind == Shown::Kind::events ? (combinations_.size() == 1 ? "events" : "")
-                            : alone                           ? ""
-                                                              : contacts_[k];
+        std::string title = panel.kind == SweepPanel::Kind::events
+                                ? (combinations_.size() == 1 ? "events" : "")
+                            : alone ? ""
+                                    : contacts_[k];
         if (!combinations_[c].name.empty()) title += (title.empty() ? "" : ", ") + combinations_[c].name;
         // The colour distinguishes combinations of the other keys; if there is only one combination, it
         // distinguishes contacts.
@@ -261,7 +262,7 @@ void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const result:
 
 struct SweepPicture {
   std::string name, subtitle;
-  std::vector<Shown> panels;
+  std::vector<SweepPanel> panels;
 };
 
 std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<std::string>& contacts) {
@@ -269,13 +270,13 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
   const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
   std::vector<SweepPicture> list;
   if (!spec.responses.empty()) {
-    std::vector<Shown> panels;
+    std::vector<SweepPanel> panels;
     for (std::size_t i = 0; i < std::min(spec.responses.size(), max_panels); ++i)
-      panels.push_back({labelled(spec, i), Shown::Kind::answer, spec.responses[i]});
+      panels.push_back({labelled(spec, i), SweepPanel::Kind::answer, spec.responses[i]});
     list.push_back({"responses", "Requested responses", panels});
   }
   if (!contacts.empty()) {
-    constexpr Shown::Kind of_contacts = Shown::Kind::contacts;
+    constexpr SweepPanel::Kind of_contacts = SweepPanel::Kind::contacts;
     list.push_back({"motion",
                     "Greatest displacement of the contacts relative to the start",
                     {{"along the tangent" + length, of_contacts, "peak_t"},
@@ -286,7 +287,7 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
     list.push_back(
         {"losses",
          "Work lost by friction, and events",
-         {{"friction work" + energy, of_contacts, "friction_work"}, {"events", Shown::Kind::events}}});
+         {{"friction work" + energy, of_contacts, "friction_work"}, {"events", SweepPanel::Kind::events}}});
   }
   return list;
 }
@@ -305,9 +306,9 @@ void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
                       : borders ? "; lines separate sequences of events"
                                 : "; most neighbours have different sequences of events";
   for (const SweepPicture& shown : pictures_of(spec, contacts)) {
-    const bool several = contacts.size() > 1 && shown.panels.front().kind != Shown::Kind::answer;
+    const bool several = contacts.size() > 1 && shown.panels.front().kind != SweepPanel::Kind::answer;
     std::vector<MapPanel> maps;
-    for (const Shown& p : shown.panels) maps.push_back({p.label, p.column});
+    for (const SweepPanel& p : shown.panels) maps.push_back({p.label, p.column});
     files.add(run, map_picture(spec, axes, shown.name,
                                shown.subtitle + (several ? ", greatest of all contacts" : "") + parts, maps,
                                borders, run.look));

@@ -110,7 +110,7 @@ struct RowPoint {
 };
 
 /// True if the row belongs to the second half of the last range, which has the opposite order (CarrySpec).
-bool goes_back(const SweepSpec& spec, const SweepRow& row) {
+bool is_backward_row(const SweepSpec& spec, const SweepRow& row) {
   if (!spec.carry.back) return false;
   const std::size_t count = spec.vary.back().values.size();
   return row.index % count >= count / 2;
@@ -150,7 +150,7 @@ std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows) {
   for (std::size_t i = 0; i < spec.vary.size(); ++i)
     table.add(spec.vary[i].path, [i](const RowPoint& p) { return std::string_view(p.row->values[i]); });
   table.add("way", [&spec](const RowPoint& p) {
-    return std::string_view(goes_back(spec, *p.row) ? "back" : "there");
+    return std::string_view(is_backward_row(spec, *p.row) ? "back" : "there");
   });
   table.add("t", [](const RowPoint& p) { return p.point->t; });
   add_values(spec, table);
@@ -179,7 +179,7 @@ void add_strobe_picture(const SweepSpec& spec, const SweepRows& rows, const resu
       if (curves.size() == point_colours.size()) break;
       std::vector<const SweepRow*> part;
       std::copy_if(curve.rows.begin(), curve.rows.end(), std::back_inserter(part),
-                   [&](const SweepRow* row) { return goes_back(spec, *row) == back; });
+                   [&](const SweepRow* row) { return is_backward_row(spec, *row) == back; });
       const std::vector<RowPoint> points = points_of(part);
       if (points.empty()) continue;
       const std::string name = fmt::format("strobe-{}", curves.size() + 1);

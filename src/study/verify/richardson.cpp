@@ -48,7 +48,7 @@ constexpr std::size_t ahead = 5;
 /// Part of the difference |x_h/2 - x_h/4| that a bar includes, for errors of third order that vary from step to step.
 constexpr double third_order_part = 0.02;
 /// Largest deviations from order two, for is_second_order() and for usable().
-constexpr double settled_within = 0.1, usable_within = 0.6;
+constexpr double settled_order_tolerance = 0.1, usable_order_tolerance = 0.6;
 
 double square(double x) { return x * x; }
 
@@ -79,10 +79,12 @@ std::optional<double> ConvergenceOrder::value() const {
 }
 
 bool is_second_order(const std::optional<double>& order) {
-  return !order || std::abs(*order - 2.0) <= settled_within;
+  return !order || std::abs(*order - 2.0) <= settled_order_tolerance;
 }
 
-bool usable(const std::optional<double>& order) { return !order || std::abs(*order - 2.0) <= usable_within; }
+bool usable(const std::optional<double>& order) {
+  return !order || std::abs(*order - 2.0) <= usable_order_tolerance;
+}
 
 Extrapolation extrapolate(const std::vector<StepTriple>& series, const SeriesKind& kind) {
   Extrapolation result;

@@ -37,8 +37,8 @@ class Study {
   Verification verification() {
     check_newmark();
     VerificationRuns witnesses(model_, run_.t_end);
-    watch_ida(witnesses);
-    if (!result_.interrupted) watch_exact(witnesses);
+    run_ida(witnesses);
+    if (!result_.interrupted) run_closed_form(witnesses);
     refine(witnesses);
     if (result_.interrupted) {
       result_.sentence = "interrupted";
@@ -75,7 +75,7 @@ class Study {
   }
 
   /// Runs newmark with the step dt. Rows at peaks_ are removed, so that the result has the same rows as the other runs.
-  [[nodiscard]] ObservedRun watch_newmark(double dt) const {
+  [[nodiscard]] ObservedRun run_newmark(double dt) const {
     ObservedRun run = observe(model_, newmark(dt), request_.go_on);
     const auto width = static_cast<std::ptrdiff_t>(run.rows.width);
     for (std::size_t row = run.rows.t.size(); row-- > 0;) {
@@ -100,7 +100,7 @@ class Study {
     }
   }
 
-  void watch_ida(VerificationRuns& witnesses) {
+  void run_ida(VerificationRuns& witnesses) {
     ObservingRecorder patient(request_.go_on);
     certify::CompanionTracker tracker(own_, true, &patient);
     CertifyOptions options;
@@ -113,7 +113,7 @@ class Study {
     witnesses.certificate = &*result_.ida.certificate;
   }
 
-  void watch_exact(VerificationRuns& witnesses) {
+  void run_closed_form(VerificationRuns& witnesses) {
     if (!run::exact_accepts(model_, run_)) return;
     RunSpec run = run_;
     run.engine = run::engine_for(run::EngineRole::closed_form);
@@ -125,7 +125,7 @@ class Study {
   void refine(VerificationRuns& witnesses) {
     double dt = request_.dt.value_or(run_.t_end / steps_at_first);
     while (!result_.interrupted) {
-      witnesses.add(dt, watch_newmark(dt));
+      witnesses.add(dt, run_newmark(dt));
       note(witnesses.newmark.back().report);
       test_step(witnesses);
       result_.dt = witnesses.dt;

@@ -75,7 +75,7 @@ result::CsvTable<VerifiedEvent> verified_table(const Model& model) {
           {"agrees", [](const E& e) { return e.time.agrees() ? "1" : "0"; }}};
 }
 
-bool is_ours(const fs::path& file) {
+bool is_picture_of_verification(const fs::path& file) {
   return file.stem() == "verify" && (result::is_picture(file) || file.extension() == ".csv");
 }
 
@@ -120,12 +120,14 @@ void write_verification(const fs::path& directory, const Model& model, const Ver
   result::write_file(directory / "verify.json", verify_json(model, result));
 }
 
-void begin_verify_plot(const fs::path& directory) { result::begin_plot_folder(directory / "plots", is_ours); }
+void begin_verify_plot(const fs::path& directory) {
+  result::begin_plot_folder(directory / "plots", is_picture_of_verification);
+}
 
 std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& model,
                                         const Verification& result) {
   if (result.events.size() < 2) return {};
-  result::PictureFiles files(is_ours);
+  result::PictureFiles files(is_picture_of_verification);
   files.add_table("verify", plot_table().text(result.events));
   result::PlottedRun run = result::empty_plotted_run(model.title, model.units);
   run.to = result.events.back().time.t * 1.02;

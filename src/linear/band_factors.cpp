@@ -10,11 +10,12 @@
 namespace signorini::linear {
 namespace {
 
-// Largest tolerated growth: a loss of three digits, as for pivots kept from another step size (linear/klu.cpp).
+// Largest accepted ratio of sum_k |l_ik u_ki| to |a_ii|. It corresponds to a loss of three digits, the same limit as for
+// pivots kept from another step size (linear/klu.cpp).
 constexpr double most_growth = 1e3;
 constexpr std::size_t lanes = 4;
 
-/// row -= factor * pivots. Both are padded to whole lanes; pivots are zero in the padding.
+/// row -= factor * pivots, for `count` numbers. Both arrays are padded to a multiple of `lanes`, `pivots` with zeros.
 [[gnu::always_inline]] inline void eliminate(double factor, const double* pivots, std::size_t count,
                                              double* row) {
   for (std::size_t c = 0; c < count; c += lanes)

@@ -34,7 +34,7 @@ Neighbours neighbours_of(const Model& model, const SystemMatrices& structure) {
   return result;
 }
 
-/// Connected component of `first`, level by level; sets `seen` for its members.
+/// Members of the connected component of `first`, level by level; sets `seen` for each of them.
 std::vector<int> levels_from(int first, const Neighbours& neighbours, std::vector<bool>& seen) {
   std::vector<int> order{first};
   seen[static_cast<std::size_t>(first)] = true;
@@ -80,7 +80,7 @@ BandOrder band_order(const Model& model, const SystemMatrices& structure) {
 
 namespace {
 
-/// Number of changes that are recorded; after more changes, factoring all rows costs less than updating.
+/// Largest number of recorded changes; after more changes, factoring all rows costs less than updating the factors.
 constexpr std::size_t most_remembered = 64;
 
 CondensedRows::ContactCoefficients held_by(const Rows& rows) {
@@ -194,7 +194,7 @@ void CondensedRows::fill(std::size_t place, const Weights& w, const double* by_N
 
 namespace {
 
-/// Least number of rows that are factored at once: a few widths of a narrow band.
+/// Smallest number of rows that refactor() factors before it compares them with the old ones: a few widths of a narrow band.
 constexpr std::size_t rows_at_once = 32;
 
 }  // namespace

@@ -30,7 +30,7 @@ class FactorReader {
   struct Raw {
     std::vector<Long> start, row;
     std::vector<double> value;
-    std::vector<std::size_t> from;  // place in this object, for each value in the packed columns
+    std::vector<std::size_t> from;  // for each value of the packed columns: its index in `value`
     [[nodiscard]] std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(start[k]); }
     void resize(std::size_t columns, Long entries);
   };
@@ -54,7 +54,7 @@ SuiteSparse_long* raw(const std::vector<std::int64_t>& v) {
 }
 double* raw(const std::vector<double>& v) { return const_cast<double*>(v.data()); }
 
-// Fraction of the quality (reciprocal condition) that kept pivots must retain; otherwise new pivots are chosen.
+// Smallest ratio of the reciprocal condition with kept pivots to that with fresh pivots; below it new pivots are chosen.
 constexpr double kept_quality = 1e-3;
 
 }  // namespace
@@ -75,7 +75,7 @@ Klu::Klu(const std::vector<std::int64_t>& column_start, const std::vector<std::i
   h_->work.resize(column_start.size() - 1);
   h_->symbolic = klu_l_analyze(n, raw(column_start_), raw(row_), &h_->common);
   if (h_->symbolic == nullptr && h_->common.status != KLU_SINGULAR)
-    throw std::runtime_error("KLU cannot analyse the system matrix");
+    throw std::runtime_error("the solver KLU cannot analyse the pattern of the system matrix");
 }
 
 Klu::~Klu() {
@@ -188,7 +188,7 @@ void FactorReader::read(klu_l_symbolic* symbolic, klu_l_numeric* numeric, klu_l_
                     upper_.start.data(), upper_.row.data(), upper_.value.data(), off_.start.data(),
                     off_.row.data(), off_.value.data(), rows_.data(), columns_.data(), scale_.data(),
                     blocks_.data(), common) == 0)
-    throw std::runtime_error("KLU's factors cannot be read");
+    throw std::runtime_error("the solver KLU does not return its factors of the system matrix");
   if (pattern) read_pattern(factors);
   for (std::size_t k = 0; k < scale_.size(); ++k) {
     factors.inverse_pivot_[k] = 1.0 / upper_.value[upper_.begin(k + 1) - 1];

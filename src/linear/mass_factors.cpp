@@ -59,11 +59,11 @@ void MassSolver::solve(double* x, double* work) const {
 
 namespace {
 
-// Limit for the loss of digits by 1 + D Y: three digits, as for pivots kept from another step size (linear/klu.cpp). The
-// inverse loses as many digits as its condition number has. If D Y is large, the solution is a small difference of x and a
-// multiple of Y, which loses digits, too.
+// Smallest accepted reciprocal condition of 1 + D Y: a loss of three digits, as for pivots kept from another step size
+// (linear/klu.cpp). The limit also bounds D Y, because for large D Y the solution is a small difference of x and a multiple
+// of Y, which loses digits, too.
 constexpr double least_quality = 1e-3;
-// Number of columns of Y that are kept, because the same rows often change again.
+// Largest number of columns of Y that are stored; stored columns are used again if the same rows change again.
 constexpr std::size_t most_columns = 4 * WoodburyFactors::max_rows;
 
 double dot(const ChangedRow& row, const double* x) {

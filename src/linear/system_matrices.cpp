@@ -111,7 +111,7 @@ constexpr std::size_t rows_of_lanes = 4;
 // loads of matrix entries, two of motions) costs as much as three single entries.
 constexpr std::size_t most_of_entries = 3;
 
-/// Blocks of four rows, all columns of which exist, numbered [first, last).
+/// Range [first, last) of the blocks of four rows for which all columns within the band width exist.
 struct InnerBlocks {
   std::size_t first, last;
 };
@@ -211,7 +211,7 @@ StructuralForces::StructuralForces(const Model& model, const SystemMatrices& str
 }
 
 void StructuralForces::apply(double* r) const {
-  // Both products of an entry are computed at once: a pair is one register.
+  // A pair fits into one register, so both products of an entry are computed at once.
   using Pair = Eigen::Map<const Eigen::Array2d>;
   const double *value = values_.data(), *x = x_.data();
   const int* column = column_.data();

@@ -48,7 +48,7 @@ struct ForcePlaces {
   [[nodiscard]] std::array<int, 2> of(std::size_t contact) const {
     return {normal(contact), tangent(contact)};
   }
-  /// Rows of places that have no force.
+  /// Rows of those places of the layout that have no force.
   [[nodiscard]] std::vector<int> unused() const {
     std::vector<int> result;
     for (std::size_t place = 0; place < layout.size(); ++place)

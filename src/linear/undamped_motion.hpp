@@ -1,11 +1,11 @@
 // undamped_motion.hpp: massless motions that the dashpots of a contact state do not damp.
 //
-//   d_k . z = 0,  z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p
+//   d_k . z = 0,  z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p          u': unknowns that replace u
 //
 // d_k: form of the velocity in a row of the contact state, such as g' in kn g + cn g', restricted to degrees of freedom with
-// neither mass nor damper. There are as many damped degrees of freedom among these as independent d_k. Each remaining one, p,
-// represents a motion z along which forces are in equilibrium at every instant. For motions that the structure itself leaves
-// undamped see model/massless.hpp.
+// neither mass nor damper. The state damps as many of these degrees of freedom as there are independent d_k. Each undamped
+// one, p, represents a motion z along which forces are in equilibrium at every instant. For motions that the dampers of the
+// structure do not damp see model/massless.hpp.
 #pragma once
 
 #include <utility>

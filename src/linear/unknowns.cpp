@@ -25,7 +25,8 @@ bool has_massless(const Model& model) {
 
 namespace {
 
-/// A model with the scales, frequencies and factors of the whole, so that decisions that depend on them agree in all parts.
+/// A model with the scales, frequencies and damping factors of the whole model, so that decisions that depend on these numbers
+/// agree in all parts.
 Model common_to_parts(const Model& whole) {
   Model model;
   model.units = whole.units;

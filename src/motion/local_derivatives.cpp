@@ -24,8 +24,8 @@ bool accelerates(const Contact& contact, const ContactState& state) {
   return false;
 }
 
-/// Entries of a column of M^-1 that are below of_nothing_here times the largest entry are rounding. A column saves time only
-/// if at most 1 / part_of_structure of its entries remain.
+/// Entries of a column of M^-1 below of_nothing_here times the largest entry are rounding errors. A column saves time only if
+/// at most 1 / part_of_structure of its entries are above this limit.
 constexpr double of_nothing_here = rounding::eps / 16.0;
 constexpr std::size_t part_of_structure = 4;
 
@@ -131,9 +131,9 @@ void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forci
   d.T = -rows.tangent.rate(d) / rows.tangent.T;
 }
 
-/// Upper bound of the noise of motion/jet.cpp. That noise is one rounding of the terms plus |x - y| for each perturbation: of
-/// displacements and velocities as data, of N in its row, of T in its row and through N. The rounding errors of x and y
-/// themselves add less than one more.
+/// Upper bound of the noise that motion/jet.cpp would compute, in rounding errors of the terms of a sum: one for the sum, less
+/// than one for the difference of both computations, and one for each perturbed quantity. Perturbed are u and v, for N also its
+/// row, for T also both rows.
 void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
                                       std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];
@@ -248,8 +248,8 @@ const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contac
   return columns;
 }
 
-/// Same as expand(), from a known jet in other states, by the effect of contacts whose states differ. nullopt: too many
-/// states differ, or the effect reaches far.
+/// Same result as expand(), computed from a known jet in other states: adds the effect of the contacts whose states differ.
+/// nullopt: too many states differ, or their effect covers a large part of the structure.
 std::optional<Jet> LocalDerivatives::update(const StateSystemPtr& system, const Forcing& forcing, double t,
                                             const PreviousJet& previous) {
   const contact::ContactStates &states = system->states(), &before = previous.jet.system->states();
@@ -320,6 +320,7 @@ std::optional<LocalDerivatives::LocalJet> LocalDerivatives::make(const StateSyst
 
 namespace {
 
+/// Arguments of fused_products().
 struct Columns {
   const double *a, *b;
   std::size_t rows, columns;

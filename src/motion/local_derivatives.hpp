@@ -6,9 +6,9 @@
 //   a - M^-1 (n dN + t dT)                         in other states with the same u and v: dN, dT of contacts
 //                                                  whose state differs
 //
-// W: motion/neighbourhoods.hpp. The structure outside W acts on W with its forces of order 0. The second of the two
-// computations of a jet (motion/jet.hpp) omits these forces, so their effect is part of the noise. A guard that does not
-// exceed the noise cannot be decided on the neighbourhood.
+// W: motion/neighbourhoods.hpp. The structure outside W acts on W with forces that are constant in time (order 0). The second
+// of the two computations of a jet (motion/jet.hpp) omits these forces, so their effect is part of the noise. A guard that
+// does not exceed the noise cannot be decided on the neighbourhood.
 //
 // Used for large structures, in states whose forces follow from displacements and velocities alone (linear/mass_factors.hpp).
 #pragma once
@@ -57,7 +57,7 @@ class LocalDerivatives {
   };
   /// Entries of M^-1 n and M^-1 t of a contact that are above rounding.
   struct Columns {
-    bool known = false, few = false;  // few: on a small part of the structure
+    bool known = false, few = false;  // few: the entries cover only a small part of the structure
     std::vector<std::pair<Eigen::Index, double>> by_N, by_T;
   };
   [[nodiscard]] const Columns& columns_of(std::size_t contact, const StateSystem& system);

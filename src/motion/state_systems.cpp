@@ -36,7 +36,7 @@ std::size_t FactorisedStates::bytes() const {
 
 namespace {
 
-/// Number of derivatives of surface motions that a decision may examine.
+/// Highest derivative of surface motions that a decision may examine.
 constexpr int most_reported = 8;
 
 /// True if z.s' = 0 from t on: the surfaces of the contacts that constrain a common motion move alike, or are at rest.
@@ -173,7 +173,7 @@ void StateSystems::invert(const std::vector<Rows>& rows, FactorisedStates& mode)
   }
 }
 
-/// Rows of the last state, with the rows of contacts whose states differ computed again.
+/// Rows of all contacts in these states. Only rows of contacts whose states differ from those of last_ are computed.
 std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& contact_states) const {
   if (!last_) return linear::rows_of(model_, contact_states);
   std::vector<Rows> result = last_->rows();
@@ -185,7 +185,7 @@ std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& contac
 
 StateSystemPtr StateSystems::system_of(const contact::ContactStates& contact_states) {
   if (last_ && last_->states() == contact_states)
-    return last_;  // a decision begins with the states in which the last one ended
+    return last_;  // frequent, because a decision begins with the states in which the last decision ended
   std::vector<Rows> rows = rows_beside(contact_states);
   std::shared_ptr<const FactorisedStates> factorised = by_mass(contact_states, rows);
   if (!factorised) factorised = cached(contact_states, rows);
@@ -233,7 +233,7 @@ StateSystemPtr StateSystems::with_friction(const StateSystem& system, std::span<
 namespace {
 
 /// Changes x as little as possible in the norm of M so that the forms of the contacts' rows grow by `misses`. Returns the
-/// multipliers of these forms, with the unit of M times x.
+/// multipliers of these forms, with the unit of M times x; empty: all `misses` are zero.
 Eigen::VectorXd correct(const StateSystem& system, const std::vector<double>& misses, Vector& x) {
   if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return {};
   const std::size_t n = system.unknowns().dofs, size = system.unknowns().size();

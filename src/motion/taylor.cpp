@@ -44,10 +44,10 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const double *u = series.u.data(), *u1 = u + series.u.rows(), per_time = 1.0 / series.scale;
   const ForcingSeries& f = series.forcing;
   const double length = element.body.dot(u) - c.tangent.dot(u);
-  // Velocity of the body, relative to the surface.
+  // Velocity of the body relative to the surface, in the direction of slip.
   const double along = s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
-  // Growth of |N| without the part of a dashpot, which depends on accelerations (is_ambiguous()).
+  // Time derivative of |N| without the part of a dashpot, which depends on accelerations (is_ambiguous()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +
                         normal.applied_normal_force * per_time * f.applied_normal_force[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
@@ -168,8 +168,8 @@ StateSystemPtr Taylor::at_friction() const {
   return systems_.with_friction(*system_, rows);
 }
 
-/// Points that may follow quasi-statically do so for two levels, which gives accelerations and thus the rates of the points.
-/// Points whose rate then reaches max_rate() stay quasi-static.
+/// Computes two levels in which all ambiguous points follow quasi-statically. They give accelerations and thus the rates of
+/// the points. Points whose rate reaches max_rate() stay quasi-static.
 void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   const std::vector<FrictionSeries> given = friction_;
   const StateSystemPtr own = system_;
@@ -189,7 +189,7 @@ void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   friction_ = std::move(settled);
 }
 
-/// Adds those forces of curved surfaces that are not in K; they are products of two series.
+/// Adds those forces of curved surfaces that are not in K: products of the series of N and of ut.
 void Taylor::add_restoring_forces(int order, const Series& series) {
   for (const std::size_t c : curved_contacts_) {
     const Contact& contact = model_.contacts[c];
@@ -201,7 +201,7 @@ void Taylor::add_restoring_forces(int order, const Series& series) {
       const double* u = series.u.data() + (k - j) * static_cast<std::size_t>(series.u.rows());
       const double ut =
           contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
-      // The constant N_K is subtracted only once, in the term j = 0.
+      // The constant N_K (contact/curved_surface.hpp) is subtracted only once, in the term j = 0.
       force += j == 0 ? contact::restoring_force(contact, N, ut) : contact::restoring_product(contact, N, ut);
     }
     contact.body_tangent().add_to(x_, -force);
@@ -399,7 +399,7 @@ void Taylor::perturb(const Forcing& forcing, int order, const DataPerturbation& 
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) measure_rows(c, order, motion, terms);
   for (std::size_t i = 0; i < x_.size(); ++i)
     x_[i] += parts_[i + x_.size() * static_cast<std::size_t>(order)] * terms[i];
-  // The rounding error of this level enters levels after the next one only approximately.
+  // The rounding error of u_(order + 2) enters the terms of later levels. Its magnitude is estimated by the mass alone.
   const double to_acceleration = (order + 1) * (order + 2) / (motion.scale * motion.scale);
   double* carried = sizes_.col(order + 2).data();
   for (std::size_t i = 0; i < known_u_.size(); ++i) carried[i] += mobility_[i] * terms[i] / to_acceleration;

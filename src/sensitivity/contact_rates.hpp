@@ -1,8 +1,8 @@
 // contact_rates.hpp: derivatives of a contact's motion and forces with respect to a parameter, at fixed time and at a moving
 // instant.
 //
-//   g_p = n . w + n_p . u + g0_p,   ut_p = t . w + t_p . u - s_p,   N_p and T_p directly
-//   Dx = x_p + x' dt/dp             derivative of x at a moving instant
+//   g_p = n . w + n_p . u + g0_p,   ut_p = t . w + t_p . u - s_p       w = u_p: tangent motion, computed with N_p and T_p
+//   Dx = x_p + x' dt/dp             derivative of x at an instant whose time depends on the parameter
 #pragma once
 
 #include "decide/decision.hpp"
@@ -48,7 +48,7 @@ struct WatchedMotion {
 [[nodiscard]] WatchedMotion watched(const Contact& contact, const ForceLayout& layout, std::size_t k,
                                     const Vector& u0, const SeriesPoint& point, const Vector& force_bends);
 
-/// Derivatives of ut and ut' of the touching body. Without a shear element these are those of parameter_rate().
+/// Derivatives of ut and ut' of the touching body. Without a shear element they are equal to ut and vt of parameter_rate().
 [[nodiscard]] motion::BodySlide slide_rate(const Contact& contact, const ContactRates& rates,
                                            const SeriesPoint& point, const SeriesPoint& tangent,
                                            const DrivenRates& driven);

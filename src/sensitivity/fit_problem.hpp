@@ -85,7 +85,7 @@ class FitProblem {
 //   step = - D^-1 V S^+ U^T f                    minimises |f + J step|
 //   covariance = D^-1 V (S^+)^2 V^T D^-1
 //
-// S^+ leaves out singular values that are zero up to rounding. Keys with a component in such a direction are undetermined.
+// S^+ omits singular values that are zero up to rounding. Keys with a component in such a direction are undetermined.
 
 struct GslFree {
   void operator()(gsl_matrix* m) const { gsl_matrix_free(m); }
@@ -97,8 +97,8 @@ using GslVector = std::unique_ptr<gsl_vector, GslFree>;
 struct LinearFit {
   std::vector<double> step, slope;  ///< step: change of the keys; slope: J^T f
   std::vector<std::vector<double>> covariance;
-  std::vector<bool> determined;
-  std::size_t rank = 0;
+  std::vector<bool> determined;  ///< false: the measurements do not determine the key
+  std::size_t rank = 0;          ///< number of singular values that are not zero up to rounding
 };
 
 /// Solves the linearised problem. f: residuals / sigmas; J: derivatives of f, with at least as many rows as keys; size: size

@@ -15,6 +15,8 @@ namespace signorini::sensitivity {
 inline constexpr double max_part_decay = 4.0;
 /// Largest ratio of a mode's constant part p/l to its amplitude. At this limit three digits are lost.
 inline constexpr double max_static_ratio = 4096.0;
+
+/// Interface of ModalStretchOf for both kinds of modes. at(), motion(): see ModalTangents.
 class ModalStretch {
  public:
   virtual ~ModalStretch() = default;
@@ -90,9 +92,10 @@ class ModalStretchOf final : public ModalStretch {
   }
 
  private:
+  /// The tangent of one parameter in modal coordinates.
   struct Followed {
-    modal::ModalPoint now, moved;
-    modal::Amplitudes force;  // constant force
+    modal::ModalPoint now, moved;  // at the beginning and at the end of a step
+    modal::Amplitudes force;       // constant force
     const ParameterModes<S>* modes = nullptr;
   };
 
@@ -108,7 +111,7 @@ class ModalStretchOf final : public ModalStretch {
           modal::force_law(model_.contacts[c], states_[c], forcing_.applied_normal_force(c, begin_, 0)));
   }
 
-  /// Chooses the constant part p/l of each mode; it is not split off if it is far larger than the motion.
+  /// Splits the constant part p/l from the motion of each mode, unless it is far larger than the motion (soft_).
   void choose_static_part() {
     const std::vector<S> z = modes_of<S>(now_.z);
     static_part_.assign(l_.size(), S(0.0));
@@ -144,7 +147,7 @@ class ModalStretchOf final : public ModalStretch {
     return store_.keep(key, std::move(made));
   }
 
-  /// Sets the terms f that do not depend on the motion.
+  /// Sets the constant force of a tangent: the terms f of modal_tangents.hpp, which do not depend on the motion.
   void set_constant(std::size_t p, Followed& f) const {
     const TangentSource& source = sources_[p];
     Vector q = Vector::Zero(model_.size());
@@ -182,7 +185,8 @@ class ModalStretchOf final : public ModalStretch {
     t_ += time;
   }
 
-  /// y_l[k, l] of the motion without its constant part, of its rate, and the time derivatives of both.
+  /// Computes for all pairs of modes y_l[k, l] (oscillator_pairs.hpp) of the motion without its constant part and of the rate
+  /// of the motion, and the time derivatives of both.
   void fill_driven(OscillatorPairs<S>& pairs) {
     const std::size_t n = l_.size();
     std::vector<S> z = modes_of<S>(now_.z), r = modes_of<S>(now_.rate), a(n, S(0.0));
@@ -220,7 +224,7 @@ class ModalStretchOf final : public ModalStretch {
     if (has_damping_rates_) drive(r, a, work_.dragging, work_.dragging_rate);
   }
 
-  /// Advances a motion from one point with constant forces only.
+  /// Advances every mode independently under a constant force, by the time of `pairs`.
   void turn(const modal::ModalPoint& from, const modal::Amplitudes& force, const OscillatorPairs<S>& pairs,
             modal::ModalPoint& to) const {
     const std::size_t reals = from.z.real.size(), count = from.z.pair.size();
@@ -381,6 +385,7 @@ class ModalStretchOf final : public ModalStretch {
   double t_, begin_;
   std::vector<TangentSource> sources_;
   modal::Oscillators oscillators_;
+  // Eigenvalue and constant force of each mode; p/l, if it is split off, else 0; p, if p/l is not split off, else 0.
   std::vector<S> l_, p_, static_part_, soft_;
   std::size_t rows_;  // number of modes, where a conjugate pair counts once
   std::vector<modal::ForceLaw> laws_;
@@ -389,8 +394,8 @@ class ModalStretchOf final : public ModalStretch {
   std::vector<Followed> followed_;
   bool has_damping_rates_ = false;
   const std::vector<Eigen::Index>& shown_;
-  double usual_;
-  StateStore<S>* known_ = nullptr;
+  double usual_;                    // most frequent step length, for which data are stored
+  StateStore<S>* known_ = nullptr;  // stored data of the contact state
   StepWorkspace<S>& work_;
 };
 

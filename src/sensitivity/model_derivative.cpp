@@ -34,8 +34,8 @@ const Stencil& one_sided_points() {
 
 namespace {
 
-// Least number of coefficients of a piece, so that each zero coefficient also has a place for its derivative. It is that of
-// the integral of a cubic.
+// Smallest number of stored coefficients of a piece, so that each zero coefficient also has a place for its derivative: five,
+// as for the integral of a cubic.
 constexpr std::size_t min_coefficients = 5;
 
 HistoryRates numbers_of(const History& history) {
@@ -165,7 +165,7 @@ class Differences {
         base_(data_of(model)),
         shape_(shape_of(model)) {}
 
-  /// Derivative with the step h; nullopt: the data are not smooth, or do not exist.
+  /// Derivative with the step h; nullopt: the data are not smooth, or the scene is refused near the value.
   std::optional<ModelDerivative> at(double h) {
     step_ = h;
     moved_.clear();
@@ -308,7 +308,7 @@ class Differences {
     return true;
   }
 
-  /// Sets entries to zero that contain only rounding, because the data do not change.
+  /// Removes entries that contain only rounding errors, because the data do not depend on the key.
   static SparseMatrix without_rounding(SparseMatrix a, const SparseMatrix& size, double step) {
     a.prune([&](Eigen::Index row, Eigen::Index column, double value) {
       return std::abs(value) > 4.0 * rounding::eps / std::abs(step) * std::abs(size.coeff(row, column));
@@ -331,7 +331,7 @@ class Differences {
     }
     std::size_t i = 0;
     visit_all(d, [&](double& x) {
-      // the sum of the weights is zero, so constant data give only rounding
+      // The sum of the weights is zero, so constant data give only a rounding error.
       const double size = std::abs(x), sum = sums[i++];
       x = std::abs(sum) > 16.0 * rounding::eps / std::abs(step_) * size ? sum : 0.0;
     });

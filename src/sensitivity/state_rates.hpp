@@ -186,6 +186,7 @@ class StateRates {
     return {real, in_open_modes(unit)};
   }
 
+  /// Column k of out += factor times the amplitudes of q (real part, and for pairs imaginary part).
   void add_column(const std::vector<Vector>& q, std::size_t k, S factor, Square<S>& out) const {
     modal::Amplitudes part;
     for (std::size_t imaginary = 0; imaginary < q.size(); ++imaginary) {
@@ -195,7 +196,10 @@ class StateRates {
       for (std::size_t i = 0; i < x.size(); ++i) out[i * x.size() + k] += x[i] * turned;
     }
   }
-  static double quarter_turn(double) { return 0.0; }  // never used, because real modes have one part only
+  /// The number multiplied by i.
+  static double quarter_turn(double) {
+    return 0.0;
+  }  // never called, because real modes have no imaginary part
   static modal::Complex quarter_turn(modal::Complex a) { return {-a.im, a.re}; }
 
   void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {

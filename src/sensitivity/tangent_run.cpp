@@ -12,8 +12,9 @@ namespace {
 
 // Least number of degrees of freedom for tangents in modes; with fewer, series are as fast (run/choose_engine.hpp).
 constexpr Eigen::Index min_modal = 16;
-constexpr int max_turn_steps = 6;
-constexpr std::size_t forcing_terms = 6;  // coefficients after the first are zero for constants
+constexpr int max_turn_steps = 6;  // limit of Newton's method for the time of a turning point
+constexpr std::size_t forcing_terms =
+    6;  // coefficients that are computed to check that the forcing is constant
 
 /// Taylor series about an instant, with scale 1, from the derivatives of a jet.
 motion::Series series_of(const motion::Jet& jet, const motion::Forcing& forcing) {
@@ -94,14 +95,14 @@ void TangentRun::begin(const run::RunInstant& start) {
     for (const MovingBreakpoint& b : breakpoints_at(model_, d, 0.0, 0.0))
       if (b.rate != 0.0) {
         state.valid = false;
-        state.reason = "a load starts at t = 0, but starts later for values of the key on one side";
+        state.reason = "a load starts at t = 0, but later for neighbouring values of the key on one side";
       }
   }
   recomputed_motion_.begin(start.after);
   pass(start);
 }
 
-/// Starts the stretch that begins here in modes. Returns false if its tangents cannot be computed in modes.
+/// Starts a stretch in modes, at the beginning of `step`. Returns false if its tangents cannot be computed in modes.
 bool TangentRun::starts_in_modes(const run::RunStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
   modal::ModalSystem* modes = share_->modes != nullptr ? share_->modes : recomputed_motion_.modes();
@@ -229,7 +230,8 @@ std::vector<RequestedPlace> TangentRun::wanted(const run::RunStep& step, std::sp
   return list;
 }
 
-/// Newton's method on the rate, starting at the turning point from the engine, which resolves slow modes only.
+/// Time of a turning point, by Newton's method for a zero of the rate. t: turning point from the engine, which resolves slow
+/// modes only.
 double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const run::RunStep& step) const {
   double at = t;
   for (int i = 0; i < max_turn_steps; ++i) {
@@ -245,7 +247,7 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const r
   return at;
 }
 
-/// Times in a step at which a quantity has a local extreme that exceeds all its earlier values.
+/// Times in a step at which a watched quantity has a local extreme that exceeds all earlier values of the quantity.
 std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
   std::vector<double> turns;
   for (const double t : step.facts.turning_points) {

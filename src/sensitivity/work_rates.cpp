@@ -71,7 +71,7 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     if (!contact.obeys_coulomb()) continue;
     if (!is_open(state.state))
       damped += damping_rate(rates) * m.vn * m.vn + 2.0 * contact.normal_damping * m.vn * p.vn;
-    else if (state.state == State::inside)  // its dashpot dissipates the spring energy kn g^2/2
+    else if (state.state == State::inside)  // the contact's dashpot dissipates the spring energy kn g^2/2
       damped -=
           stiffness_rate(rates) * m.gap * m.vn + contact.normal_stiffness * (p.gap * m.vn + m.gap * p.vn);
   }

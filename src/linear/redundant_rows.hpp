@@ -33,7 +33,7 @@ struct SharedForces {
   Eigen::MatrixXd null;  ///< Z, orthonormal: rows x redundantly constrained motions
 };
 
-/// Orthonormal vectors z with h z = 0 up to rounding, as columns; without columns if the columns of h are independent.
+/// Orthonormal vectors z with h z = 0 up to rounding, as columns; no columns: the columns of h are linearly independent.
 [[nodiscard]] Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h);
 
 /// True if row i participates in one of the combinations `null` (orthonormal columns) by more than rounding.

@@ -36,8 +36,8 @@ struct PrescribedDof {
 
 /// Sets x so that form . x = value exactly, if the form has a single term; otherwise x is unchanged.
 void set_exactly(const Combination& form, double value, Vector& x);
-/// Sets x so that n . x = r and t . x = q exactly, if each form has a single term or both have the same two degrees of
-/// freedom; otherwise x is unchanged.
+/// Sets x exactly: n . x = r if n has a single term, t . x = q if t has a single term, and both if n and t consist of the same
+/// two degrees of freedom.
 void set_exactly(const Combination& n, double r, const Combination& t, double q, Vector& x);
 
 /// A motion z that has neither mass nor damping; z_dof = 1.

@@ -19,7 +19,7 @@ constexpr double noise_factor = rounding::many_operations / rounding::eps / Data
 constexpr double of_data = 2.0 * rounding::many_operations;
 
 constexpr std::size_t known =
-    MotionJet::orders + 2;  // orders 0 to orders + 1 of g and ut are used: a motion contains g''
+    MotionJet::orders + 2;  // number of derivatives of g and ut in a MotionJet, from order 0
 
 /// Derivatives of N, T, g and ut of one contact; for g and ut also the magnitudes of their terms.
 struct Derivatives {

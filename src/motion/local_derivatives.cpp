@@ -132,8 +132,8 @@ void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forci
 }
 
 /// Upper bound of the noise that motion/jet.cpp would compute, in rounding errors of the terms of a sum: one for the sum, less
-/// than one for the difference of both computations, and one for each perturbed quantity. Perturbed are u and v, for N also its
-/// row, for T also both rows.
+/// than one for the difference of both computations, and one for each perturbation. u and v are perturbed, for N also the
+/// normal row, for T also the normal and the tangent row.
 void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
                                       std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];

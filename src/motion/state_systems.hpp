@@ -108,9 +108,9 @@ class StateSystems {
   [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates states, const Forcing& forcing,
                                     double t) const;
 
-  /// Replaces slip_plus and slip_minus by static_limit_plus and static_limit_minus for contacts with held_by_others(), so that
-  /// they keep their static friction. Does the inverse for contacts at the static limit without held_by_others(). Contacts
-  /// whose static and kinetic coefficients are equal stay unchanged.
+  /// Replaces slip_plus and slip_minus by static_limit_plus and static_limit_minus for contacts for which held_by_others() is
+  /// true, so that they keep their static friction; does the inverse for contacts for which it is false. Contacts whose static
+  /// and kinetic coefficients are equal stay unchanged.
   void mark_static_limits(contact::ContactStates& states, const Forcing& forcing, double t) const;
 
   /// Groups of two or more contacts that may constrain the same motion. may_share(): true if the contact is in such a group.
@@ -147,7 +147,7 @@ class StateSystems {
   const bool massless_;
   linear::SystemMatrix matrix_;  // the matrix in which systems are assembled
   std::vector<linear::Weights> weights_;
-  std::shared_ptr<const linear::TriangularFactors> mass_;  // nullptr: not used for this model
+  std::shared_ptr<const linear::TriangularFactors> mass_;  // factors of M; nullptr: not used for this model
   base::LruCache<std::vector<State>, std::shared_ptr<const FactorisedStates>> cache_;
   // Contacts that other contacts may hold and whose static friction exceeds the kinetic friction.
   std::vector<std::size_t> holdable_;

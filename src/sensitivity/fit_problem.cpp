@@ -214,8 +214,8 @@ constexpr double rounding_of_rates = 1e-9;
 // Limit for singular values, relative to the largest one of J with columns of norm 1. For two keys with the same effect,
 // rounding errors give about 1e-9; at 1e-3 measurements may still distinguish two keys. Chosen value between both.
 constexpr double dependent = 1e-6;
-// Smallest component of a key in an undetermined combination (norm 1) with which the key is undetermined, too. Chosen value,
-// far above the rounding error 1e-9 divided by `dependent`.
+// A key is undetermined if its component in an undetermined combination (norm 1) exceeds this limit. Chosen value, far above
+// the rounding error 1e-9 divided by `dependent`.
 constexpr double takes_part = 1e-2;
 
 }  // namespace

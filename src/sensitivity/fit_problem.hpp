@@ -45,7 +45,7 @@ class FitProblem {
   void start(std::vector<double>& keys);
   /// Computes f. Returns false if the first run threw an exception (see failure()), or after an interrupt.
   bool residuals(const std::vector<double>& keys, gsl_vector& f);
-  /// Computes J. Returns false for the reasons of residuals(), or if a derivative does not exist.
+  /// Computes J. Returns false if the first run threw an exception, after an interrupt, or if a derivative does not exist.
   bool derivatives(const std::vector<double>& keys, gsl_matrix& J);
   /// True if the run with these keys contains all measured quantities and their derivatives.
   bool complete(const std::vector<double>& keys);

@@ -143,7 +143,7 @@ class ModalStretchOf final : public ModalStretch {
       store_.pairs.clear();
       store_.bytes = 0;
     }
-    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // matrices of the usual step
+    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // memory of C and S for the usual step
     return store_.keep(key, std::move(made));
   }
 

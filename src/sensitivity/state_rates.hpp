@@ -196,10 +196,8 @@ class StateRates {
       for (std::size_t i = 0; i < x.size(); ++i) out[i * x.size() + k] += x[i] * turned;
     }
   }
-  /// The number multiplied by i.
-  static double quarter_turn(double) {
-    return 0.0;
-  }  // never called, because real modes have no imaginary part
+  /// The number multiplied by i. Never called for double, because real modes have no imaginary part.
+  static double quarter_turn(double) { return 0.0; }
   static modal::Complex quarter_turn(modal::Complex a) { return {-a.im, a.re}; }
 
   void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {

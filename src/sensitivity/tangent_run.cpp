@@ -12,7 +12,7 @@ namespace {
 
 // Least number of degrees of freedom for tangents in modes; with fewer, series are as fast (run/choose_engine.hpp).
 constexpr Eigen::Index min_modal = 16;
-constexpr int max_turn_steps = 6;  // limit of Newton's method for the time of a turning point
+constexpr int max_turn_steps = 6;  // largest number of Newton steps for a turning point
 constexpr std::size_t forcing_terms =
     6;  // coefficients that are computed to check that the forcing is constant
 

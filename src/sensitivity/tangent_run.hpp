@@ -83,7 +83,7 @@ class TangentRun final : public run::RunListener {
   std::size_t next_ = 0;
   std::vector<const ModelDerivative*> data_;
   bool losses_;
-  std::optional<ModalTangents> modal_;  ///< empty: the motion of the model cannot be computed in modes
+  std::optional<ModalTangents> modal_;  ///< empty: tangents of this model are not computed in modes
   SeriesTangents series_;
   RecomputedMotion recomputed_motion_;
   StretchMethod stretch_method_ = StretchMethod::unknown;

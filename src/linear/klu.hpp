@@ -28,7 +28,7 @@ class TriangularFactors {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  friend class FactorReader;  // linear/klu.cpp
+  friend class FactorReader;  // defined in linear/klu.cpp
   /// Entries of a triangular factor, column by column in the order of a sweep; those of the i-th column end before end[i].
   struct Columns {
     std::vector<int> column, end, row;  // column[i]: number of the i-th column of the sweep

@@ -55,7 +55,7 @@ class LocalDerivatives {
     std::size_t first = 0, middle = 0, end = 0;  // terms: normal [first, middle), tangent [middle, end)
     double gap = 0.0, normal_squared = 0.0, tangent_squared = 0.0;
   };
-  /// Entries of M^-1 n and M^-1 t of a contact that are above rounding.
+  /// Entries of M^-1 n and M^-1 t of a contact that are larger than rounding errors.
   struct Columns {
     bool known = false, few = false;  // few: the entries cover only a small part of the structure
     std::vector<std::pair<Eigen::Index, double>> by_N, by_T;

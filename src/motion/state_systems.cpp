@@ -39,7 +39,7 @@ namespace {
 /// Highest derivative of surface motions that a decision may examine.
 constexpr int most_reported = 8;
 
-/// True if z.s' = 0 from t on: the surfaces of the contacts that constrain a common motion move alike, or are at rest.
+/// True if z.s' = 0 from t on: the surfaces of the contacts that constrain a common motion do not move relative to each other.
 bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared, const Eigen::VectorXd& z,
                   const Forcing& forcing, double t) {
   for (int order = 1; order <= most_reported; ++order) {

@@ -279,7 +279,8 @@ class Fitter {
   sensitivity::GslMatrix J_;
   sensitivity::LinearFit here_;
   FitPlace place_;
-  std::vector<std::vector<double>> slopes_;  // slopes on the sides of the result, in units of key sizes
+  std::vector<std::vector<double>>
+      slopes_;  // slopes of the sum of squares at keys near the result, per key size
   int iterations_ = 0;
   std::vector<std::pair<std::size_t, double>>
       incomplete_sides_;  // keys and sides at which a run is incomplete

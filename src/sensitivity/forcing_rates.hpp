@@ -22,7 +22,7 @@ namespace signorini::sensitivity {
 void add_rate_series(const Piece& piece, const Piece& rates, double t, double scale, std::size_t count,
                      double factor, double* out);
 
-/// Derivatives in the layout of ForcingSeries: rows of `count` coefficients, one row per contact; `load` by columns.
+/// Derivatives of the forcing, stored like ForcingSeries: rows of `count` coefficients, one row per contact; `load` by columns.
 struct ForcingRatesSeries {
   std::size_t count = 0;
   bool loaded = false;   ///< false: `load` is zero

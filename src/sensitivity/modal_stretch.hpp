@@ -387,7 +387,7 @@ class ModalStretchOf final : public ModalStretch {
   modal::Oscillators oscillators_;
   // Eigenvalue and constant force of each mode; p/l, if it is split off, else 0; p, if p/l is not split off, else 0.
   std::vector<S> l_, p_, static_part_, soft_;
-  std::size_t rows_;  // number of modes, where a conjugate pair counts once
+  std::size_t rows_;  // number of modes, with one mode for each conjugate pair
   std::vector<modal::ForceLaw> laws_;
   modal::Amplitudes force_;
   modal::ModalPoint now_, moved_;

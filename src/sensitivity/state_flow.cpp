@@ -146,8 +146,8 @@ void StateFlow::advance(const contact::ContactStates& contact_states, double tim
     if (state.valid) starts.push_back(&state.now.start);
   const Eigen::Index n = model_.size(), columns = static_cast<Eigen::Index>(starts.size());
   Eigen::MatrixXd W(n, 2 * columns);
-  Eigen::MatrixXd held =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model_.contacts.size()), columns);  // kt p
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model_.contacts.size()),
+                                               columns);  // kt times the tangent of the anchor
   for (Eigen::Index j = 0; j < columns; ++j) {
     const Tangent& start = *starts[static_cast<std::size_t>(j)];
     W.col(j) = start.u;

@@ -5,8 +5,8 @@
 //   D(ut - T/kt)                          derivative of the position of a new anchor
 //
 // There is no derivative if the one-sided derivatives differ. They differ if two guards reach zero at one instant and
-// separate when the parameter changes, if a guard grazes zero, or if a guard is zero afterwards and would be triggered for
-// other values of the parameter.
+// separate when the parameter changes, if a guard grazes zero, or if a guard is zero just after the instant and would be
+// triggered for other values of the parameter.
 //
 // If a guard grazes zero, dt/dp is unbounded. But if u'- = u'+ and u''- = u''+, and no new anchor depends on the time, w does
 // not depend on dt/dp. Derivatives of states alone (orbits) can cross such a graze with dt/dp = 0.

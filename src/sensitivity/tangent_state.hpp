@@ -1,6 +1,6 @@
 // tangent_state.hpp: state of one parameter's tangent during a run, its advance by series, and the listener interface.
 //
-//   TangentState    for one parameter: data, state just before the next instant, works and losses
+//   TangentState    for one parameter: data, state just before the next instant, derivatives of work and losses
 //   TangentSample   the motion and all tangents at one time between events
 //   TangentListener receives requested results: rows at output times, extremes, instants
 #pragma once
@@ -23,7 +23,7 @@ struct TangentSample {
   std::vector<SeriesPoint> tangents;
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
   std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
-  std::vector<WorkRates> works = {};             ///< one entry per parameter; empty: works are not computed
+  std::vector<WorkRates> works = {};             ///< one entry per parameter; empty: not computed
 };
 
 /// The tangent with respect to one parameter.
@@ -63,7 +63,7 @@ class TangentListener {
   [[nodiscard]] virtual bool exceeds(std::size_t contact, std::size_t which, double value) const = 0;
 };
 
-// Advances one tangent by the series of a step, part by part, together with its works.
+// Advances one tangent by the series of a step, part by part, together with the derivatives of work.
 //
 //   [0, x_end]  =  parts, each as long as the tangent's series converges; halved if it does not
 //   W_p        +=  sum over Gauss points of factor (power)_p               (work_rates.hpp)

@@ -10,11 +10,12 @@
 namespace signorini::linear {
 namespace {
 
-// Largest tolerated growth: a loss of three digits, as for pivots kept from another step size (linear/klu.cpp).
-constexpr double most_growth = 1e3;
+// Largest accepted ratio of sum_k |l_ik u_ki| to |a_ii|. It corresponds to a loss of three digits, the same limit as for
+// pivots kept from another step size (linear/klu.cpp).
+constexpr double max_elimination_growth = 1e3;
 constexpr std::size_t lanes = 4;
 
-/// row -= factor * pivots. Both are padded to whole lanes; pivots are zero in the padding.
+/// row -= factor * pivots, for `count` numbers. Both arrays are padded to a multiple of `lanes`, `pivots` with zeros.
 [[gnu::always_inline]] inline void eliminate(double factor, const double* pivots, std::size_t count,
                                              double* row) {
   for (std::size_t c = 0; c < count; c += lanes)
@@ -50,9 +51,9 @@ SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, st
   return true;
 }
 
-[[gnu::always_inline]] inline void solve_band_of(std::size_t width, std::size_t size, std::size_t stride,
-                                                 const double* values, const double* inverse_pivot,
-                                                 double* b) {
+[[gnu::always_inline]] inline void solve_band_of_width(std::size_t width, std::size_t size,
+                                                       std::size_t stride, const double* values,
+                                                       const double* inverse_pivot, double* b) {
   const auto forward = [&](std::size_t i, std::size_t count) {
     const double *row = values + i * stride + width - count, *x = b + i - count;
     double sum = b[i];
@@ -72,15 +73,15 @@ SIGNORINI_WIDE_LANES bool eliminate_band(const Band& band, std::size_t begin, st
   for (std::size_t i = size - edge; i-- > 0;) back(i, width);
 }
 
-/// solve_band_of() for a width that is known at compile time.
+/// solve_band_of_width() for a width that is known at compile time.
 template <std::size_t width>
 void solve_band(std::size_t size, std::size_t stride, const double* values, const double* inverse_pivot,
                 double* b) {
-  solve_band_of(width, size, stride, values, inverse_pivot, b);
+  solve_band_of_width(width, size, stride, values, inverse_pivot, b);
 }
 
 /// Largest width with a solver compiled for it; it covers chains of nodes with two or three unknowns each.
-constexpr std::size_t most_unrolled = 8;
+constexpr std::size_t max_unrolled_width = 8;
 
 }  // namespace
 
@@ -107,7 +108,7 @@ bool BandFactors::factor(std::size_t begin, std::size_t end) {
   bool holds = true;
   for (std::size_t i = begin; i < end; ++i) {
     const double pivot = std::abs(values_[i * stride_ + width_]), whole = sums_[i] + pivot;
-    holds = holds && whole <= most_growth * diagonal_[i] && pivot > rounding::eps * whole;
+    holds = holds && whole <= max_elimination_growth * diagonal_[i] && pivot > rounding::eps * whole;
   }
   return holds;
 }
@@ -117,9 +118,9 @@ void BandFactors::solve(double* b) const {
     const bool narrow =
         ((width_ == W && (solve_band<W>(size_, stride_, values_.data(), inverse_pivot_.data(), b), true)) ||
          ...);
-    if (!narrow) solve_band_of(width_, size_, stride_, values_.data(), inverse_pivot_.data(), b);
+    if (!narrow) solve_band_of_width(width_, size_, stride_, values_.data(), inverse_pivot_.data(), b);
   };
-  with(std::make_index_sequence<most_unrolled + 1>());
+  with(std::make_index_sequence<max_unrolled_width + 1>());
 }
 
 }  // namespace signorini::linear

@@ -2,12 +2,12 @@
 //
 //   A = L U,   a_ij = 0 for |i - j| > width
 //
-// A row of the factors depends only on the `width` rows before it. So elimination can be continued from any row, and once
-// `width` consecutive rows of the factors are unchanged, all later rows are unchanged, too.
+// A row of the factors depends only on its row of A and on the `width` rows of the factors before it. So elimination can be
+// continued from any row. If rows of A change, all rows of the factors after `width` consecutive unchanged ones are unchanged.
 //
-// For nearly symmetric, positive definite matrices, whose elimination needs no row exchanges because sum_k |l_ik u_ki| is
-// about a_ii. The ratio of that sum to a_ii bounds the growth of rounding errors. If the growth costs more than three digits,
-// factor() fails, and a method with row exchanges is needed. No test depends on units: a row and its column may be scaled.
+// Intended for nearly symmetric, positive definite matrices: elimination needs no row exchanges, because sum_k |l_ik u_ki| is
+// about a_ii. The ratio of this sum to a_ii bounds the growth of rounding errors. If the growth costs more than three digits,
+// factor() fails, and a method with row exchanges is needed. The ratio does not depend on the units of the unknowns.
 #pragma once
 
 #include <cstddef>
@@ -17,14 +17,14 @@ namespace signorini::linear {
 
 class BandFactors {
  public:
-  /// Zero matrix, to be filled row by row.
+  /// Makes a zero matrix, which the caller fills row by row with row().
   BandFactors(std::size_t size, std::size_t width);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t width() const { return width_; }
   /// Number of doubles between the starts of consecutive rows.
   [[nodiscard]] std::size_t stride() const { return stride_; }
-  /// Row i, to be filled: a_ij at index width() + j - i for |i - j| <= width(); all other entries stay zero.
+  /// Row i, which the caller fills: a_ij at index width() + j - i for |i - j| <= width(). All other numbers must stay zero.
   [[nodiscard]] double* row(std::size_t i) { return values_.data() + i * stride_; }
   /// Sets all entries of rows [begin, end) to zero.
   void clear(std::size_t begin, std::size_t end);

@@ -34,8 +34,8 @@ Neighbours neighbours_of(const Model& model, const SystemMatrices& structure) {
   return result;
 }
 
-/// Connected component of `first`, level by level; sets `seen` for its members.
-std::vector<int> levels_from(int first, const Neighbours& neighbours, std::vector<bool>& seen) {
+/// Members of the connected component of `first`, level by level; sets `seen` for each of them.
+std::vector<int> breadth_first_order(int first, const Neighbours& neighbours, std::vector<bool>& seen) {
   std::vector<int> order{first};
   seen[static_cast<std::size_t>(first)] = true;
   for (std::size_t next = 0; next < order.size(); ++next) {
@@ -65,9 +65,9 @@ BandOrder band_order(const Model& model, const SystemMatrices& structure) {
     int end = static_cast<int>(i);
     for (int turn = 0; turn < 2; ++turn) {
       std::vector<bool> seen = placed;
-      end = levels_from(end, neighbours, seen).back();
+      end = breadth_first_order(end, neighbours, seen).back();
     }
-    for (const int j : levels_from(end, neighbours, placed))
+    for (const int j : breadth_first_order(end, neighbours, placed))
       result.place[static_cast<std::size_t>(j)] = next++;
   }
   for (std::size_t i = 0; i < n; ++i)
@@ -80,10 +80,10 @@ BandOrder band_order(const Model& model, const SystemMatrices& structure) {
 
 namespace {
 
-/// Number of changes that are recorded; after more changes, factoring all rows costs less than updating.
-constexpr std::size_t most_remembered = 64;
+/// Largest number of recorded changes; after more changes, factoring all rows costs less than updating the factors.
+constexpr std::size_t max_recorded_changes = 64;
 
-CondensedRows::ContactCoefficients held_by(const Rows& rows) {
+CondensedRows::ContactCoefficients contact_coefficients(const Rows& rows) {
   const Form &normal = rows.normal, &tangent = rows.tangent;
   const auto moves = [](const Form& f) { return f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0; };
   const bool accelerates = normal.an != 0.0 || normal.at != 0.0 || tangent.an != 0.0 || tangent.at != 0.0;
@@ -142,16 +142,16 @@ std::optional<CondensedRows> CondensedRows::create(const Model& model, const Sys
     result.at_place_end_.push_back(result.at_place_.size());
   }
   result.coefficients_.resize(model.contacts.size());
-  result.unknown_ = result.coefficients_.size();
+  result.undetermined_count_ = result.coefficients_.size();
   return result;
 }
 
 void CondensedRows::set_rows(std::size_t c, const Rows& rows) {
-  unknown_ -= coefficients_[c].known ? 0 : 1;
-  coefficients_[c] = held_by(rows);
-  unknown_ += coefficients_[c].known ? 0 : 1;
-  if (changed_.size() == most_remembered) {  // discards the earlier half of the record
-    constexpr std::size_t half = most_remembered / 2;
+  undetermined_count_ -= coefficients_[c].known ? 0 : 1;
+  coefficients_[c] = contact_coefficients(rows);
+  undetermined_count_ += coefficients_[c].known ? 0 : 1;
+  if (changed_.size() == max_recorded_changes) {  // discards the earlier half of the record
+    constexpr std::size_t half = max_recorded_changes / 2;
     changed_.erase(changed_.begin(), changed_.begin() + half);
     dropped_changes_ += half;
   }
@@ -194,8 +194,8 @@ void CondensedRows::fill(std::size_t place, const Weights& w, const double* by_N
 
 namespace {
 
-/// Least number of rows that are factored at once: a few widths of a narrow band.
-constexpr std::size_t rows_at_once = 32;
+/// Smallest number of rows that refactor() factors before it compares them with the old ones: a few widths of a narrow band.
+constexpr std::size_t min_refactored_rows = 32;
 
 }  // namespace
 
@@ -227,7 +227,7 @@ bool CondensedMatrix::factor() {
 /// Factors rows again, from `begin` on, until rows of the factors equal the old ones. Returns the first unchanged row;
 /// nullopt: factoring loses too many digits.
 std::optional<std::size_t> CondensedMatrix::refactor(std::size_t begin) {
-  const std::size_t stride = band_.stride(), count = std::max(rows_at_once, 2 * rows_.width());
+  const std::size_t stride = band_.stride(), count = std::max(min_refactored_rows, 2 * rows_.width());
   before_.resize(count * stride);
   for (std::size_t next = 0; begin < rows_.size(); begin = next) {
     next = std::min(rows_.size(), begin + count);

@@ -8,8 +8,8 @@
 // spring. The remaining matrix has the band of the structure. Its factorisation costs less than a solve by a general sparse
 // method, so factors of other states or step sizes are not kept.
 //
-// If contacts change while the weights stay the same, rows of the factors are computed again from the first affected row on.
-// This ends near the contact, where the rows become bitwise equal to the old ones.
+// If contact states change while the weights stay the same, rows of the factors are computed again, starting with the first
+// affected row. The computation ends a few rows after the contact, as soon as the new rows are bitwise equal to the old ones.
 #pragma once
 
 #include <cstddef>
@@ -24,41 +24,41 @@
 
 namespace signorini::linear {
 
-// An order of the degrees of freedom in which matrices have a narrow band (Cuthill, McKee 1969).
+// Order of the degrees of freedom in which M, C and K have a narrow band (Cuthill, McKee 1969).
 //
 //   |place(i) - place(j)| <= width   wherever M, C, K, or one contact, couple i and j
 //
-// In each connected component, degrees of freedom are numbered from one end of the component, level by level, those with few
-// neighbours first. The ends of a component are far from each other; two searches for the last level find them.
+// Each connected component is numbered level by level, starting at one of its ends; degrees of freedom with few neighbours
+// come first. Two searches by levels find an end: the second one starts at the last degree of freedom of the first one.
 
 struct BandOrder {
-  std::vector<int> place;  ///< place in the order, by degree of freedom
-  std::size_t width = 0;
+  std::vector<int> place;  ///< place of each degree of freedom in the order
+  std::size_t width = 0;   ///< largest distance of the places of two coupled degrees of freedom
 };
 
 /// Order that is valid for all states of the model's contacts.
 [[nodiscard]] BandOrder band_order(const Model& model, const SystemMatrices& structure);
 
-// Rows of the structure and of its compliant contacts in their present states, in the order of the band matrix.
+// Data of the condensed matrix for the present contact states, in the order of the band.
 //
 //   row i of  M w_a + C w_v + K w_u - H B^-1 R      i: a place in the band; H, B, R: linear/condensed_matrix.hpp
 //
-// Contains the data that do not depend on the weights: entries in the order in which the band is filled, and the rows of each
-// contact. It also records which contacts have changed, so that factors can be updated.
+// Contains the data that do not depend on the weights: the entries of M, C and K in the order of the band, and the rows of
+// each contact. It also records which contacts have changed, so that factors can be updated.
 
 class CondensedRows {
  public:
-  /// An entry of M, C and K. `at`: its place in a row of the band, whose diagonal is at width(); `dof`: its column.
+  /// An entry of M, C and K. at: index in the row of the band, where the diagonal has the index width(); dof: column of M.
   struct Entry {
     std::uint32_t at = 0, dof = 0;
     double m = 0.0, c = 0.0, k = 0.0;
   };
-  /// A degree of freedom of a contact, its place in the band, and its components in the forms n and t.
+  /// A degree of freedom on which a contact acts, its place in the band, and its factors in the forms n and t of the contact.
   struct ContactDof {
     std::uint32_t dof = 0, place = 0, contact = 0;
     double n = 0.0, t = 0.0;
   };
-  /// Coefficients of the two rows of a contact in its present state.
+  /// Coefficients of the two rows of a contact in its present state; tangent_gap: factor of the gap in the tangent row.
   struct ContactCoefficients {
     double normal_N = 1.0, tangent_N = 0.0, tangent_T = 1.0;
     double normal_gap = 0.0, normal_ut = 0.0, normal_vn = 0.0, normal_vt = 0.0;
@@ -67,7 +67,8 @@ class CondensedRows {
     bool known = false;      ///< the contact's rows determine its forces and contain no acceleration
   };
 
-  /// Rows of a model with saves_factorisations(), with all contacts open. nullopt: the band is wider than most_width.
+  /// Rows of a model for which saves_factorisations() is true; the caller then sets the rows of every contact with set_rows().
+  /// nullopt: the band is wider than most_width.
   [[nodiscard]] static std::optional<CondensedRows> create(const Model& model,
                                                            const SystemMatrices& structure,
                                                            std::size_t most_width);
@@ -82,11 +83,11 @@ class CondensedRows {
   /// Sets the rows of all contacts.
   void set_rows(const std::vector<Rows>& rows);
   /// True if the rows of every contact determine its forces and contain no acceleration.
-  [[nodiscard]] bool is_determined() const { return unknown_ == 0; }
-  /// Version number, which each change increases by one.
+  [[nodiscard]] bool is_determined() const { return undetermined_count_ == 0; }
+  /// Version number, which increases by one whenever the rows of a contact are set.
   [[nodiscard]] long version() const { return dropped_changes_ + static_cast<long>(changed_.size()); }
-  /// Contacts whose rows were set since that version; a contact may occur twice. nullopt: the record does not reach back to
-  /// that version.
+  /// Contacts whose rows were set after version() had the given value; a contact may occur several times. nullopt: the version
+  /// is older than the record of changes.
   [[nodiscard]] std::optional<std::span<const std::size_t>> changed_since(long version) const;
 
   /// Degree of freedom at a place in the band.
@@ -111,9 +112,11 @@ class CondensedRows {
     return {at_place_.data() + at_place_end_[place], at_place_.data() + at_place_end_[place + 1]};
   }
 
-  /// B^-1 R of a contact with these weights; by_N, by_T: one entry for each degree of freedom of the contact.
+  /// Computes the rows of N and T in B^-1 R with these weights. by_N, by_T: entry i belongs to contact_dof(i); only the entries
+  /// of the given contact are written.
   void force_coefficients(std::size_t contact, const Weights& weights, double* by_N, double* by_T) const;
-  /// Computes the row at a place. out: 2 width() + 1 numbers, zero before the call, with the diagonal in the middle.
+  /// Computes the row of the condensed matrix at a place in the band. out: 2 width() + 1 numbers, which the caller has set to
+  /// zero; the diagonal is in the middle.
   void fill(std::size_t place, const Weights& weights, const double* by_N, const double* by_T,
             double* out) const;
 
@@ -130,22 +133,23 @@ class CondensedRows {
   std::vector<std::uint32_t> at_place_;           // indices into contact_dofs_, sorted by place
   std::vector<std::size_t> at_place_end_{0};
   std::vector<ContactCoefficients> coefficients_;
-  std::size_t unknown_ = 0;           // number of contacts whose forces are not `known`
-  std::vector<std::size_t> changed_;  // contacts of the last changes, in order
-  long dropped_changes_ = 0;          // number of earlier changes that are no longer in changed_
+  std::size_t undetermined_count_ = 0;  // number of contacts with ContactCoefficients::known = false
+  std::vector<std::size_t> changed_;    // contact of each recorded change, the latest at the end
+  long dropped_changes_ = 0;            // number of earlier changes that are no longer in changed_
 };
 
-/// Number of unknowns from which avoiding a factorisation saves time; one factorisation with 200 unknowns takes about 30 us.
+/// Smallest number of unknowns for which a condensed matrix saves time: one factorisation with 200 unknowns takes about 30 us.
 /// Chosen value; the tests in tests/unit/engine/newmark cover smaller and larger models.
 inline constexpr int min_condensed_size = 200;
-/// True if all degrees of freedom have mass, contacts share no rows, and there are at least min_condensed_size unknowns.
+/// True if all degrees of freedom have mass, no contacts constrain the same motion, and the model has at least
+/// min_condensed_size unknowns.
 [[nodiscard]] bool saves_factorisations(const Model& model, const SystemMatrices& structure,
                                         const RedundantRows& shared);
 
 class CondensedMatrix {
  public:
-  /// Largest band width for which the condensed matrix saves time; with a wider band its n width^2 products cost as much as a
-  /// sparse method.
+  /// Largest band width for which the condensed matrix saves time. The n width^2 products of a wider band cost as much as a
+  /// sparse factorisation.
   static constexpr std::size_t max_width = 16;
 
   /// The rows must outlive the object.
@@ -174,11 +178,11 @@ class CondensedMatrix {
   const CondensedRows& rows_;
   BandFactors band_;
   Weights weights_;
-  long version_ = 0;                        // version of rows_ in the factors
+  long version_ = 0;                        // version of rows_ at the last set()
   bool set_ = false, has_factors_ = false;  // set_: weights_ are valid
   std::vector<double> by_N_, by_T_;         // B^-1 R, one entry per ContactDof
-  std::vector<double> x_, before_;          // scratch of solve(); factors before an update
-  std::vector<std::size_t> touched_;        // places in the band that changes of contacts affect
+  std::vector<double> x_, before_;    // x_: scratch of solve(); before_: rows of the factors before an update
+  std::vector<std::size_t> touched_;  // places in the band that changes of contacts affect
 };
 
 }  // namespace signorini::linear

@@ -30,14 +30,14 @@ class FactorReader {
   struct Raw {
     std::vector<Long> start, row;
     std::vector<double> value;
-    std::vector<std::size_t> from;  // place in this object, for each value in the packed columns
+    std::vector<std::size_t> from;  // for each value of the packed columns: its index in `value`
     [[nodiscard]] std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(start[k]); }
     void resize(std::size_t columns, Long entries);
   };
-  void make_room(const klu_l_symbolic& symbolic, const klu_l_numeric& numeric);
+  void allocate_factors(const klu_l_symbolic& symbolic, const klu_l_numeric& numeric);
   void read_pattern(TriangularFactors& factors);
   void order(Raw& raw, bool lower, Columns& c) const;
-  void arrange(const std::vector<int>& level, bool backwards, std::vector<int>& columns) const;
+  void sort_by_level(const std::vector<int>& level, bool backwards, std::vector<int>& columns) const;
 
   Raw lower_, upper_, off_;
   std::vector<Long> rows_, columns_, blocks_;
@@ -54,8 +54,8 @@ SuiteSparse_long* raw(const std::vector<std::int64_t>& v) {
 }
 double* raw(const std::vector<double>& v) { return const_cast<double*>(v.data()); }
 
-// Fraction of the quality (reciprocal condition) that kept pivots must retain; otherwise new pivots are chosen.
-constexpr double kept_quality = 1e-3;
+// Smallest ratio of the reciprocal condition with kept pivots to that with fresh pivots; below it new pivots are chosen.
+constexpr double min_rcond_ratio = 1e-3;
 
 }  // namespace
 
@@ -75,7 +75,7 @@ Klu::Klu(const std::vector<std::int64_t>& column_start, const std::vector<std::i
   h_->work.resize(column_start.size() - 1);
   h_->symbolic = klu_l_analyze(n, raw(column_start_), raw(row_), &h_->common);
   if (h_->symbolic == nullptr && h_->common.status != KLU_SINGULAR)
-    throw std::runtime_error("KLU cannot analyse the system matrix");
+    throw std::runtime_error("the solver KLU cannot analyse the pattern of the system matrix");
 }
 
 Klu::~Klu() {
@@ -103,7 +103,7 @@ bool Klu::refactor(const std::vector<double>& values) {
       h_->common.status == KLU_SINGULAR)
     return factor(values);
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
-  if (h_->common.rcond < kept_quality * fresh_rcond_) return factor(values);
+  if (h_->common.rcond < min_rcond_ratio * fresh_rcond_) return factor(values);
   h_->reader.read(h_->symbolic, h_->numeric, &h_->common, false, h_->factors);
   return true;
 }
@@ -119,7 +119,8 @@ void FactorReader::Raw::resize(std::size_t columns, Long entries) {
 }
 
 /// Sorts the columns of each block by level. Columns of the same level do not depend on each other.
-void FactorReader::arrange(const std::vector<int>& level, bool backwards, std::vector<int>& columns) const {
+void FactorReader::sort_by_level(const std::vector<int>& level, bool backwards,
+                                 std::vector<int>& columns) const {
   columns.resize(level.size());
   std::iota(columns.begin(), columns.end(), 0);
   for (std::size_t block = 0; block + 1 < blocks_.size(); ++block) {
@@ -142,7 +143,7 @@ void FactorReader::order(Raw& raw, bool lower, Columns& c) const {
       of_row = std::max(of_row, level[k] + 1);
     }
   }
-  arrange(level, !lower, c.column);
+  sort_by_level(level, !lower, c.column);
   c.end.clear();
   c.row.clear();
   raw.from.clear();
@@ -157,7 +158,7 @@ void FactorReader::order(Raw& raw, bool lower, Columns& c) const {
   c.value.resize(c.row.size());
 }
 
-void FactorReader::make_room(const klu_l_symbolic& symbolic, const klu_l_numeric& numeric) {
+void FactorReader::allocate_factors(const klu_l_symbolic& symbolic, const klu_l_numeric& numeric) {
   const auto n = static_cast<std::size_t>(symbolic.n);
   lower_.resize(n, numeric.lnz);
   upper_.resize(n, numeric.unz);
@@ -183,12 +184,12 @@ void FactorReader::read_pattern(TriangularFactors& factors) {
 
 void FactorReader::read(klu_l_symbolic* symbolic, klu_l_numeric* numeric, klu_l_common* common, bool pattern,
                         TriangularFactors& factors) {
-  if (pattern) make_room(*symbolic, *numeric);
+  if (pattern) allocate_factors(*symbolic, *numeric);
   if (klu_l_extract(numeric, symbolic, lower_.start.data(), lower_.row.data(), lower_.value.data(),
                     upper_.start.data(), upper_.row.data(), upper_.value.data(), off_.start.data(),
                     off_.row.data(), off_.value.data(), rows_.data(), columns_.data(), scale_.data(),
                     blocks_.data(), common) == 0)
-    throw std::runtime_error("KLU's factors cannot be read");
+    throw std::runtime_error("the solver KLU does not return its factors of the system matrix");
   if (pattern) read_pattern(factors);
   for (std::size_t k = 0; k < scale_.size(); ++k) {
     factors.inverse_pivot_[k] = 1.0 / upper_.value[upper_.begin(k + 1) - 1];

@@ -1,6 +1,6 @@
 // klu.hpp: sparse LU factors by KLU, for many matrices with the same pattern.
 //
-//   A x = b        symbolic analysis once; factor with fresh pivots; refactor with kept pivots
+//   A x = b        one symbolic analysis of the pattern; factor() chooses pivots; refactor() uses the same pivots again
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace signorini::linear {
 
 // KLU's factors, packed in a format that is faster for many solves.
 //
-//   R \ (P A Q) = L U + F       block upper triangular: L, U on the diagonal blocks, F above them
-//   U = D U',  u'_ii = 1        pivots are stored as reciprocals, applied once, not between columns
+//   R \ (P A Q) = L U + F       R: row scales; P, Q: permutations; L, U: factors of the diagonal blocks, F: entries above them
+//   U = D U',  u'_ii = 1        D: pivots, stored as reciprocals, so that a solve contains no division
 //
 // KLU uses 16 bytes for each entry, divides by pivots and scales, and processes columns in the order of elimination, in which
 // most columns depend on the previous one. This format uses 12 bytes, and places independent columns next to each other.
@@ -28,17 +28,17 @@ class TriangularFactors {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  friend class FactorReader;  // linear/klu.cpp
-  /// Entries column by column; the entries of the i-th column end before index end[i].
+  friend class FactorReader;  // defined in linear/klu.cpp
+  /// Entries of a triangular factor, column by column in the order of a sweep; those of the i-th column end before end[i].
   struct Columns {
-    std::vector<int> column, end, row;  // column: columns in the order of a sweep
+    std::vector<int> column, end, row;  // column[i]: number of the i-th column of the sweep
     std::vector<double> value;
     [[nodiscard]] std::size_t bytes() const;
   };
   static void sweep(const Columns& c, std::size_t begin, std::size_t end, double* x);
 
-  Columns lower_, upper_, off_;
-  std::vector<int> rows_, columns_, blocks_;  // two permutations; starts of blocks
+  Columns lower_, upper_, off_;               // L, U' and F
+  std::vector<int> rows_, columns_, blocks_;  // permutations P and Q; starts of the diagonal blocks
   std::vector<double> inverse_scale_, inverse_pivot_;
 };
 
@@ -52,8 +52,8 @@ class Klu {
 
   /// Factors with fresh pivots. False: the matrix is singular to working precision.
   bool factor(const std::vector<double>& values);
-  /// Factors with the pivots of the last factorisation, or with fresh pivots if the old ones have become poor. False:
-  /// singular.
+  /// Factors with the pivots of the last factorisation, or with fresh pivots if the old ones lose too many digits. False: the
+  /// matrix is singular to working precision.
   bool refactor(const std::vector<double>& values);
   /// b := A^-1 b.
   void solve(double* b);
@@ -67,7 +67,7 @@ class Klu {
   std::unique_ptr<Handles> h_;
   const std::vector<std::int64_t>& column_start_;
   const std::vector<std::int64_t>& row_;
-  double fresh_rcond_ = 0.0;
+  double fresh_rcond_ = 0.0;  // reciprocal condition of the last factorisation with fresh pivots
 };
 
 }  // namespace signorini::linear

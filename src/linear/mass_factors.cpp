@@ -59,11 +59,11 @@ void MassSolver::solve(double* x, double* work) const {
 
 namespace {
 
-// Limit for the loss of digits by 1 + D Y: three digits, as for pivots kept from another step size (linear/klu.cpp). The
-// inverse loses as many digits as its condition number has. If D Y is large, the solution is a small difference of x and a
-// multiple of Y, which loses digits, too.
-constexpr double least_quality = 1e-3;
-// Number of columns of Y that are kept, because the same rows often change again.
+// Smallest accepted reciprocal condition of 1 + D Y: a loss of three digits, as for pivots kept from another step size
+// (linear/klu.cpp). The limit also bounds D Y, because for large D Y the solution is a small difference of x and a multiple
+// of Y, which loses digits, too.
+constexpr double min_reciprocal_condition = 1e-3;
+// Largest number of columns of Y that are stored; stored columns are used again if the same rows change again.
 constexpr std::size_t most_columns = 4 * WoodburyFactors::max_rows;
 
 double dot(const ChangedRow& row, const double* x) {
@@ -111,7 +111,7 @@ bool WoodburyFactors::set(std::vector<ChangedRow> rows) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(m, m);
   inverse_ = base::solve_dense(one + added, one);
   const double size = 1.0 + norm(added);
-  return least_quality * size * std::max(1.0, norm(inverse_)) <= 1.0;  // false for NaN
+  return min_reciprocal_condition * size * std::max(1.0, norm(inverse_)) <= 1.0;  // false for NaN
 }
 
 void WoodburyFactors::solve(double* b, double* work) {

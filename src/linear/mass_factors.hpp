@@ -1,4 +1,4 @@
-// mass_factors.hpp: solves the system of states in which forces follow from displacements and velocities alone.
+// mass_factors.hpp: solver for contact states in which contact forces follow from displacements and velocities alone.
 //
 //   | M  H | | a |   | b |      f = B^-1 q   contact by contact, 2 x 2 each
 //   | 0  B | | f | = | q |      a = M^-1 (b - H f)
@@ -28,7 +28,7 @@ struct ContactForceBlock {
   double normal_N = 1.0, normal_T = 0.0, tangent_N = 0.0, tangent_T = 1.0;
 };
 
-/// B of each contact. Empty: some row contains an acceleration or does not determine its force.
+/// B of each contact. Empty: a row of some contact contains an acceleration or does not determine the force.
 [[nodiscard]] std::vector<ContactForceBlock> contact_force_blocks(const std::vector<Rows>& rows);
 
 class MassSolver {
@@ -87,7 +87,7 @@ class WoodburyFactors {
   std::vector<ChangedRow> rows_;
   std::vector<const Eigen::VectorXd*> in_force_;  // columns of Y, one for each entry of rows_
   Eigen::MatrixXd inverse_;                       // inverse of 1 + D Y
-  Eigen::VectorXd parts_, shares_, work_;
+  Eigen::VectorXd parts_, shares_, work_;         // parts_: D x; shares_: (1 + D Y)^-1 D x
   long solves_ = 0;
 };
 

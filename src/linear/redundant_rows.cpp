@@ -11,13 +11,13 @@
 namespace signorini::linear {
 namespace {
 
-// A row is linearly dependent if the part that is orthogonal to all other rows is below this fraction of the row. Rounding
-// errors are smaller than this fraction.
+// A column is linearly dependent if its part orthogonal to earlier columns is below this fraction of its norm. Rounding errors
+// are smaller than this fraction.
 constexpr double dependent = 1e-12;
 
 }  // namespace
 
-// H = Q R on those columns that are independent of earlier ones, by Gram-Schmidt orthogonalisation, applied twice.
+// Factors h = Q R on the columns that are independent of earlier ones, by Gram-Schmidt orthogonalisation, applied twice.
 Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
   const Eigen::Index most = std::min(h.rows(), h.cols());
   Eigen::MatrixXd q(h.rows(), most), r = Eigen::MatrixXd::Zero(most, most), null(h.cols(), 0);
@@ -51,7 +51,7 @@ Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
   return null.cols() == 0 ? null : base::orthonormal(null);
 }
 
-bool has_share(const Eigen::MatrixXd& null, Eigen::Index i) { return null.row(i).norm() > dependent; }
+bool participates_in(const Eigen::MatrixXd& null, Eigen::Index i) { return null.row(i).norm() > dependent; }
 
 namespace {
 
@@ -107,12 +107,12 @@ RedundantRows::RedundantRows(const Model& model, const SystemMatrices& structure
       if (model.contacts[k].takes_impulses()) rows.push_back(model.layout.normal(k));
       if (model.contacts[k].sticks_rigidly()) rows.push_back(model.layout.tangent(k));
     }
-    // Groups without friction are left out: two walls on opposite sides of a mass are never closed together.
+    // Groups in which only normals are redundant are omitted: two walls on opposite sides of a mass never close at once.
     const Eigen::MatrixXd null = null_of_columns(columns(rows));
     bool friction = false;
     for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
-      friction =
-          friction || (!model.layout.is_normal(rows[i]) && has_share(null, static_cast<Eigen::Index>(i)));
+      friction = friction ||
+                 (!model.layout.is_normal(rows[i]) && participates_in(null, static_cast<Eigen::Index>(i)));
     if (!friction) continue;
     for (const std::size_t k : group) grouped_[k] = true;
     groups_.push_back(std::move(group));
@@ -145,7 +145,7 @@ std::vector<SharedForces> RedundantRows::in_force(const std::vector<Rows>& rows)
     shared.null = null_of_columns(h);
     if (shared.null.cols() == 0) continue;
     Eigen::MatrixXd h_f = h;
-    // D: sum of the squares of N and T that a unit of each force produces.
+    // Diagonal of D: sum of the squares of N and T that a unit of the force produces.
     Eigen::VectorXd squares = Eigen::VectorXd::Ones(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const std::size_t row = shared.rows[static_cast<std::size_t>(i)];

@@ -4,16 +4,16 @@
 //   | M  F | | a |   | p |      H z = 0:  dependent constraints
 //   | H' 0 | | f | = | b |      F y = 0:  forces without effect on the motion, so that f is not unique
 //
-// Columns of H: normals of closed contacts and tangents of sticking contacts. Columns of F: the same, but n - s fs t for the
-// normal of a contact at its static limit (T = -s fs N).
+// Columns of H: normals n of closed contacts and tangents t of sticking contacts. Columns of F: those of H, but n + r t for
+// the normal of a contact at its static limit, where T = r N.
 //
 // If s z (D y)' replaces the zero block, the matrix is regular. If z.b = 0, the solution satisfies
-//   H' a = b,   y.D f = 0
-// So the motion is unchanged, and f is, of all possible forces, the one with the least sum of squares of N and T, f.D f. s >
-// 0 has the size of H' M^-1 H, so that it adds no rounding errors to motion or forces.
+//   H' a = b,   y.D f = 0          f.D f: sum of the squares of N and T
+// So the motion is unchanged, and of all possible forces, f has the least sum of squares of N and T. The factor s > 0 has the
+// magnitude of H' M^-1 H, so that it adds no rounding errors to motion or forces.
 //
-// Sliders share forces only with other sliders, on ground at rest and on degrees of freedom with mass. A model in which a
-// slider shares forces with rigid contacts is refused.
+// Sliders are treated like this only together with other sliders, on ground at rest and on degrees of freedom with mass. A
+// model in which a slider and a rigid contact constrain the same motion is refused.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,19 +24,20 @@
 
 namespace signorini::linear {
 
-/// The entries s Z (D Y)' of contacts that constrain the same motion redundantly. Columns of Z and Y: all vectors z and y.
+/// The block s Z (D Y)' of contacts that constrain the same motion redundantly. Columns of Z and Y: all vectors z and y.
 /// Rows are numbered like the forces (signorini/force_layout.hpp).
 struct SharedForces {
   std::vector<std::size_t> rows;
-  Eigen::MatrixXd entries;  ///< one entry for each pair of rows
-  Eigen::MatrixXd null;     ///< Z, orthonormal: rows x redundantly constrained motions
+  Eigen::MatrixXd
+      entries;           ///< the block; entry (i, j) belongs to row rows[i] and column rows[j] of the matrix
+  Eigen::MatrixXd null;  ///< Z, orthonormal: rows x redundantly constrained motions
 };
 
-/// Orthonormal vectors z with H z = 0, as columns: combinations of columns of h that are zero up to rounding.
+/// Orthonormal vectors z with h z = 0 up to rounding, as columns; no columns: the columns of h are linearly independent.
 [[nodiscard]] Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h);
 
 /// True if row i participates in one of the combinations `null` (orthonormal columns) by more than rounding.
-[[nodiscard]] bool has_share(const Eigen::MatrixXd& null, Eigen::Index i);
+[[nodiscard]] bool participates_in(const Eigen::MatrixXd& null, Eigen::Index i);
 
 class RedundantRows {
  public:
@@ -44,7 +45,7 @@ class RedundantRows {
 
   /// Groups of two or more contacts, some of which may constrain the same motion.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
-  /// True if the contact is in one of these groups.
+  /// True if the contact is in one of the groups().
   [[nodiscard]] bool may_share(std::size_t contact) const { return grouped_[contact]; }
   /// Shared forces in a contact state with these rows; empty: all constraint rows are independent.
   [[nodiscard]] std::vector<SharedForces> in_force(const std::vector<Rows>& rows) const;
@@ -57,8 +58,8 @@ class RedundantRows {
 
   [[nodiscard]] bool has_mass(const Combination& form) const;
   [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_groups() const;
-  /// Columns of H for these rows, on the degrees of freedom on which the rows act, each divided by the square root of its
-  /// mass.
+  /// Columns of H for these rows, restricted to the degrees of freedom on which the rows act. Each entry is divided by the
+  /// square root of the mass of its degree of freedom.
   [[nodiscard]] Eigen::MatrixXd columns(const std::vector<std::size_t>& rows) const;
 };
 

@@ -31,10 +31,10 @@ SystemMatrices::SystemMatrices(const Model& model) : size(model.size()) {
     for (SparseMatrix::InnerIterator it(both, j); it; ++it) {
       if (it.row() == j) half.diagonal = 0.5 * it.value();
       if (it.row() >= j || it.value() == 0.0) continue;
-      half_row_.push_back(static_cast<int>(it.row()));
-      half_value_.push_back(it.value());
+      upper_row_.push_back(static_cast<int>(it.row()));
+      upper_value_.push_back(it.value());
     }
-    half.end = static_cast<int>(half_row_.size());
+    half.end = static_cast<int>(upper_row_.size());
     const bool empty = half.end == (half_.empty() ? 0 : half_.back().end);
     if (half.diagonal != 0.0 || !empty) half_.push_back(half);
   }
@@ -57,7 +57,7 @@ double SystemMatrices::damping_power(const double* v) const {
     const double vj = v[half.column];
     double sum = half.diagonal * vj;
     for (; p < half.end; ++p)
-      sum += half_value_[static_cast<std::size_t>(p)] * v[half_row_[static_cast<std::size_t>(p)]];
+      sum += upper_value_[static_cast<std::size_t>(p)] * v[upper_row_[static_cast<std::size_t>(p)]];
     total += sum * vj;
   }
   return total;
@@ -109,9 +109,9 @@ namespace {
 constexpr std::size_t rows_of_lanes = 4;
 // Largest number of places in the band per matrix entry for which the band format saves time. One diagonal of four rows (two
 // loads of matrix entries, two of motions) costs as much as three single entries.
-constexpr std::size_t most_of_entries = 3;
+constexpr std::size_t max_places_per_entry = 3;
 
-/// Blocks of four rows, all columns of which exist, numbered [first, last).
+/// Range [first, last) of the blocks of four rows for which all columns within the band width exist.
 struct InnerBlocks {
   std::size_t first, last;
 };
@@ -138,7 +138,7 @@ SIGNORINI_WIDE_LANES void subtract_blocks(InnerBlocks blocks, std::size_t width,
 
 /// Calls take(row, index of its diagonal in the blocks, lane, column) for the entries of all rows outside the inner blocks.
 template <class Take>
-void at_edges(InnerBlocks blocks, std::size_t size, std::size_t width, const Take& take) {
+void visit_edge_entries(InnerBlocks blocks, std::size_t size, std::size_t width, const Take& take) {
   const auto rows = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t j = i - std::min(i, width); j <= std::min(size - 1, i + width); ++j)
@@ -162,7 +162,7 @@ BandedForces::BandedForces(const std::vector<std::int64_t>& column_start, const 
   std::size_t width = 0;
   each([&](std::size_t i, std::size_t j, std::size_t) { width = std::max(width, i > j ? i - j : j - i); });
   const std::size_t diagonals = 2 * width + 1;
-  if (diagonals * size > most_of_entries * row.size()) return;
+  if (diagonals * size > max_places_per_entry * row.size()) return;
   size_ = size;
   width_ = width;
   const std::size_t blocks = (size + rows_of_lanes - 1) / rows_of_lanes;
@@ -177,10 +177,11 @@ BandedForces::BandedForces(const std::vector<std::int64_t>& column_start, const 
 void BandedForces::subtract(const double* v, const double* u, double* r) const {
   const InnerBlocks blocks = inner_blocks(size_, width_);
   subtract_blocks(blocks, width_, values_.data(), v, u, r);
-  at_edges(blocks, size_, width_, [&](std::size_t i, std::size_t entry, std::size_t lane, std::size_t j) {
-    const double* f = values_.data() + entry * 2 * rows_of_lanes + lane;
-    r[i] -= f[0] * v[j] + f[rows_of_lanes] * u[j];
-  });
+  visit_edge_entries(blocks, size_, width_,
+                     [&](std::size_t i, std::size_t entry, std::size_t lane, std::size_t j) {
+                       const double* f = values_.data() + entry * 2 * rows_of_lanes + lane;
+                       r[i] -= f[0] * v[j] + f[rows_of_lanes] * u[j];
+                     });
 }
 
 StructuralForces::StructuralForces(const Model& model, const SystemMatrices& structure)
@@ -211,7 +212,7 @@ StructuralForces::StructuralForces(const Model& model, const SystemMatrices& str
 }
 
 void StructuralForces::apply(double* r) const {
-  // Both products of an entry are computed at once: a pair is one register.
+  // A pair fits into one register, so both products of an entry are computed at once.
   using Pair = Eigen::Map<const Eigen::Array2d>;
   const double *value = values_.data(), *x = x_.data();
   const int* column = column_.data();

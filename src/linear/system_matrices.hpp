@@ -19,13 +19,13 @@ namespace signorini::linear {
 //
 // In a product column by column each sum must wait until the previous sum is stored. Here four rows are computed in parallel,
 // diagonal by diagonal. Each row adds its terms in the order of the columns and missing entries add zero, so the results are
-// bitwise the same.
+// bitwise those of the product column by column.
 
 class BandedForces {
  public:
   BandedForces() = default;
-  /// Stays empty if the band would have far more places than the matrices have entries. Pattern by compressed columns; c and
-  /// k are aligned with `row`.
+  /// Stays empty if the band would have far more places than the matrices have entries. column_start, row: the pattern by
+  /// compressed columns; c, k: values of C and K, aligned with `row`.
   BandedForces(const std::vector<std::int64_t>& column_start, const std::vector<int>& row,
                const std::vector<double>& c, const std::vector<double>& k);
 
@@ -54,28 +54,29 @@ struct SystemMatrices {
   [[nodiscard]] double damping_power(const double* v) const;
   /// x^T A x, where `values` are the entries of A: one of m, c, k.
   [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
-  /// Sum of the magnitudes of all terms of quadratic(), to which its rounding error is relative.
+  /// Sum of the magnitudes of all terms of quadratic(); the rounding error of quadratic() is relative to this sum.
   [[nodiscard]] double magnitude(const std::vector<double>& values, const double* x) const;
   /// r += A x, where `values` are the entries of A: one of m, c, k.
   void add_product(const std::vector<double>& values, const double* x, double* r) const;
 
  private:
+  /// The part of a column of C + C' above the diagonal, for damping_power(); diagonal: c_jj.
   struct HalfColumn {
-    int column = 0, end = 0;  // end: end of the column's entries in half_row_
+    int column = 0, end = 0;  // end: end of the column's entries in upper_row_
     double diagonal = 0.0;
   };
   BandedForces banded_;
   std::vector<HalfColumn> half_;
-  std::vector<int> half_row_;
-  std::vector<double> half_value_;  // c_ij + c_ji, i < j
+  std::vector<int> upper_row_;
+  std::vector<double> upper_value_;  // c_ij + c_ji, i < j
 };
 
 // Sum of inertia, damping and elastic forces, in one pass over the entries.
 //
 //   r = M a + C v + K u = M (a + alpha v) + K (u + beta v) + R v,   C = alpha M + beta K + R
 //
-// R contains the discrete dampers and is mostly zero, so an entry needs two numbers instead of three. The product is computed
-// row by row, so each sum stays in a register. n degrees of freedom; unit of r: force.
+// R contains the discrete dampers and is mostly zero, so an entry of the pattern needs two numbers instead of three. The
+// product is computed row by row, so each sum stays in a register. n degrees of freedom; unit of r: force.
 //
 //   for (i) product.put(i, a[i], v[i], u[i]);
 //   product.apply(r);

@@ -48,7 +48,7 @@ struct ForcePlaces {
   [[nodiscard]] std::array<int, 2> of(std::size_t contact) const {
     return {normal(contact), tangent(contact)};
   }
-  /// Rows of places that have no force.
+  /// Rows of those places of the layout that have no force.
   [[nodiscard]] std::vector<int> unused() const {
     std::vector<int> result;
     for (std::size_t place = 0; place < layout.size(); ++place)
@@ -93,7 +93,7 @@ Pattern pattern_of(const Model& model, const SystemMatrices& structure, const Re
       for (const std::size_t b : group)
         for (const int row : at.of(a))
           for (const int column : at.of(b)) pattern.add(row, column);
-  for (const std::vector<int>& together : undamped_together(dof_kinds(model, structure), model))
+  for (const std::vector<int>& together : joint_undamped_dofs(dof_kinds(model, structure), model))
     pattern.unite(together);
   return pattern;
 }
@@ -131,7 +131,7 @@ SystemMatrix::SystemMatrix(const Model& model, const SystemMatrices& structure)
       layout_(model.layout),
       structure_(structure),
       shared_(model, structure),
-      united_(!undamped_together(dof_kinds(model, structure), model).empty()),
+      has_united_columns_(!joint_undamped_dofs(dof_kinds(model, structure), model).empty()),
       column_start_(starts_of(pattern_of(model, structure, shared_))),
       row_(rows_of_pattern(pattern_of(model, structure, shared_))),
       values_(row_.size(), 0.0),
@@ -207,7 +207,7 @@ void SystemMatrix::add_shared(const std::vector<Rows>& rows) {
 
 bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
                        const std::vector<UndampedMotion>& undamped) {
-  if (united_) std::fill(values_.begin(), values_.end(), 0.0);  // clears entries of other states
+  if (has_united_columns_) std::fill(values_.begin(), values_.end(), 0.0);  // clears entries of other states
   for (int j = 0; j < structure_.size; ++j) {
     const Weights& w = weights[static_cast<std::size_t>(j)];
     const auto begin = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(j)]);

@@ -1,12 +1,12 @@
 // system_matrix.hpp: the matrix of all linear systems that the engines solve.
 //
-//   | M w_a + C w_v + K w_u    n   t |   columns of the degrees of freedom carry weights
-//   | rows of the contacts         . |   (acceleration, velocity, displacement) each
+//   | M w_a + C w_v + K w_u    n   t |   w_a, w_v, w_u: weights of acceleration, velocity and displacement,
+//   | rows of the contacts         . |   one set for the column of each degree of freedom
 //
 // The weights define the unknown that belongs to a column:
 //   IDA                  dv of a dof with mass: (cj, 1, 1/cj);  du of one without mass: (0, cj, 1)
-//   expansion in time    v' with mass, u' of damped and u of undamped massless degrees of freedom
-//                        (motion/state_systems.hpp)
+//   expansion in time    acceleration of a dof with mass: (1, 0, 0); velocity of a damped massless one: (0, 1, 0);
+//                        displacement of an undamped massless one: (0, 0, 1)     (motion/state_systems.hpp)
 //   Newmark              (1, h/2, h^2/4)
 //
 // Order of unknowns and rows: the n degrees of freedom, then N_k and T_k contact by contact. The pattern is the union over
@@ -79,11 +79,12 @@ class SystemMatrix {
   const SystemMatrices& structure_;
   RedundantRows shared_;
   std::vector<SharedForces> in_force_;
-  bool united_;  // true: some columns also have the rows of other columns
+  bool
+      has_united_columns_;  // true: the pattern of some columns contains the rows of other columns (Pattern::unite)
   std::vector<std::int64_t> column_start_, row_;
   std::vector<std::size_t> structure_slot_;  // position in values_ of entry p of the structure
   std::vector<ContactSlots> contacts_;
-  std::vector<std::size_t> unused_;  // diagonal entries of places without a force
+  std::vector<std::size_t> unused_;  // positions in values_ of the diagonal entries of places without a force
   std::vector<double> values_;
   Klu klu_;
 };

@@ -11,14 +11,14 @@
 namespace signorini::linear {
 namespace {
 
-/// Share of a degree of freedom: x_dof = (normal r + tangent q)/divisor.
+/// Solution for one degree of freedom: x_dof = (normal r + tangent q)/divisor.
 struct Share {
   int dof = 0;
   double normal = 0.0, tangent = 0.0, divisor = 1.0;
 };
 
-/// Shares of the two degrees of freedom of both forms, from n . x = r and t . x = q; nullopt: the forms differ or are
-/// dependent.
+/// Solves n . x = r, t . x = q for two degrees of freedom. nullopt: the forms do not consist of the same two degrees of
+/// freedom, or they are linearly dependent.
 std::optional<std::array<Share, 2>> shares(const Combination& n, const Combination& t) {
   if (n.terms.size() != 2 || t.terms.size() != 2) return std::nullopt;
   const auto [i, ni] = n.terms[0];
@@ -56,7 +56,7 @@ std::vector<PrescribedDof> prescribed_dofs(const Model& model, const std::vector
 }
 
 void set_exactly(const Combination& form, double value, Vector& x) {
-  if (form.terms.size() == 1) x[form.terms[0].first] = value / form.terms[0].second + 0.0;  // no -0
+  if (form.terms.size() == 1) x[form.terms[0].first] = value / form.terms[0].second + 0.0;  // + 0.0 avoids -0
 }
 
 void set_exactly(const Combination& n, double r, const Combination& t, double q, Vector& x) {
@@ -166,7 +166,7 @@ MotionKinds kinds_in_states(const std::vector<DofKind>& own, const Model& model,
   return result;
 }
 
-std::vector<std::vector<int>> undamped_together(const std::vector<DofKind>& own, const Model& model) {
+std::vector<std::vector<int>> joint_undamped_dofs(const std::vector<DofKind>& own, const Model& model) {
   std::map<int, int> leader;  // representative of the set that contains a degree of freedom
   const auto find = [&](int dof) {
     int at = leader.emplace(dof, dof).first->second;

@@ -1,11 +1,11 @@
 // undamped_motion.hpp: massless motions that the dashpots of a contact state do not damp.
 //
-//   d_k . z = 0,  z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p
+//   d_k . z = 0,  z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p          u': unknowns that replace u
 //
 // d_k: form of the velocity in a row of the contact state, such as g' in kn g + cn g', restricted to degrees of freedom with
-// neither mass nor damper. There are as many damped degrees of freedom among these as independent d_k. Each remaining one, p,
-// represents a motion z along which forces are in equilibrium at every instant. For motions that the structure itself leaves
-// undamped see model/massless.hpp.
+// neither mass nor damper. The state damps as many of these degrees of freedom as there are independent d_k. Each undamped
+// one, p, represents a motion z along which forces are in equilibrium at every instant. For motions that the dampers of the
+// structure do not damp see model/massless.hpp.
 #pragma once
 
 #include <utility>
@@ -36,8 +36,8 @@ struct PrescribedDof {
 
 /// Sets x so that form . x = value exactly, if the form has a single term; otherwise x is unchanged.
 void set_exactly(const Combination& form, double value, Vector& x);
-/// Sets x so that n . x = r and t . x = q exactly, if each form has a single term or both have the same two degrees of
-/// freedom; otherwise x is unchanged.
+/// Sets x exactly: n . x = r if n has a single term, t . x = q if t has a single term, and both if n and t consist of the same
+/// two degrees of freedom.
 void set_exactly(const Combination& n, double r, const Combination& t, double q, Vector& x);
 
 /// A motion z that has neither mass nor damping; z_dof = 1.
@@ -57,7 +57,7 @@ struct MotionKinds {
                                           const std::vector<Rows>& rows);
 
 /// Lists of two or more degrees of freedom that may occur in the same UndampedMotion in some contact state.
-[[nodiscard]] std::vector<std::vector<int>> undamped_together(const std::vector<DofKind>& own,
-                                                              const Model& model);
+[[nodiscard]] std::vector<std::vector<int>> joint_undamped_dofs(const std::vector<DofKind>& own,
+                                                                const Model& model);
 
 }  // namespace signorini::linear

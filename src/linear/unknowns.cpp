@@ -25,8 +25,9 @@ bool has_massless(const Model& model) {
 
 namespace {
 
-/// A model with the scales, frequencies and factors of the whole, so that decisions that depend on them agree in all parts.
-Model common_to_parts(const Model& whole) {
+/// A model with the scales, frequencies and damping factors of the whole model, so that decisions that depend on these numbers
+/// agree in all parts.
+Model with_common_data(const Model& whole) {
   Model model;
   model.units = whole.units;
   model.unit = whole.unit;
@@ -61,7 +62,7 @@ Load without_direction(const Load& load) {
 }
 
 Model restricted(const Model& whole, const std::vector<int>& dofs, const std::vector<std::size_t>& contacts) {
-  Model model = common_to_parts(whole);
+  Model model = with_common_data(whole);
   model.layout = whole.layout.part(contacts);
   std::vector<int> place(whole.dofs.size(), -1);
   const auto n = static_cast<Eigen::Index>(dofs.size());

@@ -40,8 +40,8 @@ enum class DofKind : unsigned char { massive, damped, algebraic };
 //
 //   M_WW, C_WW, K_WW,   n_k, t_k of contacts on W alone,   P_W
 //
-// The coupling of W to the other degrees of freedom is left out. It is zero for independent parts (model/assembly/parts.hpp).
-// For a neighbourhood (motion/local_derivatives.hpp) it acts at the boundary.
+// The coupling of W to the other degrees of freedom is omitted. It is zero for independent parts (model/assembly/parts.hpp).
+// For a neighbourhood (motion/local_derivatives.hpp) the caller adds the forces of the coupling at the boundary.
 
 /// Model on `dofs` with `contacts`, which act only on these degrees of freedom. It has the data that a run needs, but no
 /// outputs, drawing or loads.

@@ -27,7 +27,7 @@ class ConsistentMotion {
     point.a = 2.0 * series_.u.col(2);
   }
 
-  /// True if there are massless degrees of freedom; make() sets their accelerations to zero.
+  /// True if there are massless degrees of freedom; only accelerate() determines all of their accelerations.
   [[nodiscard]] bool massless() const { return taylor_.massless(); }
 
  private:

@@ -2,8 +2,8 @@
 //
 //   f(t + s x) = sum_k f_k x^k  for N, T, g, ut, g', ut', g'', q', and ut of the touching body (slide)
 //
-// A guard is a linear form on these quantities, so it is a polynomial, too. Polynomials of rates are computed from g and ut
-// on request, because most guards need none.
+// A guard is a linear form in these quantities, possibly plus products of such forms, so it is a polynomial, too. Polynomials
+// of rates are computed from g and ut on request, because most guards contain no rates.
 #pragma once
 
 #include <array>
@@ -49,16 +49,16 @@ class ContactSeries {
     if (!valid_[field]) fill_rate(field);
     return values_.data() + row_of(field) * stride();
   }
-  /// Position x in the structure's series that is 0 for these coefficients. value() and integral() take x of the structure's
-  /// series.
+  /// Sets the position x in the structure's series about which the coefficients are expanded. value() and integral() still
+  /// take positions in the structure's series.
   void set_origin(double origin) { origin_ = origin; }
   [[nodiscard]] double origin() const { return origin_; }
-  /// Computes upper bounds of |f'| up to a distance x from the origin, for the quantities whose extremes are searched: N, T,
+  /// Computes upper bounds of |df/dx| up to a distance x from the origin, for the quantities whose extremes are searched: N, T,
   /// gap and slide.
   void bound_rates(double x);
-  /// Upper bound of |f'| from bound_rates(); infinite if bound_rates() was not called after fill().
+  /// Upper bound of |df/dx| from bound_rates(); infinite if bound_rates() was not called after fill().
   [[nodiscard]] double rate(Field field) const { return rates_[field]; }
-  /// out[0 .. degree]: coefficients of the form about the origin.
+  /// Writes the coefficients of the form about the origin into out[0 .. degree()].
   void combine(const Form& form, double* out) const;
   /// Properties of a guard's polynomial about the origin.
   struct GuardSeries {
@@ -66,14 +66,15 @@ class ContactSeries {
     double truncation_bound = 0.0;  ///< upper bound of the sum of all omitted terms of higher order
     double terms = 0.0;             ///< sum of the magnitudes of the terms in products of forms
   };
-  /// out[0 .. most_degree]: coefficients of the guard about the origin. reach: largest distance from the origin that is used.
+  /// Writes the coefficients of the guard about the origin into out, which has room for most_degree + 1 numbers. reach: largest
+  /// distance from the origin at which the polynomial is used.
   GuardSeries expand(const GuardForm& guard, double reach, std::size_t most_degree, double* out) const;
   /// Upper bound of the sum of the magnitudes of the form's terms, at distances up to `reach` from the origin.
   [[nodiscard]] double magnitude(const Form& form, double reach) const;
   [[nodiscard]] double value(Field field, double x) const {
     return value_at(coefficients(field), degree_, x - origin_);
   }
-  /// Integral from the origin to x.
+  /// Integral of the quantity over x, from the origin to the given x.
   [[nodiscard]] double integral(Field field, double x) const {
     const double* a = coefficients(field);
     x -= origin_;
@@ -97,7 +98,7 @@ class ContactSeries {
   std::size_t degree_ = 0;
   double origin_ = 0.0, scale_ = 1.0;
   std::array<double, fields> rates_ = unbounded();
-  std::size_t slide_row_ = slide;  // row of ut if the body has the same ut as the contact
+  std::size_t slide_row_ = slide;  // row of `slide`: that of ut if the body and the contact have the same ut
   mutable std::vector<double> values_;
   mutable std::array<bool, fields> valid_{};           // rows of values_ that contain valid coefficients
   mutable std::vector<double> factor_, other_factor_;  // coefficients of the factors of a product

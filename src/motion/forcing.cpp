@@ -39,10 +39,10 @@ Forcing::Forcing(const Model& model, double t, Side side) : Forcing(model) {
     applied_normal_force_.push_back(piece(contact.normal_force, t, side));
     surface_.push_back(piece(contact.surface_motion, t, side));
     moves_.push_back(changes(*surface_.back()));
-    presses_.push_back(changes(*applied_normal_force_.back()));
+    normal_force_varies_.push_back(changes(*applied_normal_force_.back()));
     constant_surface_.push_back(surface_.back()->value(t));
     constant_normal_force_.push_back(applied_normal_force_.back()->value(t));
-    driven_.push_back(moves_.back() || presses_.back());
+    driven_.push_back(moves_.back() || normal_force_varies_.back());
     varies_ = varies_ || driven_.back();
     if (!vanishes(*applied_normal_force_.back()))
       loaded_contacts_.push_back(applied_normal_force_.size() - 1);
@@ -50,7 +50,7 @@ Forcing::Forcing(const Model& model, double t, Side side) : Forcing(model) {
     unloaded_.push_back(contact.normal_force_given() && vanishes(*applied_normal_force_.back()));
   }
   varies_ = varies_ || !varying_.empty();
-  loaded_ = !varying_.empty() || !constant_.isZero(0.0);
+  has_loads_ = !varying_.empty() || !constant_.isZero(0.0);
 }
 
 double Forcing::surface_rounding(std::size_t k, double t) const {
@@ -76,7 +76,7 @@ Forcing Forcing::none(const Model& model) {
   f.applied_normal_force_.assign(model.contacts.size(), &still);
   f.surface_ = f.applied_normal_force_;
   f.unloaded_.assign(model.contacts.size(), false);
-  f.moves_ = f.presses_ = f.driven_ = f.unloaded_;
+  f.moves_ = f.normal_force_varies_ = f.driven_ = f.unloaded_;
   f.constant_normal_force_.assign(model.contacts.size(), 0.0);
   f.constant_surface_ = f.constant_normal_force_;
   return f;
@@ -98,7 +98,7 @@ Forcing Forcing::on_part(const Model& part, const std::vector<int>& dofs,
     f.applied_normal_force_.push_back(applied_normal_force_[k]);
     f.surface_.push_back(surface_[k]);
     f.moves_.push_back(moves_[k]);
-    f.presses_.push_back(presses_[k]);
+    f.normal_force_varies_.push_back(normal_force_varies_[k]);
     f.driven_.push_back(driven_[k]);
     f.unloaded_.push_back(unloaded_[k]);
     f.constant_normal_force_.push_back(constant_normal_force_[k]);
@@ -108,7 +108,7 @@ Forcing Forcing::on_part(const Model& part, const std::vector<int>& dofs,
     if (!vanishes(*surface_[k])) f.moving_surfaces_.push_back(i);
   }
   f.varies_ = f.varies_ || !f.varying_.empty();
-  f.loaded_ = !f.varying_.empty() || !f.constant_.isZero(0.0);
+  f.has_loads_ = !f.varying_.empty() || !f.constant_.isZero(0.0);
   return f;
 }
 

@@ -10,23 +10,24 @@
 namespace signorini::motion {
 namespace {
 
-// Noise = this factor times the difference of both computations. It is larger than one because the difference is only one
-// sample of the rounding errors.
+// Ratio of the noise to the difference of both computations. It is larger than one because the difference is only one sample
+// of the rounding errors.
 constexpr double noise_factor = rounding::many_operations / rounding::eps / DataPerturbation::max_roundings;
 
 // Noise of a form on given data, relative to the sum of the magnitudes of its terms. It covers the largest perturbation of
 // the data and the rounding of the sum.
 constexpr double of_data = 2.0 * rounding::many_operations;
 
-constexpr std::size_t known = MotionJet::orders + 2;  // number of derivatives that the orders of a motion use
+constexpr std::size_t known =
+    MotionJet::orders + 2;  // number of derivatives of g and ut in a MotionJet, from order 0
 
 /// Derivatives of N, T, g and ut of one contact; for g and ut also the magnitudes of their terms.
 struct Derivatives {
   std::array<double, known> N{}, T{}, gap{}, ut{}, limit{}, gap_terms{}, ut_terms{};
 };
 
-/// Derivatives of the limit F of friction that depends on N; N follows from g or q. One order more than the motion is
-/// computed, for the rate of F.
+/// Computes the derivatives of the friction limit F(|N|), where N follows from g or q. One order more than `last` is computed,
+/// for the rate of F.
 void fill_limit(const Contact& contact, std::size_t c, const Series& series, std::size_t last,
                 Derivatives& d) {
   const double* applied = series.forcing.applied_normal_force.data() + c * series.forcing.count;
@@ -70,7 +71,7 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
   if (contact.friction.is_load_dependent()) fill_limit(contact, c, series, last, d);
 }
 
-/// Motion of order k, which is its k-th derivative. applied: coefficients of the applied normal force; factorial: k!.
+/// The k-th time derivative of the contact's motion. applied: coefficients of the applied normal force; factorial: k!.
 ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double* applied, double factorial) {
   ContactMotion m;
   m.N = d.N[k];
@@ -127,7 +128,7 @@ Jet JetMaker::make(const StateSystemPtr& system, const Forcing& forcing, double 
   return jet;
 }
 
-/// Computes order by order, until no contact needs a higher order.
+/// Computes the noise of contact motions order by order, until no contact needs a higher order.
 void JetMaker::expand_undecided(const StateSystem& system, const Forcing& forcing,
                                 const DataPerturbation& disturbance, const StopCriterion& enough,
                                 std::vector<MotionJet>& result) {
@@ -148,7 +149,7 @@ void JetMaker::expand_undecided(const StateSystem& system, const Forcing& forcin
   }
 }
 
-/// Sums of the magnitudes of terms in the balance of forces at the degrees of freedom of a contact.
+/// Sums the magnitudes of the terms in the equations of motion of the degrees of freedom on which the contact acts.
 JetMaker::Balance JetMaker::balance_of(const Contact& contact, const Rows& rows, double factorial,
                                        std::size_t k) const {
   const auto terms = taylor_.terms().col(static_cast<Eigen::Index>(k));
@@ -186,7 +187,7 @@ void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJ
 /// Computes orders first .. last of a contact's motion, with noise.
 void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t first, std::size_t last,
                        MotionJet& result) const {
-  // A single sample of rounding can be small by chance, so the rounding of the terms of each sum is added.
+  // The difference of two computations can be small by chance, so the rounding error of the terms of each sum is added.
   const auto noise = [](double x, double y, double size) {
     return noise_factor * std::abs(x - y) + rounding::many_operations * size;
   };
@@ -201,7 +202,7 @@ void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t fir
     if (k < first) continue;
     ContactMotion &m = result.motion[k], &d = result.noise[k];
     m = motion_of_order(a, k, applied, factorial);
-    // The magnitudes of the terms of each row bound the rounding of the row's force.
+    // The magnitudes of the terms of a contact's row bound the rounding error of the force that follows from the row.
     ContactMotion terms;
     terms.gap = a.gap_terms[k];
     terms.ut = a.ut_terms[k];
@@ -225,8 +226,8 @@ void JetMaker::motions(const StateSystem& system, std::size_t c, std::size_t fir
     d.ut = noise(a.ut[k], b.ut[k], terms.ut);
     d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
     if (k == 0) {
-      // u and v of degrees of freedom with mass are data. This bounds their rounding errors for every orientation of the
-      // scene.
+      // u and v of degrees of freedom with mass are data. The maximum covers their rounding errors for every orientation of
+      // the scene relative to the axes.
       d.gap = std::max(d.gap, of_data * terms.gap);
       d.vn = std::max(d.vn, of_data * terms.vn);
     }

@@ -3,9 +3,9 @@
 //   M u^(k+2) + C u^(k+1) + K u^(k) + sum ( n N^(k) + t T^(k) ) = P^(k),   d^k/dt^k of the state's rows
 //
 // The derivatives are computed by motion/taylor.hpp. Each jet is computed twice, the second time with data and right-hand
-// sides perturbed by a few rounding errors; the difference shows which entries are zero to working precision. For most
-// contacts, which are far from a change of state, value and rate already decide the state. So the second computation ends
-// with the highest order that some contact needs.
+// sides perturbed by a few rounding errors; the difference shows which entries are zero to working precision. Most contacts
+// are far from a change of state, and values and rates of their guards already decide the state. So the second computation
+// ends with the highest order that some contact needs.
 #pragma once
 
 #include <functional>
@@ -36,17 +36,17 @@ class JetMaker {
  public:
   explicit JetMaker(StateSystems& systems);
 
-  /// Predicate: true if `orders` orders of the contact's motion, with their noise, are enough for all later queries. The
-  /// motion without noise is known to one order more.
+  /// True if the first `orders` orders of the contact's motion, with their noise, are enough for all later queries. The
+  /// motion itself is known to one order more than its noise.
   using StopCriterion = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
 
-  /// Jet at t from u and v; v of massless degrees of freedom is ignored and computed.
+  /// Jet at t from u and v. v of massless degrees of freedom is not used; it is computed.
   [[nodiscard]] Jet expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                            const Vector& v);
-  /// Same, but also computes orders 0 to Jet::orders of the motion of every contact, with their noise. If `enough` is given,
-  /// orders that no query needs are left undefined; computed values are bitwise the same. For contacts that order 0 does not
-  /// decide, the motion is complete. `second` replaces `forcing` in the second computation, so that the difference of the two
-  /// forcings is part of the noise.
+  /// The jet of expand(); also computes orders 0 to Jet::orders of the motion of every contact, with their noise. If `enough`
+  /// is given, orders that no query needs are not computed, and the computed ones are bitwise those without `enough`. For a
+  /// contact that order 0 does not decide, all orders of the motion are computed, but noise only as far as needed. second:
+  /// replaces `forcing` in the second computation, so that the difference of both forcings is part of the noise.
   [[nodiscard]] Jet make(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
                          const Vector& v, std::vector<MotionJet>& motions, const StopCriterion& enough = {},
                          const Forcing* second = nullptr);
@@ -56,7 +56,8 @@ class JetMaker {
   struct Balance {
     double an, at, N, T;
   };
-  /// Balance of a contact; its N and T are nonzero only if the contact's row contains an acceleration.
+  /// Balance of a contact at order k; factorial: k!. N and T of the balance are nonzero only if the contact's row contains an
+  /// acceleration.
   [[nodiscard]] Balance balance_of(const Contact& contact, const Rows& rows, double factorial,
                                    std::size_t k) const;
   void expand_undecided(const StateSystem& system, const Forcing& forcing,

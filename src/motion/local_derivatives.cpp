@@ -15,7 +15,7 @@ namespace {
 constexpr int spread = 2 * (Jet::orders + 1);
 /// Limit for the number of contacts that are expanded locally, one by one. With more contacts the whole structure is used.
 /// Chosen value.
-constexpr std::size_t most_open = 6;
+constexpr std::size_t max_local_contacts = 6;
 
 /// True if some guard contains an acceleration, whose order 1 is not computed here.
 bool accelerates(const Contact& contact, const ContactState& state) {
@@ -24,8 +24,8 @@ bool accelerates(const Contact& contact, const ContactState& state) {
   return false;
 }
 
-/// Entries of a column of M^-1 that are below of_nothing_here times the largest entry are rounding. A column saves time only
-/// if at most 1 / part_of_structure of its entries remain.
+/// Entries of a column of M^-1 below of_nothing_here times the largest entry are rounding errors. A column saves time only if
+/// at most 1 / part_of_structure of its entries are above this limit.
 constexpr double of_nothing_here = rounding::eps / 16.0;
 constexpr std::size_t part_of_structure = 4;
 
@@ -48,7 +48,7 @@ LocalDerivatives::LocalDerivatives(StateSystems& systems, int least)
   if (!possible_) return;
   neighbourhoods_.emplace(systems, spread);
   for (const Contact& c : model_.contacts) {
-    Soft soft;
+    SpringContact soft;
     const auto take = [&](const Combination& form, double& squared) {
       soft.valid = soft.valid && form.terms.size() <= max_plane_terms;
       for (const auto& [dof, factor] : form.terms) {
@@ -68,10 +68,10 @@ LocalDerivatives::LocalDerivatives(StateSystems& systems, int least)
 }
 
 /// Motion, rate and rounding of a soft contact that is not driven and whose surface is at rest. The results are bitwise those
-/// of motion_of(), order_one() and bound_rounding().
+/// of motion_of(), set_rates() and bound_rounding().
 void LocalDerivatives::set_soft_motion(const Rows& rows, double surface, const Point& now,
                                        std::size_t contact, MotionJet& result) const {
-  const Soft& c = soft_[contact];
+  const SpringContact& c = soft_[contact];
   const double *u = now.u.data(), *v = now.v.data(), *a = now.a.data();
   ContactMotion &m = result.motion[0] = {}, &d = result.motion[1] = {}, &noise = result.noise[0] = {};
   const auto along = [&](std::size_t first, std::size_t end, double squared, double& x, double& dx,
@@ -116,7 +116,7 @@ void LocalDerivatives::set_soft_motion(const Rows& rows, double surface, const P
 }
 
 /// Rate of the contact's motion, without g''' and ut'''. Rates of N and T follow from the contact's own rows.
-void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forcing, std::size_t contact,
+void LocalDerivatives::set_rates(const StateSystem& system, const Forcing& forcing, std::size_t contact,
                                  MotionJet& result) const {
   const Rows& rows = system.rows()[contact];
   const ContactMotion& m = result.motion[0];
@@ -131,9 +131,9 @@ void LocalDerivatives::order_one(const StateSystem& system, const Forcing& forci
   d.T = -rows.tangent.rate(d) / rows.tangent.T;
 }
 
-/// Upper bound of the noise of motion/jet.cpp. That noise is one rounding of the terms plus |x - y| for each perturbation: of
-/// displacements and velocities as data, of N in its row, of T in its row and through N. The rounding errors of x and y
-/// themselves add less than one more.
+/// Upper bound of the noise that motion/jet.cpp would compute, in rounding errors of the terms of a sum: one for the sum, less
+/// than one for the difference of both computations, and one for each perturbation. u and v are perturbed, for N also the
+/// normal row, for T also the normal and the tangent row.
 void LocalDerivatives::bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
                                       std::size_t contact, MotionJet& result) const {
   const Contact& c = model_.contacts[contact];
@@ -248,15 +248,15 @@ const LocalDerivatives::Columns& LocalDerivatives::columns_of(std::size_t contac
   return columns;
 }
 
-/// Same as expand(), from a known jet in other states, by the effect of contacts whose states differ. nullopt: too many
-/// states differ, or the effect reaches far.
+/// Same result as expand(), computed from a known jet in other states: adds the effect of the contacts whose states differ.
+/// nullopt: too many states differ, or their effect covers a large part of the structure.
 std::optional<Jet> LocalDerivatives::update(const StateSystemPtr& system, const Forcing& forcing, double t,
                                             const PreviousJet& previous) {
   const contact::ContactStates &states = system->states(), &before = previous.jet.system->states();
   std::vector<std::size_t> others;
   for (std::size_t c = 0; c < states.size(); ++c)
     if (states[c] != before[c]) others.push_back(c);
-  if (others.size() > most_open) return std::nullopt;
+  if (others.size() > max_local_contacts) return std::nullopt;
   for (const std::size_t c : others)
     if (!columns_of(c, *system).few) return std::nullopt;
   Jet jet{t, previous.jet.u, previous.jet.forces, system};
@@ -303,7 +303,7 @@ std::optional<LocalDerivatives::LocalJet> LocalDerivatives::make(const StateSyst
       set_soft_motion(system->rows()[c], forcing.surface(c, t, 0), now, c, motion);
     } else if (!known) {
       motion.motion[0] = motion_of(model_.contacts[c], c, forcing, t, now);
-      order_one(*system, forcing, c, motion);
+      set_rates(*system, forcing, c, motion);
       bound_rounding(*system, forcing, now, c, motion);
     }
     jet.forces(static_cast<Eigen::Index>(model_.layout.normal(c)), 1) = motion.motion[1].N;
@@ -311,7 +311,7 @@ std::optional<LocalDerivatives::LocalJet> LocalDerivatives::make(const StateSyst
     if (known || ((soft || !accelerates(model_.contacts[c], system->states()[c])) && enough(c, motion, 1)))
       continue;
     open.push_back(c);
-    if (open.size() > most_open) return std::nullopt;
+    if (open.size() > max_local_contacts) return std::nullopt;
   }
   for (const std::size_t c : open)
     if (!compute_locally(system, forcing, now, c, enough, motions[c])) return std::nullopt;
@@ -320,6 +320,7 @@ std::optional<LocalDerivatives::LocalJet> LocalDerivatives::make(const StateSyst
 
 namespace {
 
+/// Arguments of fused_products().
 struct Columns {
   const double *a, *b;
   std::size_t rows, columns;
@@ -329,7 +330,7 @@ struct Columns {
 
 /// Computes rows i to i + count * lanes of the products.
 template <class T, std::size_t count>
-[[gnu::always_inline]] inline void some_rows(const Columns& c, std::size_t i, double* y) {
+[[gnu::always_inline]] inline void sum_rows(const Columns& c, std::size_t i, double* y) {
   constexpr std::size_t lanes = sizeof(T) / sizeof(double);
   T sum[count] = {};
   const double *a = c.a + i, *b = c.b + i;
@@ -348,16 +349,16 @@ SIGNORINI_WIDE_LANES void fused_products(const double* a, const double* b, std::
                                          double* y) {
   const Columns c{a, b, rows, columns, u, w, factor};
   std::size_t i = 0;
-  for (; i + 16 <= rows; i += 16) some_rows<base::Double4, 4>(c, i, y);
+  for (; i + 16 <= rows; i += 16) sum_rows<base::Double4, 4>(c, i, y);
   if (i + 8 <= rows) {
-    some_rows<base::Double4, 2>(c, i, y);
+    sum_rows<base::Double4, 2>(c, i, y);
     i += 8;
   }
   if (i + 4 <= rows) {
-    some_rows<base::Double4, 1>(c, i, y);
+    sum_rows<base::Double4, 1>(c, i, y);
     i += 4;
   }
-  for (; i < rows; ++i) some_rows<double, 1>(c, i, y);
+  for (; i < rows; ++i) sum_rows<double, 1>(c, i, y);
 }
 
 }  // namespace signorini::motion

@@ -6,9 +6,9 @@
 //   a - M^-1 (n dN + t dT)                         in other states with the same u and v: dN, dT of contacts
 //                                                  whose state differs
 //
-// W: motion/neighbourhoods.hpp. The structure outside W acts on W with its forces of order 0. The second of the two
-// computations of a jet (motion/jet.hpp) omits these forces, so their effect is part of the noise. A guard that does not
-// exceed the noise cannot be decided on the neighbourhood.
+// W: motion/neighbourhoods.hpp. The structure outside W acts on W with forces that are constant in time (order 0). The second
+// of the two computations of a jet (motion/jet.hpp) omits these forces, so their effect is part of the noise. A guard that
+// does not exceed the noise cannot be decided on the neighbourhood.
 //
 // Used for large structures, in states whose forces follow from displacements and velocities alone (linear/mass_factors.hpp).
 #pragma once
@@ -50,14 +50,14 @@ class LocalDerivatives {
  private:
   /// A contact with springs, without dashpot, acting on translations alone. The data for its motion and rounding errors are
   /// contiguous in memory.
-  struct Soft {
+  struct SpringContact {
     bool valid = false;
     std::size_t first = 0, middle = 0, end = 0;  // terms: normal [first, middle), tangent [middle, end)
     double gap = 0.0, normal_squared = 0.0, tangent_squared = 0.0;
   };
-  /// Entries of M^-1 n and M^-1 t of a contact that are above rounding.
+  /// Entries of M^-1 n and M^-1 t of a contact that are larger than rounding errors.
   struct Columns {
-    bool known = false, few = false;  // few: on a small part of the structure
+    bool known = false, few = false;  // few: the entries cover only a small part of the structure
     std::vector<std::pair<Eigen::Index, double>> by_N, by_T;
   };
   [[nodiscard]] const Columns& columns_of(std::size_t contact, const StateSystem& system);
@@ -67,7 +67,7 @@ class LocalDerivatives {
                                           const PreviousJet& previous);
   void set_soft_motion(const Rows& rows, double surface, const Point& now, std::size_t contact,
                        MotionJet& motion) const;
-  void order_one(const StateSystem& system, const Forcing& forcing, std::size_t contact,
+  void set_rates(const StateSystem& system, const Forcing& forcing, std::size_t contact,
                  MotionJet& motion) const;
   void bound_rounding(const StateSystem& system, const Forcing& forcing, const Point& now,
                       std::size_t contact, MotionJet& motion) const;
@@ -80,7 +80,7 @@ class LocalDerivatives {
   bool possible_;
   Taylor taylor_;
   Series series_;
-  std::vector<Soft> soft_;                // one entry per contact
+  std::vector<SpringContact> soft_;       // one entry per contact
   std::vector<Columns> columns_;          // one entry per contact
   std::vector<double> column_, scratch_;  // scratch for the computation of one column
   std::vector<std::pair<std::size_t, double>> terms_;

@@ -10,11 +10,11 @@ namespace {
 
 /// Number of elements by which W extends beyond the region where M^-1 is above rounding. Each level of a series spreads a
 /// change by one more element, with decreasing size. Chosen value; decays() checks it.
-constexpr int spread_of_series = 20;
+constexpr int series_spread = 20;
 
 /// Sorts the elements in ascending order and removes duplicates.
 template <class T>
-void sort_out(std::vector<T>& of) {
+void sort_unique(std::vector<T>& of) {
   std::sort(of.begin(), of.end());
   of.erase(std::unique(of.begin(), of.end()), of.end());
 }
@@ -26,7 +26,7 @@ std::size_t place_in(const std::vector<T>& of, T what) {
 
 }  // namespace
 
-LocalSeries::LocalSeries(StateSystems& systems) : neighbourhoods_(systems, spread_of_series) {}
+LocalSeries::LocalSeries(StateSystems& systems) : neighbourhoods_(systems, series_spread) {}
 
 LocalSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
   for (const Neighbourhood::Coupling& tie : near.couplings) {
@@ -37,9 +37,9 @@ LocalSeries::Work::Work(Neighbourhood& near) : taylor(near.systems) {
     across.push_back(pull.force);
     boundary.push_back(pull.at);
   }
-  sort_out(ring);
-  sort_out(boundary);
-  sort_out(across);
+  sort_unique(ring);
+  sort_unique(boundary);
+  sort_unique(across);
   for (const Neighbourhood::Coupling& tie : near.couplings)
     place_of_coupling.push_back(static_cast<Eigen::Index>(place_in(ring, tie.dof)));
   for (const Neighbourhood::CrossingForce& pull : near.crossing_forces)

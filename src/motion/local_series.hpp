@@ -24,14 +24,14 @@ class LocalSeries {
   /// True if local series can be computed; false after M^-1 was found not to decay anywhere.
   [[nodiscard]] bool possible() const { return !neighbourhoods_.found_none(); }
 
-  /// Writes the coefficients of the earlier motion about the instant: levels + 3 for a degree of freedom, levels + 1 for a
-  /// force.
+  /// Functions that write the Taylor coefficients of the motion before the event, expanded about the time of the event:
+  /// levels + 3 numbers for a degree of freedom, levels + 1 numbers for a force.
   struct PreviousSeries {
     std::function<void(int dof, double* out)> u;
     std::function<void(std::size_t slot, double* out)> force;
   };
-  /// Magnitudes of motions. weights: factors that make degrees of freedom comparable. least: magnitude of a weighted motion;
-  /// everywhere, differences up to its rounding error are treated as zero.
+  /// Magnitudes of motions. weights: factors that make degrees of freedom comparable. least: smallest weighted magnitude that
+  /// is assumed for any degree of freedom; differences up to the rounding error of `least` are treated as zero.
   struct Sizes {
     const std::vector<double>& weights;
     double least;
@@ -54,7 +54,7 @@ class LocalSeries {
     explicit Work(Neighbourhood& near);
     Taylor taylor;
     Series series;
-    std::vector<int> ring, boundary;              // dofs next to W, in the whole; coupled dofs of W
+    std::vector<int> ring, boundary;  // ring: dofs of the whole model next to W; boundary: dofs of W
     std::vector<Eigen::Index> place_of_coupling;  // index in `ring` of each coupling
     std::vector<std::size_t> place_of_crossing;   // index in `across` of each crossing force
     std::vector<std::size_t> across;              // forces of contacts that act inside and outside W

@@ -10,7 +10,7 @@
 namespace signorini::motion {
 namespace {
 
-/// Fraction of the largest entry of a column of M^-1 below which entries are rounding.
+/// Entries of a column of M^-1 below this fraction of the largest entry are rounding errors.
 constexpr double negligible_fraction = rounding::eps / 16.0;
 /// Contacts within the distance radius / sharing of each other share a neighbourhood. A neighbourhood must not have more than
 /// 1 / least_gain of all degrees of freedom. Chosen values.

@@ -16,7 +16,7 @@ namespace signorini::motion {
 /// True if all degrees of freedom have mass, and the forces of all contacts follow from displacements and velocities by rows
 /// with constant coefficients.
 [[nodiscard]] bool follows_from_motion(const Model& model);
-/// Number of degrees of freedom from which local expansions save time. Chosen value.
+/// Smallest number of degrees of freedom for which local expansions save time. Chosen value.
 inline constexpr int large_structure = 400;
 
 struct Neighbourhood {
@@ -46,10 +46,10 @@ struct Neighbourhood {
     double m, c, k;
   };
   std::vector<Coupling> couplings;
-  /// Force of a contact that acts inside and outside the neighbourhood, on the degree of freedom `at` inside.
+  /// Force of a contact that acts inside and outside the neighbourhood. at: degree of freedom inside on which the force acts.
   struct CrossingForce {
     int at;
-    std::size_t force;  // place of the force in the whole model
+    std::size_t force;  // place of the force in the layout of the whole model
     double factor;
   };
   std::vector<CrossingForce> crossing_forces;
@@ -87,10 +87,11 @@ class Neighbourhoods {
   const linear::SystemMatrices& structure_;
   const int spread_;
   std::vector<std::vector<int>> neighbours_;           // by dof: dofs that M, C, K or a contact couples
-  std::vector<std::vector<std::size_t>> contacts_at_;  // by degree of freedom
-  std::vector<double> root_of_mass_;                   // by degree of freedom
+  std::vector<std::vector<std::size_t>> contacts_at_;  // contacts that act on each degree of freedom
+  std::vector<double> root_of_mass_;                   // sqrt(m_ii) of each degree of freedom
   std::vector<std::unique_ptr<Neighbourhood>> made_;
-  std::vector<Neighbourhood*> of_contact_;  // by contact; valid once searched
+  std::vector<Neighbourhood*>
+      of_contact_;  // neighbourhood of each contact; valid if searched_ is true for the contact
   std::vector<bool> searched_;
   int failures_ = 0;
 };

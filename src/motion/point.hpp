@@ -18,7 +18,7 @@
 
 namespace signorini::motion {
 
-/// Times closer than this are equal for an integrator; same criterion as in IDA. step: length of the time step.
+/// Resolution of times: an integrator treats times closer than this as equal, as IDA does. step: length of the time step.
 [[nodiscard]] inline double resolution_at(double t, double step) {
   return rounding::time_resolution * (std::abs(t) + std::abs(step));
 }
@@ -32,8 +32,8 @@ struct StructureEnergy {
 struct Point {
   Vector u, v, forces;
   Vector a = {};  ///< accelerations; empty if not needed
-  /// Energy of u and v, if the engine knows it more accurately than v^T M v and u^T K u, which on a fine mesh are sums of
-  /// terms far larger than the result.
+  /// Energy of u and v, if the engine knows it more accurately than v^T M v/2 and u^T K u/2. On a fine mesh the terms of these
+  /// sums are far larger than the result.
   std::optional<StructureEnergy> energy = {};
 
   [[nodiscard]] double N(const ForceLayout& layout, std::size_t k) const {
@@ -87,7 +87,7 @@ struct BodySlide {
 // Powers: rates at which the system gains and loses energy.
 //
 //   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
-//   friction  T p'  of each contact          surface   -T s'(t)  of each contact
+//   friction  T p'  of each contact          surface   -T s'(t)  of each contact       p': slip rate
 //
 // For the powers of a contact see contact/work.hpp.
 
@@ -119,12 +119,17 @@ class Powers {
   Powers(const Model& model, const linear::SystemMatrices& structure)
       : model_(model), structure_(structure) {}
 
-  /// Number of powers at one time: loads, damping, then friction, surface and -N of each contact.
+  /// Number of powers at one time: loads, damping, then friction, surface and applied_normal_force (-N) of each contact.
   [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
   /// Writes all powers into out[0 .. count()). motions: motion_of() of each contact at the point.
   void at(const Forcing& forcing, double t, const contact::ContactStates& states, const Point& point,
+<<<<<<< HEAD
           const std::vector<ContactMotion>& motions, double* out) const;
   /// works += factor * powers
+=======
+          double* out) const;
+  /// Adds `factor` times the powers to the integrals. powers: count() numbers from at().
+>>>>>>> 775607799e5388231b4f800d1918c586ac1e1d7e
   void add(const double* powers, double factor, WorkIntegrals& works) const;
 
  private:
@@ -134,11 +139,13 @@ class Powers {
 
 // Rounding error of form . x in units of eps, if the entries of x are rounded once.
 //
-// |form| |x| for forms in the plane, whatever the angle to the axes; sum |form_i x_i| for coordinates of different kinds
+//   translations in the plane: |form| |x|, which does not depend on the directions of the axes
+//   other coordinates:         sum |form_i x_i|
 
 inline constexpr std::size_t max_plane_terms = 4;  // for a form on the translations of one or two nodes
 
-/// Magnitude of form . x as above. x(dof): magnitude of a degree of freedom; terms with the factor zero do not contribute.
+/// Rounding error of form . x in units of eps. x(dof): magnitude of a degree of freedom; terms with the factor zero do not
+/// contribute.
 template <class Size>
 double form_magnitude_by(const Model& model, const Combination& form, const Size& x) {
   double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
@@ -154,7 +161,7 @@ double form_magnitude_by(const Model& model, const Combination& form, const Size
   }
   return terms + std::sqrt(form_squared * x_squared);
 }
-/// Same with the magnitudes of the entries of a vector x.
+/// Rounding error of form . x in units of eps, for a vector x.
 template <class Entries>
 double form_magnitude(const Model& model, const Combination& form, const Entries& x) {
   return form_magnitude_by(model, form, [&x](int dof) { return x[dof]; });

@@ -36,17 +36,17 @@ std::size_t FactorisedStates::bytes() const {
 
 namespace {
 
-/// Number of derivatives of surface motions that a decision may examine.
-constexpr int most_reported = 8;
+/// Highest derivative of surface motions that a decision may examine.
+constexpr int max_surface_derivative = 8;
 
-/// True if z.s' = 0 from t on: the surfaces of the contacts that constrain a common motion move alike, or are at rest.
-bool moves_as_one(const ForceLayout& layout, const linear::SharedForces& shared, const Eigen::VectorXd& z,
-                  const Forcing& forcing, double t) {
-  for (int order = 1; order <= most_reported; ++order) {
+/// True if z.s' = 0 from t on: the surfaces of the contacts that constrain a common motion do not move relative to each other.
+bool surfaces_move_alike(const ForceLayout& layout, const linear::SharedForces& shared,
+                         const Eigen::VectorXd& z, const Forcing& forcing, double t) {
+  for (int order = 1; order <= max_surface_derivative; ++order) {
     double sum = 0.0, zero = 0.0;
     for (std::size_t i = 0; i < shared.rows.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      if (layout.is_normal(shared.rows[i]) || !linear::has_share(shared.null, at))
+      if (layout.is_normal(shared.rows[i]) || !linear::participates_in(shared.null, at))
         continue;  // only tangential rows that participate
       const std::size_t c = layout.contact_of(shared.rows[i]);
       const double zi = z[at], rate = forcing.surface(c, t, order);
@@ -77,7 +77,7 @@ StateSystems::StateSystems(const Model& model, const linear::SystemMatrices& str
       const Contact& contact = model.contacts[c];
       if (contact.sticks_rigidly() && !contact::friction_varies(contact) &&
           contact.friction.static_ > contact.friction.kinetic)
-        holdable_.push_back(c);
+        static_limit_contacts_.push_back(c);
     }
 }
 
@@ -173,7 +173,7 @@ void StateSystems::invert(const std::vector<Rows>& rows, FactorisedStates& mode)
   }
 }
 
-/// Rows of the last state, with the rows of contacts whose states differ computed again.
+/// Rows of all contacts in these states. Only rows of contacts whose states differ from those of last_ are computed.
 std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& contact_states) const {
   if (!last_) return linear::rows_of(model_, contact_states);
   std::vector<Rows> result = last_->rows();
@@ -185,7 +185,7 @@ std::vector<Rows> StateSystems::rows_beside(const contact::ContactStates& contac
 
 StateSystemPtr StateSystems::system_of(const contact::ContactStates& contact_states) {
   if (last_ && last_->states() == contact_states)
-    return last_;  // a decision begins with the states in which the last one ended
+    return last_;  // frequent, because a decision begins with the states in which the last decision ended
   std::vector<Rows> rows = rows_beside(contact_states);
   std::shared_ptr<const FactorisedStates> factorised = by_mass(contact_states, rows);
   if (!factorised) factorised = cached(contact_states, rows);
@@ -201,17 +201,18 @@ bool StateSystems::held_by_others(std::size_t c, contact::ContactStates contact_
        matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states))) {
     const auto at =
         std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
-    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::has_share(shared.null, at))
+    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::participates_in(shared.null, at))
       continue;
     // z of the redundantly constrained motion with the largest z_c.
-    return moves_as_one(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t);
+    return surfaces_move_alike(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing,
+                               t);
   }
   return false;
 }
 
 void StateSystems::mark_static_limits(contact::ContactStates& contact_states, const Forcing& forcing,
                                       double t) const {
-  for (const std::size_t c : holdable_)
+  for (const std::size_t c : static_limit_contacts_)
     if (const int s = slip_sign(contact_states[c].state); s != 0) {
       const bool held = held_by_others(c, contact_states, forcing, t);
       contact_states[c].state = s > 0 ? (held ? State::static_limit_plus : State::slip_plus)
@@ -233,7 +234,7 @@ StateSystemPtr StateSystems::with_friction(const StateSystem& system, std::span<
 namespace {
 
 /// Changes x as little as possible in the norm of M so that the forms of the contacts' rows grow by `misses`. Returns the
-/// multipliers of these forms, with the unit of M times x.
+/// multipliers of these forms, with the unit of M times x; empty: all `misses` are zero.
 Eigen::VectorXd correct(const StateSystem& system, const std::vector<double>& misses, Vector& x) {
   if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return {};
   const std::size_t n = system.unknowns().dofs, size = system.unknowns().size();

@@ -102,18 +102,18 @@ class StateSystems {
   [[nodiscard]] StateSystemPtr with_friction(const StateSystem& system, std::span<const Form> tangents);
 
   /// True if other sticking or closed contacts keep contact c at rest on its surface, so that sticking of c would add no
-  /// constraint. With H z = 0 (linear/redundant_rows.hpp) the slip rate of c is -z.s'/z_c, s being the motions of the
-  /// surfaces. The rate is zero from t on if all derivatives of z.s are zero. If others hold c while its surface moves, c
-  /// slips.
+  /// constraint. With H z = 0 (linear/redundant_rows.hpp) the slip rate of c is -z.s'/z_c, where s contains the positions of
+  /// all surfaces. The rate is zero from t on if all derivatives of z.s are zero. If other contacts fix the body of c while
+  /// the surface of c moves, c slips.
   [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates states, const Forcing& forcing,
                                     double t) const;
 
-  /// Replaces slip_plus and slip_minus by static_limit_plus and static_limit_minus for contacts that other contacts hold, so
-  /// that they keep their static friction; does the inverse for contacts that are no longer held. Contacts whose static and
-  /// kinetic coefficients are equal stay unchanged.
+  /// Replaces slip_plus and slip_minus by static_limit_plus and static_limit_minus for contacts for which held_by_others() is
+  /// true, so that they keep their static friction; does the inverse for contacts for which it is false. Contacts whose static
+  /// and kinetic coefficients are equal stay unchanged.
   void mark_static_limits(contact::ContactStates& states, const Forcing& forcing, double t) const;
 
-  /// Groups of two or more contacts that may constrain the same motion. may_share(): the contact is in a group.
+  /// Groups of two or more contacts that may constrain the same motion. may_share(): true if the contact is in such a group.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& sharing() const {
     return matrix_.redundant_rows().groups();
   }
@@ -147,11 +147,11 @@ class StateSystems {
   const bool massless_;
   linear::SystemMatrix matrix_;  // the matrix in which systems are assembled
   std::vector<linear::Weights> weights_;
-  std::shared_ptr<const linear::TriangularFactors> mass_;  // nullptr: not used for this model
+  std::shared_ptr<const linear::TriangularFactors> mass_;  // factors of M; nullptr: not used for this model
   base::LruCache<std::vector<State>, std::shared_ptr<const FactorisedStates>> cache_;
   // Contacts that other contacts may hold and whose static friction exceeds the kinetic friction.
-  std::vector<std::size_t> holdable_;
-  StateSystemPtr last_;  // the system returned last
+  std::vector<std::size_t> static_limit_contacts_;
+  StateSystemPtr last_;  // result of the last system_of()
   long made_ = 0;
 };
 

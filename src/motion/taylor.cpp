@@ -16,7 +16,7 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
                                const Series& series)
     : contact_(&contact), index_(index), sign_(s) {
   if (contact.friction.is_load_dependent()) {
-    begin_by_force(normal, series);
+    begin_load_dependent(normal, series);
     return;
   }
   if (contact.sliding_point()) {
@@ -29,7 +29,7 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
 
 /// Starts the series for friction that depends on N. N_0 follows from g or q, because all degrees of freedom of such a
 /// contact have mass.
-void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
+void FrictionSeries::begin_load_dependent(const Form& normal, const Series& series) {
   const Friction& friction = contact_->friction;
   const double pressed = -normal_coefficient(*contact_, index_, normal, series, 0);
   limit_.emplace(friction, pressed);
@@ -44,10 +44,10 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const double *u = series.u.data(), *u1 = u + series.u.rows(), per_time = 1.0 / series.scale;
   const ForcingSeries& f = series.forcing;
   const double length = element.body.dot(u) - c.tangent.dot(u);
-  // Velocity of the body, relative to the surface.
+  // Velocity of the body relative to the surface, in the direction of slip.
   const double along = s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
-  // Growth of |N| without the part of a dashpot, which depends on accelerations (is_ambiguous()).
+  // Time derivative of |N| without the part of a dashpot, which depends on accelerations (is_ambiguous()).
   const double growth = normal.gap * per_time * c.normal.dot(u1) +
                         normal.applied_normal_force * per_time * f.applied_normal_force[index_ * f.count + 1];
   const double pull = s * element.stiffness * length + element.damping * along;
@@ -159,24 +159,24 @@ void Taylor::start_friction(const Forcing& forcing, Series& series) {
   for (const FrictionSeries& friction : friction_)
     for (const auto& [dof, factor] : model_.contacts[friction.contact()].tangent.terms)
       series.u(dof, 0) += factor * friction.jump();  // zero if the point has mass
-  if (StateSystemPtr at = at_friction()) system_ = std::move(at);
+  if (StateSystemPtr at = system_with_friction()) system_ = std::move(at);
 }
 
-StateSystemPtr Taylor::at_friction() const {
+StateSystemPtr Taylor::system_with_friction() const {
   std::vector<Form> rows;
   for (const FrictionSeries& friction : friction_) rows.push_back(friction.row());
   return systems_.with_friction(*system_, rows);
 }
 
-/// Points that may follow quasi-statically do so for two levels, which gives accelerations and thus the rates of the points.
-/// Points whose rate then reaches max_rate() stay quasi-static.
+/// Computes two levels in which all ambiguous points follow quasi-statically. They give accelerations and thus the rates of
+/// the points. Points whose rate reaches max_rate() stay quasi-static.
 void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   const std::vector<FrictionSeries> given = friction_;
   const StateSystemPtr own = system_;
   for (FrictionSeries& friction : friction_)
     if (friction.is_ambiguous()) friction.follow_quasi_statically();
   std::vector<FrictionSeries> settled = given;
-  if (StateSystemPtr at = at_friction()) {
+  if (StateSystemPtr at = system_with_friction()) {
     const Eigen::MatrixXd before = series.u;
     system_ = std::move(at);
     for (int k = 0; k < 2; ++k) level(forcing, k, series, nullptr);
@@ -189,7 +189,7 @@ void Taylor::resolve_ambiguities(const Forcing& forcing, Series& series) {
   friction_ = std::move(settled);
 }
 
-/// Adds those forces of curved surfaces that are not in K; they are products of two series.
+/// Adds those forces of curved surfaces that are not in K: products of the series of N and of ut.
 void Taylor::add_restoring_forces(int order, const Series& series) {
   for (const std::size_t c : curved_contacts_) {
     const Contact& contact = model_.contacts[c];
@@ -201,7 +201,7 @@ void Taylor::add_restoring_forces(int order, const Series& series) {
       const double* u = series.u.data() + (k - j) * static_cast<std::size_t>(series.u.rows());
       const double ut =
           contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
-      // The constant N_K is subtracted only once, in the term j = 0.
+      // The constant N_K (contact/curved_surface.hpp) is subtracted only once, in the term j = 0.
       force += j == 0 ? contact::restoring_force(contact, N, ut) : contact::restoring_product(contact, N, ut);
     }
     contact.body_tangent().add_to(x_, -force);
@@ -217,7 +217,7 @@ double Taylor::prescribed_value(const linear::PrescribedDof& p, int order, const
 }
 
 /// Known parts r and q of the normal and tangent row of contact c at level k: applied normal force, surface, gap, constants.
-void Taylor::known_of_rows(std::size_t c, int order, const Series& series, double& r, double& q) const {
+void Taylor::known_row_parts(std::size_t c, int order, const Series& series, double& r, double& q) const {
   const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
   const ForcingSeries& f = series.forcing;
   const double to_velocity = (order + 1) / series.scale;
@@ -270,7 +270,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
     for (std::size_t c = 0; c < mode.unknowns.layout.contacts(); ++c) {
       if (order > 0 && !(forcing.is_driven(c) && is_driven(series.forcing, c, order))) continue;
       double r = 0.0, q = 0.0;
-      known_of_rows(c, order, series, r, q);
+      known_row_parts(c, order, series, r, q);
       x[mode.unknowns.normal(c)] = -r;
       x[mode.unknowns.tangent(c)] = -q;
     }
@@ -399,7 +399,7 @@ void Taylor::perturb(const Forcing& forcing, int order, const DataPerturbation& 
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) measure_rows(c, order, motion, terms);
   for (std::size_t i = 0; i < x_.size(); ++i)
     x_[i] += parts_[i + x_.size() * static_cast<std::size_t>(order)] * terms[i];
-  // The rounding error of this level enters levels after the next one only approximately.
+  // The rounding error of u_(order + 2) enters the terms of later levels. Its magnitude is estimated by the mass alone.
   const double to_acceleration = (order + 1) * (order + 2) / (motion.scale * motion.scale);
   double* carried = sizes_.col(order + 2).data();
   for (std::size_t i = 0; i < known_u_.size(); ++i) carried[i] += mobility_[i] * terms[i] / to_acceleration;
@@ -445,7 +445,7 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series,
     const Contact& contact = model_.contacts[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
     double r = 0.0, q = 0.0;
-    if (order == 0 || forcing.is_driven(c)) known_of_rows(c, order, series, r, q);
+    if (order == 0 || forcing.is_driven(c)) known_row_parts(c, order, series, r, q);
     if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_.data());
     if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_.data());
     if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_.data());

@@ -24,14 +24,14 @@ namespace signorini::motion {
 //
 //   u(t + s z) = sum_k u_k z^k,   N, T, g and ut likewise
 
-/// Coefficients about t; column k: order k. v follows from u. The levels 0 to `levels` have been computed.
+/// Coefficients about t; column k: order k. The coefficients of v follow from those of u. Levels 0 to `levels` are computed.
 struct Series {
   double t = 0.0, scale = 1.0;
   int levels = 0;
   /// n x (levels + 3); valid to order `levels`, and two orders further for dofs with mass.
   Eigen::MatrixXd u;
   ForceLayout layout;
-  Eigen::MatrixXd forces;  ///< places of all contacts x (levels + 1)
+  Eigen::MatrixXd forces;  ///< one row per place of `layout`; levels + 1 columns
   ForcingSeries forcing;   ///< levels + 3 coefficients
 };
 
@@ -76,7 +76,7 @@ struct Series {
 
 class FrictionSeries {
  public:
-  /// Starts a series whose u_0 is known, and u_1 for degrees of freedom with mass. s: direction of slip; index: number of the
+  /// series: u_0 must be known, and u_1 of degrees of freedom with mass. s: sign of the slip rate; index: number of the
   /// contact; normal: its normal row.
   FrictionSeries(const Contact& contact, std::size_t index, int s, const Form& normal, const Series& series);
 
@@ -99,7 +99,7 @@ class FrictionSeries {
   [[nodiscard]] double known(int k, const Series& series);
 
  private:
-  void begin_by_force(const Form& normal, const Series& series);
+  void begin_load_dependent(const Form& normal, const Series& series);
   void begin_massless(int s, const Form& normal, const Series& series);
   [[nodiscard]] double slip_rate(std::size_t k, const Series& series) const;
 
@@ -134,12 +134,13 @@ class Taylor {
   void expand(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
               const Vector& v, int levels, double scale, Series& out,
               const DataPerturbation* disturbance = nullptr);
-  /// Same in two steps: begin() allocates memory for `levels` levels, extend() computes all levels up to the given one.
+  /// expand() in two steps: begin() allocates memory for `levels` levels, extend() computes all levels up to the given one.
   void begin(const StateSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
              int levels, double scale, Series& out, const DataPerturbation* disturbance = nullptr);
   void extend(const Forcing& forcing, int levels, Series& out, const DataPerturbation* disturbance = nullptr);
 
-  /// Adds loads to the structure at a level. Set for all later series; objects that the function refers to must outlive them.
+  /// Function that adds coefficients of additional loads to P at a level. It is used for all later series, so it must stay
+  /// callable until the last of them is computed.
   using AdditionalLoads = std::function<void(int level, double* P)>;
   void set_additional_loads(AdditionalLoads besides) { additional_loads_ = std::move(besides); }
 
@@ -155,11 +156,12 @@ class Taylor {
  private:
   void start_friction(const Forcing& forcing, Series& series);
   void resolve_ambiguities(const Forcing& forcing, Series& series);
-  [[nodiscard]] StateSystemPtr at_friction() const;
+  [[nodiscard]] StateSystemPtr system_with_friction() const;
   void add_restoring_forces(int k, const Series& series);
   [[nodiscard]] double prescribed_value(const linear::PrescribedDof& pinned, int k,
                                         const Series& series) const;
-  void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;
+  void known_row_parts(std::size_t contact, int k, const Series& series, double& normal,
+                       double& tangent) const;
   void level(const Forcing& forcing, int k, Series& series, const DataPerturbation* disturbance);
   template <std::size_t fixed_n, std::size_t fixed_size>
   void level_dense(const Forcing& forcing, int k, Series& series);

@@ -86,7 +86,7 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
     for (const linear::SharedForces& shared : decision.system->factorised().shared)
       for (std::size_t i = 0; i < shared.rows.size(); ++i)
         if (const std::string& name = model.contacts[model.layout.contact_of(shared.rows[i])].name;
-            linear::has_share(shared.null, static_cast<Eigen::Index>(i)) &&
+            linear::participates_in(shared.null, static_cast<Eigen::Index>(i)) &&
             (names.empty() || names.back() != name))
           names.push_back(name);
   // A contact at its limit that has no guard of the slip rate is held at rest by other contacts.

@@ -151,7 +151,8 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
           scene.contacts[k].key(remembers || multiplies || c.compliance_split() ? "law"
                                 : c.curved_surface()                            ? "radius"
                                                                                 : "friction"),
-          fmt::format("sensitivities cannot differentiate {}; use differences of runs (sweep)", what));
+          fmt::format("sensitivities cannot differentiate {}; use differences between runs of a sweep",
+                      what));
   }
 }
 

@@ -1,8 +1,8 @@
 // contact_rates.hpp: derivatives of a contact's motion and forces with respect to a parameter, at fixed time and at a moving
 // instant.
 //
-//   g_p = n . w + n_p . u + g0_p,   ut_p = t . w + t_p . u - s_p,   N_p and T_p directly
-//   Dx = x_p + x' dt/dp             derivative of x at a moving instant
+//   g_p = n . w + n_p . u + g0_p,   ut_p = t . w + t_p . u - s_p       w = u_p: tangent motion, computed with N_p and T_p
+//   Dx = x_p + x' dt/dp             derivative of x at an instant whose time depends on the parameter
 #pragma once
 
 #include "decide/decision.hpp"
@@ -48,7 +48,7 @@ struct WatchedMotion {
 [[nodiscard]] WatchedMotion watched(const Contact& contact, const ForceLayout& layout, std::size_t k,
                                     const Vector& u0, const SeriesPoint& point, const Vector& force_bends);
 
-/// Derivatives of ut and ut' of the touching body. Without a shear element these are those of parameter_rate().
+/// Derivatives of ut and ut' of the touching body. Without a shear element they are equal to ut and vt of parameter_rate().
 [[nodiscard]] motion::BodySlide slide_rate(const Contact& contact, const ContactRates& rates,
                                            const SeriesPoint& point, const SeriesPoint& tangent,
                                            const DrivenRates& driven);
@@ -73,16 +73,16 @@ struct LawRates {
   double gap = 0.0, gap_rate = 0.0;  ///< g0 and g0_p
   double surface = 0.0, surface_rate = 0.0;
 
-  /// N_p and T_p from g, ut and their derivatives with respect to the parameter. N_rate_by(), T_rate_by(): the same for N'_p,
+  /// N_p and T_p from g, ut and their derivatives with respect to the parameter. N_rate_derivative(), T_rate_derivative(): the same for N'_p,
   /// T'_p from g', ut'.
-  [[nodiscard]] double N_by(double g, double g_by) const { return law.N_gap * g_by + rates.N(g); }
-  [[nodiscard]] double T_by(double g, double g_by, double ut, double ut_by) const {
+  [[nodiscard]] double N_derivative(double g, double g_by) const { return law.N_gap * g_by + rates.N(g); }
+  [[nodiscard]] double T_derivative(double g, double g_by, double ut, double ut_by) const {
     return law.T_rate(g_by, ut_by) + rates.T(g, ut);
   }
-  [[nodiscard]] double N_rate_by(double vn, double vn_by) const {
+  [[nodiscard]] double N_rate_derivative(double vn, double vn_by) const {
     return law.N_rate(vn_by) + rates.N_rate(vn);
   }
-  [[nodiscard]] double T_rate_by(double vn, double vn_by, double vt, double vt_by) const {
+  [[nodiscard]] double T_rate_derivative(double vn, double vn_by, double vt, double vt_by) const {
     return law.T_rate(vn_by, vt_by) + rates.T_rate(vn, vt);
   }
 };

@@ -13,11 +13,17 @@ constexpr std::size_t few_terms = 3;  // coefficients of the forcing: value, fir
 
 std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.refine != Refine::root)
-    return "events are interpolated instead of located at roots of their guards";
-  if (run.step == StepControl::doubling) return "the step lengths depend on error estimates";
+    return "discrete derivatives need exact event times, but run.refine = \"linear\" gives interpolated "
+           "ones; set "
+           "run.refine = \"root\"";
+  if (run.step == StepControl::doubling)
+    return "discrete derivatives need steps of constant length, but run.step = \"doubling\" changes the "
+           "length; set "
+           "run.step = \"fixed\"";
   if (linear::has_massless(model)) return "discrete derivatives are not available for massless parts";
   for (const Contact& c : model.contacts)
-    if (contact::friction_varies(c)) return std::string("there is ") + contact::friction_description(c);
+    if (contact::friction_varies(c))
+      return std::string("discrete derivatives are not available for ") + contact::friction_description(c);
   return {};
 }
 
@@ -93,18 +99,18 @@ void DiscreteRun::factorise(double h) {
       matrix_.set(linear::rows_of(model_, contact_states_),
                   std::vector<linear::Weights>(static_cast<std::size_t>(model_.size()), weights), true);
   factored_ = done ? h : -1.0;
-  if (!done) stop("the matrix of a step is singular", node_.t);
+  if (!done) stop("the matrix of a time step is singular; another run.dt may help", node_.t);
 }
 
-DiscreteRun::Node DiscreteRun::redone(const motion::Forcing& forcing, double t) {
+DiscreteRun::Node DiscreteRun::repeat_step(const motion::Forcing& forcing, double t) {
   if (t == node_.t) return node_;
   Node end{t, {}};
   if (!step_.take(forcing, node_.point, t, t - node_.t, false, end.point))
-    stop("the matrix of a step is singular", t);
+    stop("the matrix of a time step is singular; another run.dt may help", t);
   return end;
 }
 
-/// Derivative of a contact's motion at a node, while the node itself moves.
+/// Derivative of a contact's motion at a node whose time depends on the parameter.
 ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const motion::Forcing& forcing, const Node& at,
                                  const NodeDerivative& moved, const ForcingRatesSeries& series) const {
   const Contact& contact = model_.contacts[c];
@@ -196,9 +202,9 @@ double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& 
   return ends.moved.t - standing / rate;
 }
 
-/// Computes an output row between nodes: the step is redone up to the output time, which does not move.
+/// Computes an output row between nodes: repeats the step up to the output time, which does not depend on the parameter.
 void DiscreteRun::row(const run::RunStep& step, double t) {
-  const Node at = redone(step.forcing, t);
+  const Node at = repeat_step(step.forcing, t);
   TangentSample sample{t, step.forcing, contact_states_, point_of(at.point), {}, {}, {}, {}};
   for (std::size_t p = 0; p < states_.size(); ++p) {
     sample.tangents.emplace_back();
@@ -216,7 +222,7 @@ void DiscreteRun::row(const run::RunStep& step, double t) {
 
 void DiscreteRun::step(const run::RunStep& step) {
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_) row(step, grid_[next_]);
-  const Node end = redone(step.forcing, step.step.end);
+  const Node end = repeat_step(step.forcing, step.step.end);
   std::vector<NodeDerivative> next = node_derivatives_;
   for (std::size_t p = 0; p < states_.size(); ++p) {
     if (!states_[p].valid) continue;
@@ -336,7 +342,7 @@ void DiscreteRun::rows_at(const run::RunInstant& instant) {
         grid_[next_], instant.forcing_after, contact_states_, point_of(node_.point), {}, {}, {}, {}};
     for (std::size_t p = 0; p < states_.size(); ++p) {
       const NodeDerivative& m = node_derivatives_[p];
-      const bool known = states_[p].valid && m.t == 0.0;  // a moving row has no derivative
+      const bool known = states_[p].valid && m.t == 0.0;  // output times are fixed, so the node must not move
       sample.tangents.push_back(known ? SeriesPoint{m.u, m.v, m.a, m.forces, Vector::Zero(m.forces.size())}
                                       : SeriesPoint{});
       sample.driven.emplace_back();

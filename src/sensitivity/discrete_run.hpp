@@ -6,13 +6,14 @@
 //   M Da1 + C Dv1 + K Du1 + sum ( n DN1 + t DT1 )
 //     = DP(t1) - M_p a1 - C_p v1 - K_p u1 - sum ( n_p N1 + t_p T1 ),   rows of the contacts likewise
 //
-// D: derivative along the nodes of the time grid, which move. A regular step keeps its length, Dt1 = Dt0. A step that ends at
-// a jump of a load or at the end of the run has a fixed end. A step redone to an event ends where DG = 0, a linear equation
-// in Dt1. After an event a0 follows from equilibrium, by the same equations with h = 0. The steps are repeated here, starting
-// from the engine's states.
+// D: derivative along the nodes of the time grid, whose times depend on the parameter. A regular step keeps its length:
+// Dt1 = Dt0. At a jump of a load Dt1 is the derivative of the time of the jump; at the end of the run Dt1 = 0. For a step up
+// to an event, DG = 0 (G: guard) is a linear equation for Dt1. After an event a0 follows from equilibrium, by the same
+// equations with h = 0. The class repeats all steps of the engine, and takes the engine's state after each instant.
 //
-// Requirements: steps of constant length, events at roots of guards, no massless parts, no rate-dependent friction. If one is
-// violated, TangentState::reason names it. The results check the derivatives of the exact motion; both agree to O(h^2).
+// Requirements: steps of constant length, events at roots of guards, no massless parts, no rate-dependent friction. If a
+// requirement is violated, TangentState::reason names it. The results are used to check the derivatives of the exact motion;
+// both agree to O(h^2).
 #pragma once
 
 #include "engine/newmark/newmark_step.hpp"
@@ -50,13 +51,14 @@ class DiscreteRun final : public run::RunListener {
   struct Ends {
     const Node &from, &to;
     const NodeDerivative& moved;
-    const ForcingRatesSeries& forcing;  ///< at the end of the step, as a series with scale 1
+    const ForcingRatesSeries&
+        forcing;  ///< derivatives of the forcing at the end of the step, as a series with scale 1
   };
   struct Rest;
 
   void stop(const std::string& reason, double t);
   void factorise(double h);
-  [[nodiscard]] Node redone(const motion::Forcing& forcing, double t);
+  [[nodiscard]] Node repeat_step(const motion::Forcing& forcing, double t);
   [[nodiscard]] ForcingRatesSeries forcing_at(std::size_t parameter, double t) const;
   [[nodiscard]] NodeDerivative advance(std::size_t parameter, const motion::Forcing& forcing,
                                        const Ends& ends, double Dt);

@@ -26,15 +26,15 @@ constexpr int max_restarts = 8;  // restarts from the other side of a kink; chos
 constexpr double key_tolerance = 1e-9, gradient_tolerance = 1e-12, sum_tolerance = 0.0;
 // Step length, relative to a key's sigma, below which a step is insignificant. Chosen value.
 constexpr double insignificant_step = 0.1;
-// Two slopes are opposite if a convex combination of them is shorter than this, relative to the longer slope. Chosen value.
+// Two slopes are opposite if a convex combination of them is shorter than this fraction of the longer slope. Chosen value.
 constexpr double opposite = 1e-3;
-// The fit is rejected if the probability of its chi squared is lower; this rejects one correct fit in a million.
+// Smallest probability of chi squared in an accepted fit; this limit rejects one correct fit in a million.
 constexpr double least_probability = 1e-6;
 // Without sigmas: largest norm of the residuals, relative to the measured numbers, in an accepted fit. Chosen value; a wrong
 // unit gives about 1.
 constexpr double max_relative_residual = 0.5;
 
-/// During its lifetime GSL returns error codes instead of aborting the program.
+/// While an object of this class exists, GSL returns error codes instead of aborting the program.
 class GslErrorsReturned {
  public:
   GslErrorsReturned() : before_(gsl_set_error_handler_off()) {}
@@ -63,13 +63,13 @@ int gsl_derivatives(const gsl_vector* x, void* problem, gsl_matrix* J) {
 using Workspace = std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)>;
 
 /// Result of one descent by the Levenberg-Marquardt method.
-struct FitPlace {
+struct FitMinimum {
   std::vector<double> keys;
   double chi_squared = 0.0;
   int status = GSL_SUCCESS, iterations = 0;
 };
 
-FitPlace descend(sensitivity::FitProblem& problem, const std::vector<double>& from) {
+FitMinimum descend(sensitivity::FitProblem& problem, const std::vector<double>& from) {
   gsl_multifit_nlinear_fdf fdf{};
   fdf.f = gsl_residuals;
   fdf.df = gsl_derivatives;
@@ -81,12 +81,13 @@ FitPlace descend(sensitivity::FitProblem& problem, const std::vector<double>& fr
   const Workspace w(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, fdf.n, fdf.p),
                     gsl_multifit_nlinear_free);
   const gsl_vector_const_view first = gsl_vector_const_view_array(from.data(), from.size());
-  FitPlace place{from, 0.0, gsl_multifit_nlinear_init(&first.vector, &fdf, w.get()), 0};
+  FitMinimum place{from, 0.0, gsl_multifit_nlinear_init(&first.vector, &fdf, w.get()), 0};
   int info = 0;
   if (place.status == GSL_SUCCESS) {
     place.status = gsl_multifit_nlinear_driver(most_iterations, key_tolerance, gradient_tolerance,
                                                sum_tolerance, nullptr, nullptr, &info, w.get());
-    if (info == GSL_ENOPROG) place.status = GSL_ENOPROG;  // GSL reports EMAXITER at the first step
+    if (info == GSL_ENOPROG)
+      place.status = GSL_ENOPROG;  // the driver returns EMAXITER if the first step fails
     place.keys = keys_of(gsl_multifit_nlinear_position(w.get()));
     place.iterations = static_cast<int>(gsl_multifit_nlinear_niter(w.get()));
   }
@@ -144,15 +145,17 @@ class Fitter {
 
  private:
   static constexpr const char* beyond =
-      "; the sum of squares decreases beyond the bound, but there the scene allows no value or the run lacks "
-      "measured events";
-  /// Linearises the residuals at these keys, or slightly beside them if two events coincide.
+      "; the sum of squares decreases further beyond the bound, but there the scene refuses the value or the "
+      "run "
+      "lacks measured events";
+  /// Linearises the residuals at these keys, or at keys nearby if two events coincide.
   bool linear_at(const std::vector<double>& keys) {
     if (!problem_.residuals(keys, *f_)) return false;
     if (!problem_.derivatives(keys, *J_)) return false;
     here_ = sensitivity::linear_fit(*f_, *J_, problem_.size(), problem_.measured_norm());
     return true;
   }
+  /// Variance of the residuals: 1 if the measurements have sigmas, otherwise estimated from chi squared.
   [[nodiscard]] double factor() const {
     const std::size_t rows = problem_.rows();
     return measured_.has_sigma || rows <= here_.rank
@@ -160,7 +163,7 @@ class Fitter {
                : place_.chi_squared / static_cast<double>(rows - here_.rank);
   }
   /// True if the linearised step from these keys ends at the result of the descent, within tolerances.
-  [[nodiscard]] bool leads_to_place(const std::vector<double>& keys) const {
+  [[nodiscard]] bool leads_to_result(const std::vector<double>& keys) const {
     for (std::size_t p = 0; p < keys.size(); ++p) {
       if (!here_.determined[p]) continue;
       const double sigma = std::sqrt(factor() * here_.covariance[p][p]);
@@ -173,8 +176,8 @@ class Fitter {
   /// Examines both sides of every key, and descends from a side on which the sum of squares decreases away from the result.
   /// Returns true if a lower sum was found.
   bool examine_both_sides() {
-    level_ = linear_at(place_.keys) && leads_to_place(place_.keys);
-    falls_ = kink_ = false;
+    level_ = linear_at(place_.keys) && leads_to_result(place_.keys);
+    decreases_at_side_ = has_kink_ = false;
     slopes_.clear();
     incomplete_sides_.clear();
     for (std::size_t p = 0; p < problem_.keys(); ++p)
@@ -189,22 +192,23 @@ class Fitter {
         std::vector<double> slope = here_.slope;
         for (std::size_t k = 0; k < slope.size(); ++k) slope[k] *= problem_.size()[k];
         slopes_.push_back(slope);
-        if (leads_to_place(keys)) continue;
-        kink_ = true;
+        if (leads_to_result(keys)) continue;
+        has_kink_ = true;
         if (side * slope[p] >= 0.0) continue;  // the sum increases
-        const FitPlace other = descend(problem_, keys);
+        const FitMinimum other = descend(problem_, keys);
         iterations_ += other.iterations;
         if (other.chi_squared < place_.chi_squared) {
           place_ = other;
           return true;
         }
-        falls_ = true;
+        decreases_at_side_ = true;
       }
     return false;
   }
+  /// True if the sum of squares has a minimum at the result: with slope zero, or at a kink with opposite slopes.
   [[nodiscard]] bool settled() const {
-    if (level_) return !falls_;
-    if (falls_ || !kink_) return false;
+    if (level_) return !decreases_at_side_;
+    if (decreases_at_side_ || !has_kink_) return false;
     for (std::size_t i = 0; i < slopes_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (are_opposite(slopes_[i], slopes_[j])) return true;
@@ -256,16 +260,17 @@ class Fitter {
       if (!(result.probability >= least_probability))
         result.issues.push_back(
             fmt::format("chi squared is {:.3g} for {} degrees of freedom: the measurements differ from the "
-                        "run by more than their sigmas; {}, or leave sigma out",
+                        "run by more than their sigmas; {}, or remove the column sigma",
                         result.chi_squared, result.freedom, advice));
       return;
     }
     const double measured = problem_.measured_norm();
     const double left = measured > 0.0 ? std::sqrt(result.chi_squared) / measured : 0.0;
     if (!(left <= max_relative_residual))
-      result.issues.push_back(
-          fmt::format("the residual is {:.2g} times the measured numbers: the run does not explain them; {}",
-                      left, advice));
+      result.issues.push_back(fmt::format(
+          "the norm of the residuals is {:.2g} times the norm of the measured numbers: the run does not "
+          "explain the measurements; {}",
+          left, advice));
   }
 
   sensitivity::FitProblem& problem_;
@@ -273,16 +278,17 @@ class Fitter {
   sensitivity::GslVector f_;
   sensitivity::GslMatrix J_;
   sensitivity::LinearFit here_;
-  FitPlace place_;
-  std::vector<std::vector<double>> slopes_;  // slopes on the sides of the result, in units of key sizes
+  FitMinimum place_;
+  std::vector<std::vector<double>>
+      slopes_;  // slopes of the sum of squares at keys near the result, per key size
   int iterations_ = 0;
   std::vector<std::pair<std::size_t, double>>
       incomplete_sides_;  // keys and sides at which a run is incomplete
   // true for keys at whose bound the sum of squares still decreases
   std::vector<bool> at_bound_;
-  bool level_ = false;  // true: the slope is zero at the result
-  bool kink_ = false;   // true: the slopes on both sides of some key differ
-  bool falls_ = false;  // true: the sum decreases on some side, but no lower sum was found
+  bool level_ = false;              // true: the slope is zero at the result
+  bool has_kink_ = false;           // true: the slopes on both sides of some key differ
+  bool decreases_at_side_ = false;  // true: the sum decreases on some side, but no lower sum was found
 };
 
 }  // namespace
@@ -350,7 +356,7 @@ class MeasuredTable {
       add_columns(result.rows);
     }
     if (result.rows.empty()) fail(2, "found no measurement, expected at least one row");
-    refuse_twice(result.rows);
+    refuse_duplicates(result.rows);
     return result;
   }
 
@@ -364,8 +370,8 @@ class MeasuredTable {
     throw Error(ExitCode::scene, fmt::format("{}:{}:{}: {}: {}", path_, line_, column + 1,
                                              base::excerpt(reader_.header()[column]), message));
   }
-  /// Refuses measurements that occur twice, because they would be counted twice.
-  void refuse_twice(const std::vector<Measurement>& rows) const {
+  /// Refuses measurements that occur twice, because they would have double weight.
+  void refuse_duplicates(const std::vector<Measurement>& rows) const {
     std::map<std::tuple<std::size_t, std::string, double>, long> lines;
     for (const Measurement& m : rows) {
       const auto [first, is_new] = lines.try_emplace({m.event, m.column, m.event > 0 ? 0.0 : m.t}, m.line);
@@ -394,7 +400,7 @@ class MeasuredTable {
     const double t = number_at(t_);
     if (t < 0.0)
       fail_at(t_,
-              fmt::format("found {}, expected a time from 0, the start of the run", base::format_number(t)));
+              fmt::format("found {}, expected a time >= 0; the run starts at t = 0", base::format_number(t)));
     return t;
   }
   [[nodiscard]] double sigma() const {
@@ -407,7 +413,7 @@ class MeasuredTable {
     Measurement m;
     const double index = number_at(event_);
     if (index < 1.0 || index != std::floor(index) || index > 1e9)
-      fail_at(event_, fmt::format("found {}, expected a row of events.csv, from 1", index));
+      fail_at(event_, fmt::format("found {}, expected the number of a row of events.csv (1, 2, ...)", index));
     m.event = static_cast<std::size_t>(index);
     if (contact_ != none) m.contact = reader_.cell(contact_);
     if (type_ != none) m.type = reader_.cell(type_);

@@ -52,11 +52,12 @@ void FitProblem::start(std::vector<double>& keys) {
   if (!run(keys)) return;
   size_.resize(keys.size());
   for (std::size_t p = 0; p < keys.size(); ++p) {
-    constexpr double steps_of_size = 512.0;  // key's size / Parameter::step
-    size_[p] = keys[p] != 0.0 ? std::abs(keys[p]) : steps_of_size * std::abs(last_.parameters[p].step);
+    constexpr double size_step_ratio = 512.0;  // ratio of a key's size to Parameter::step
+    size_[p] = keys[p] != 0.0 ? std::abs(keys[p]) : size_step_ratio * std::abs(last_.parameters[p].step);
   }
   std::size_t row = 0;
-  if (const std::string why = missing_quantity(row); !why.empty()) refuse(row, "at the start " + why);
+  if (const std::string why = missing_quantity(row); !why.empty())
+    refuse(row, "with the start values " + why);
   const std::string why = missing_rate();
   if (why.empty()) return;
   // At the start two events may coincide, as for equal contacts that start with the same friction. With slightly different
@@ -69,7 +70,7 @@ void FitProblem::start(std::vector<double>& keys) {
       keys = near;
       return;
     }
-  throw UsageError("at the start " + why);
+  throw UsageError("with the start values " + why);
 }
 
 bool FitProblem::residuals(const std::vector<double>& keys, gsl_vector& f) {
@@ -117,8 +118,8 @@ std::string FitProblem::missing_quantity(std::size_t& row) const {
     const Measurement& m = measured_.rows[row];
     if (m.event == 0) {
       if (!std::isfinite(residual(row)))
-        return fmt::format("the run, which ends at t = {}, has no {} at {}", last_.report.outcome.t, m.column,
-                           m.t);
+        return fmt::format("the run has no value of {1} at t = {2}; it ends at t = {0}",
+                           last_.report.outcome.t, m.column, m.t);
     } else if (m.event > last_.events.size()) {
       return fmt::format("the run has {}, but no event {}", base::count_text(last_.events.size(), "event"),
                          m.event);
@@ -144,7 +145,7 @@ std::string FitProblem::missing_rate() const {
   for (std::size_t i = 0; i < rows(); ++i)
     for (std::size_t p = 0; p < paths_.size(); ++p)
       if (!std::isfinite(rate_of(i, p)))
-        return fmt::format("measured number {} has no derivative by {}: {}", i + 1, paths_[p],
+        return fmt::format("measured number {} has no derivative with respect to {}: {}", i + 1, paths_[p],
                            last_.parameters[p].reason);
   return {};
 }
@@ -208,12 +209,13 @@ namespace {
 
 // Derivatives are accurate to 1e-9 or better, because the differences of model data have that accuracy
 // (model_derivative.hpp). If changing a key by its own size changes the measured numbers by less than this fraction, the
-// change is rounding.
+// change is a rounding error.
 constexpr double rounding_of_rates = 1e-9;
-// Limit for singular values, relative to the largest one of J with columns of norm 1. Rounding leaves about 1e-9 for two keys
-// with the same effect. Chosen value, between that and 1e-3, where measurements may still distinguish two keys.
+// Limit for singular values, relative to the largest one of J with columns of norm 1. For two keys with the same effect,
+// rounding errors give about 1e-9; at 1e-3 measurements may still distinguish two keys. Chosen value between both.
 constexpr double dependent = 1e-6;
-// Least component of a key in an undetermined combination of norm 1. Chosen value, far above rounding / dependent.
+// A key is undetermined if its component in an undetermined combination (norm 1) exceeds this limit. Chosen value, far above
+// the rounding error 1e-9 divided by `dependent`.
 constexpr double takes_part = 1e-2;
 
 }  // namespace

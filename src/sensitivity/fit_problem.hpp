@@ -45,7 +45,7 @@ class FitProblem {
   void start(std::vector<double>& keys);
   /// Computes f. Returns false if the first run threw an exception (see failure()), or after an interrupt.
   bool residuals(const std::vector<double>& keys, gsl_vector& f);
-  /// Computes J. Returns false for the reasons of residuals(), or if a derivative does not exist.
+  /// Computes J. Returns false if the first run threw an exception, after an interrupt, or if a derivative does not exist.
   bool derivatives(const std::vector<double>& keys, gsl_matrix& J);
   /// True if the run with these keys contains all measured quantities and their derivatives.
   bool complete(const std::vector<double>& keys);
@@ -85,7 +85,7 @@ class FitProblem {
 //   step = - D^-1 V S^+ U^T f                    minimises |f + J step|
 //   covariance = D^-1 V (S^+)^2 V^T D^-1
 //
-// S^+ leaves out singular values that are zero up to rounding. Keys with a component in such a direction are undetermined.
+// S^+ omits singular values that are zero up to rounding. Keys with a component in such a direction are undetermined.
 
 struct GslFree {
   void operator()(gsl_matrix* m) const { gsl_matrix_free(m); }
@@ -97,8 +97,8 @@ using GslVector = std::unique_ptr<gsl_vector, GslFree>;
 struct LinearFit {
   std::vector<double> step, slope;  ///< step: change of the keys; slope: J^T f
   std::vector<std::vector<double>> covariance;
-  std::vector<bool> determined;
-  std::size_t rank = 0;
+  std::vector<bool> determined;  ///< false: the measurements do not determine the key
+  std::size_t rank = 0;          ///< number of singular values that are not zero up to rounding
 };
 
 /// Solves the linearised problem. f: residuals / sigmas; J: derivatives of f, with at least as many rows as keys; size: size

@@ -22,7 +22,7 @@ namespace signorini::sensitivity {
 void add_rate_series(const Piece& piece, const Piece& rates, double t, double scale, std::size_t count,
                      double factor, double* out);
 
-/// Derivatives in the layout of ForcingSeries: rows of `count` coefficients, one row per contact; `load` by columns.
+/// Derivatives of the forcing, stored like ForcingSeries: rows of `count` coefficients, one row per contact; `load` by columns.
 struct ForcingRatesSeries {
   std::size_t count = 0;
   bool loaded = false;   ///< false: `load` is zero
@@ -62,12 +62,12 @@ struct MovingBreakpoint {
 //
 //   (K + sum_closed kn n n^T) w = P_p - K_p u0 - sum_closed ( n_p N + n N_p ),   N_p = kn_p g + kn (g0_p + n_p . u0)
 //   rigid contacts: K w + sum n N_p = P_p - K_p u0 - sum n_p N,   n . w = -g0_p - n_p . u0
-//   t_h . w = -t_h,p . u0 at contacts that hold a motion without stiffness
+//   t_h . w = -t_h,p . u0 at contacts h whose tangent fixes a motion without stiffness
 //
 // A difference of two equilibria would have the rounding errors of their solves divided by the step; this derivative has the
 // rounding errors of one solve.
 
-/// w for a model with a frictionless static start; nullopt: the matrix is singular even if contacts hold tangents.
+/// w for a model with a frictionless static start; nullopt: the matrix is singular even with fixed tangents of contacts.
 [[nodiscard]] std::optional<Vector> static_rate(const Model& model, const ModelDerivative& derivative);
 
 }  // namespace signorini::sensitivity

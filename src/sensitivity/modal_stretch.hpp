@@ -15,6 +15,8 @@ namespace signorini::sensitivity {
 inline constexpr double max_part_decay = 4.0;
 /// Largest ratio of a mode's constant part p/l to its amplitude. At this limit three digits are lost.
 inline constexpr double max_static_ratio = 4096.0;
+
+/// Interface of ModalStretchOf for both kinds of modes. at(), motion(): see ModalTangents.
 class ModalStretch {
  public:
   virtual ~ModalStretch() = default;
@@ -55,7 +57,7 @@ class ModalStretchOf final : public ModalStretch {
     choose_static_part();
     known_ = &states();
     for (std::size_t p = 0; p < sources_.size(); ++p) {
-      Followed& f = followed_.emplace_back();
+      ModalTangent& f = followed_.emplace_back();
       if (sources_[p].start == nullptr) continue;
       put(sources_[p].start->u, sources_[p].start->v, f.now);
       f.modes = &known_->parameters[p];
@@ -90,9 +92,10 @@ class ModalStretchOf final : public ModalStretch {
   }
 
  private:
-  struct Followed {
-    modal::ModalPoint now, moved;
-    modal::Amplitudes force;  // constant force
+  /// The tangent of one parameter in modal coordinates.
+  struct ModalTangent {
+    modal::ModalPoint now, moved;  // at the beginning and at the end of a step
+    modal::Amplitudes force;       // constant force
     const ParameterModes<S>* modes = nullptr;
   };
 
@@ -108,7 +111,7 @@ class ModalStretchOf final : public ModalStretch {
           modal::force_law(model_.contacts[c], states_[c], forcing_.applied_normal_force(c, begin_, 0)));
   }
 
-  /// Chooses the constant part p/l of each mode; it is not split off if it is far larger than the motion.
+  /// Splits the constant part p/l from the motion of each mode, unless it is far larger than the motion (soft_).
   void choose_static_part() {
     const std::vector<S> z = modes_of<S>(now_.z);
     static_part_.assign(l_.size(), S(0.0));
@@ -140,12 +143,12 @@ class ModalStretchOf final : public ModalStretch {
       store_.pairs.clear();
       store_.bytes = 0;
     }
-    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // matrices of the usual step
+    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // memory of C and S for the usual step
     return store_.keep(key, std::move(made));
   }
 
-  /// Sets the terms f that do not depend on the motion.
-  void set_constant(std::size_t p, Followed& f) const {
+  /// Sets the constant force of a tangent: the terms f of modal_tangents.hpp, which do not depend on the motion.
+  void set_constant(std::size_t p, ModalTangent& f) const {
     const TangentSource& source = sources_[p];
     Vector q = Vector::Zero(model_.size());
     if (source.forcing.loaded) q += modes_.basis().shapes().transpose() * source.forcing.load.col(0);
@@ -154,8 +157,8 @@ class ModalStretchOf final : public ModalStretch {
       const ContactRates& rates = derivatives_[p]->contacts[c];
       const LawRates at = law_rates(contact, c, states_[c], rates, forcing_, begin_, source);
       const double N = at.law.N(at.gap), T = at.law.T(at.gap, -at.surface);
-      const double N_p = at.N_by(at.gap, at.gap_rate);
-      const double T_p = at.T_by(at.gap, at.gap_rate, -at.surface, -at.surface_rate);
+      const double N_p = at.N_derivative(at.gap, at.gap_rate);
+      const double T_p = at.T_derivative(at.gap, at.gap_rate, -at.surface, -at.surface_rate);
       if (N_p != 0.0) q -= N_p * modes_.basis().amplitudes_of(contact.normal);
       if (T_p != 0.0) q -= T_p * modes_.basis().amplitudes_of(contact.tangent);
       if (any_term(rates.normal)) q -= N * modes_.basis().amplitudes_of(rates.normal);
@@ -178,11 +181,12 @@ class ModalStretchOf final : public ModalStretch {
     if (!usual || pairs.size() == 0) pairs.fill(l_, modes_.alpha(), time);
     move(pairs);
     std::swap(now_, moved_);
-    for (Followed& f : followed_) std::swap(f.now, f.moved);
+    for (ModalTangent& f : followed_) std::swap(f.now, f.moved);
     t_ += time;
   }
 
-  /// y_l[k, l] of the motion without its constant part, of its rate, and the time derivatives of both.
+  /// Computes for all pairs of modes y_l[k, l] (oscillator_pairs.hpp) of the motion without its constant part and of the rate
+  /// of the motion, and the time derivatives of both.
   void fill_driven(OscillatorPairs<S>& pairs) {
     const std::size_t n = l_.size();
     std::vector<S> z = modes_of<S>(now_.z), r = modes_of<S>(now_.rate), a(n, S(0.0));
@@ -220,7 +224,7 @@ class ModalStretchOf final : public ModalStretch {
     if (has_damping_rates_) drive(r, a, work_.dragging, work_.dragging_rate);
   }
 
-  /// Advances a motion from one point with constant forces only.
+  /// Advances every mode independently under a constant force, by the time of `pairs`.
   void turn(const modal::ModalPoint& from, const modal::Amplitudes& force, const OscillatorPairs<S>& pairs,
             modal::ModalPoint& to) const {
     const std::size_t reals = from.z.real.size(), count = from.z.pair.size();
@@ -246,7 +250,7 @@ class ModalStretchOf final : public ModalStretch {
     fill_driven(pairs);
     const std::size_t n = l_.size();
     std::vector<S> add(n), add_rate(n);
-    for (Followed& f : followed_) {
+    for (ModalTangent& f : followed_) {
       if (f.modes == nullptr) continue;
       turn(f.now, f.force, pairs, f.moved);
       const auto sum = [&](const Square<S>& b, const Square<S>& y, std::vector<S>& out) {
@@ -296,7 +300,7 @@ class ModalStretchOf final : public ModalStretch {
       out.a = Vector::Zero(model_.size());
   }
 
-  [[nodiscard]] modal::Amplitudes second_of_tangent(const Followed& f) const {
+  [[nodiscard]] modal::Amplitudes second_of_tangent(const ModalTangent& f) const {
     modal::Amplitudes a = oscillators_.accelerations(f.now, f.force);
     std::vector<S> z = modes_of<S>(now_.z), drive(z.size(), S(0.0));
     for (std::size_t k = 0; k < z.size(); ++k) z[k] -= static_part_[k];
@@ -312,7 +316,7 @@ class ModalStretchOf final : public ModalStretch {
     whole ? physical(now_, &bend, result.motion) : show(now_, &bend, result.motion);
     forces_at(result);
     for (std::size_t p = 0; p < followed_.size(); ++p) {
-      const Followed& f = followed_[p];
+      const ModalTangent& f = followed_[p];
       SeriesPoint& w = result.tangents.emplace_back();
       if (f.modes == nullptr) continue;
       if (whole) {
@@ -360,13 +364,13 @@ class ModalStretchOf final : public ModalStretch {
       const double gap = contact.gap_at(m.u), ut = contact.tangent.dot(m.u) - at.surface;
       const double gap_p = contact.normal.dot(w.u) + rates.normal.dot(m.u) + at.gap_rate;
       const double ut_p = contact.tangent.dot(w.u) + rates.tangent.dot(m.u) - at.surface_rate;
-      w.forces[n] = at.N_by(gap, gap_p);
-      w.forces[t] = at.T_by(gap, gap_p, ut, ut_p);
+      w.forces[n] = at.N_derivative(gap, gap_p);
+      w.forces[t] = at.T_derivative(gap, gap_p, ut, ut_p);
       const double vn = contact.normal.dot(m.v), vt = contact.tangent.dot(m.v);
       const double vn_p = contact.normal.dot(w.v) + rates.normal.dot(m.v);
       const double vt_p = contact.tangent.dot(w.v) + rates.tangent.dot(m.v);
-      w.force_rates[n] = at.N_rate_by(vn, vn_p);
-      w.force_rates[t] = at.T_rate_by(vn, vn_p, vt, vt_p);
+      w.force_rates[n] = at.N_rate_derivative(vn, vn_p);
+      w.force_rates[t] = at.T_rate_derivative(vn, vn_p, vt, vt_p);
     }
   }
 
@@ -381,16 +385,17 @@ class ModalStretchOf final : public ModalStretch {
   double t_, begin_;
   std::vector<TangentSource> sources_;
   modal::Oscillators oscillators_;
+  // Eigenvalue and constant force of each mode; p/l, if it is split off, else 0; p, if p/l is not split off, else 0.
   std::vector<S> l_, p_, static_part_, soft_;
-  std::size_t rows_;  // number of modes, where a conjugate pair counts once
+  std::size_t rows_;  // number of modes, with one mode for each conjugate pair
   std::vector<modal::ForceLaw> laws_;
   modal::Amplitudes force_;
   modal::ModalPoint now_, moved_;
-  std::vector<Followed> followed_;
+  std::vector<ModalTangent> followed_;
   bool has_damping_rates_ = false;
   const std::vector<Eigen::Index>& shown_;
-  double usual_;
-  StateStore<S>* known_ = nullptr;
+  double usual_;                    // most frequent step length, for which data are stored
+  StateStore<S>* known_ = nullptr;  // stored data of the contact state
   StepWorkspace<S>& work_;
 };
 

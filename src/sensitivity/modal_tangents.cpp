@@ -51,7 +51,7 @@ bool ModalTangents::start(modal::ModalSystem& modes, const decide::Decision& dec
   if (!store_) {
     store_ = std::make_unique<TangentCache>();
     for (const ModelDerivative* d : derivatives_) {
-      OpenRates& open = store_->open.emplace_back();
+      UnconstrainedRates& open = store_->open.emplace_back();
       const auto in_modes = [&](const SparseMatrix& a) {
         return Eigen::MatrixXd(modes.basis().shapes().transpose() * (a * modes.basis().shapes()));
       };

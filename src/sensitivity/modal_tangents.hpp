@@ -37,7 +37,7 @@ struct TangentCache;
 class ModalTangents {
  public:
   /// For models whose motion can be computed in modes (proportional_refusal). Model and derivatives must outlive the object.
-  /// usual: most frequent distance of requested times, for which data are kept.
+  /// usual: most frequent time between two requested times; data for steps of this length are stored.
   ModalTangents(const Model& model, const std::vector<const ModelDerivative*>& derivatives, double usual);
   ~ModalTangents();
   ModalTangents(const ModalTangents&) = delete;
@@ -67,7 +67,7 @@ class ModalTangents {
 //   per state: B and G of every parameter (state_rates.hpp), displayed rows of the state's modes,
 //              data of the usual step
 
-/// Largest size of the store in bytes; if it is exceeded, all states are dropped. Chosen value.
+/// Largest size of the store in bytes; if it is exceeded, all stored states are removed. Chosen value.
 inline constexpr std::size_t max_state_bytes = std::size_t{1} << 28;
 
 template <class S>
@@ -77,7 +77,7 @@ struct StateStore {
   OscillatorPairs<S> usual;  // for the usual step; empty: not yet computed
 };
 
-/// Scratch arrays of one step.
+/// Scratch arrays of one step. driven, dragging: y_l[k, l] of the motion and of its rate; ..._rate: their time derivatives.
 template <class S>
 struct StepWorkspace {
   OscillatorPairs<S> pairs;
@@ -85,7 +85,7 @@ struct StepWorkspace {
 };
 
 struct TangentCache {
-  std::vector<OpenRates> open;
+  std::vector<UnconstrainedRates> open;
   std::map<std::vector<State>, StateStore<double>> real;
   std::map<std::vector<State>, StateStore<modal::Complex>> pairs;
   std::size_t bytes = 0;

@@ -34,18 +34,18 @@ const Stencil& one_sided_points() {
 
 namespace {
 
-// Least number of coefficients of a piece, so that each zero coefficient also has a place for its derivative. It is that of
-// the integral of a cubic.
+// Smallest number of stored coefficients of a piece, so that each zero coefficient also has a place for its derivative: five,
+// as for the integral of a cubic.
 constexpr std::size_t min_coefficients = 5;
 
-HistoryRates numbers_of(const History& history) {
+HistoryRates stored_numbers(const History& history) {
   HistoryRates numbers{history.starts(), history.pieces()};
   for (Piece& piece : numbers.pieces)
     if (piece.coefficients.size() < min_coefficients) piece.coefficients.resize(min_coefficients, 0.0);
   return numbers;
 }
 
-ContactRates numbers_of(const Contact& contact) {
+ContactRates stored_numbers(const Contact& contact) {
   ContactRates c;
   c.normal = contact.normal;
   c.tangent = contact.tangent;
@@ -56,8 +56,8 @@ ContactRates numbers_of(const Contact& contact) {
   c.restitution = contact.restitution;
   c.friction = contact.friction;
   if (const ShearElement* element = contact.sliding_point()) c.shear_stiffness = element->stiffness;
-  c.normal_force = numbers_of(contact.normal_force);
-  c.surface_motion = numbers_of(contact.surface_motion);
+  c.normal_force = stored_numbers(contact.normal_force);
+  c.surface_motion = stored_numbers(contact.surface_motion);
   for (const State state : all_states) {
     c.rows[index_of(state)] = contact::rows(contact, {state, 0.0});
     if (state == State::inside && !(contact.normal_stiffness > 0.0)) continue;
@@ -94,8 +94,8 @@ ModelDerivative data_of(const Model& model) {
   d.mass = model.mass;
   d.damping = model.damping;
   d.stiffness = model.stiffness;
-  for (const Load& load : model.loads) d.loads.push_back({load.direction, numbers_of(load.history)});
-  for (const Contact& contact : model.contacts) d.contacts.push_back(numbers_of(contact));
+  for (const Load& load : model.loads) d.loads.push_back({load.direction, stored_numbers(load.history)});
+  for (const Contact& contact : model.contacts) d.contacts.push_back(stored_numbers(contact));
   d.u0 = model.u0;
   d.v0 = model.v0;
   return d;
@@ -161,11 +161,11 @@ class Differences {
         model_(model),
         path_(path),
         value_(value),
-        start_follows_(start_follows),
+        start_is_static_(start_follows),
         base_(data_of(model)),
         shape_(shape_of(model)) {}
 
-  /// Derivative with the step h; nullopt: the data are not smooth, or do not exist.
+  /// Derivative with the step h; nullopt: the data are not smooth, or the scene is refused near the value.
   std::optional<ModelDerivative> at(double h) {
     step_ = h;
     moved_.clear();
@@ -252,7 +252,7 @@ class Differences {
 
   /// Number of values to compare: all, or all before u0 and v0 if u0 and v0 follow from the other data.
   [[nodiscard]] std::size_t judged(std::size_t count) const {
-    return start_follows_ ? count - 2 * static_cast<std::size_t>(model_.size()) : count;
+    return start_is_static_ ? count - 2 * static_cast<std::size_t>(model_.size()) : count;
   }
   static bool is_straight(double a, double b, double c) {
     return std::abs(a - 2.0 * b + c) <= 8.0 * rounding::eps * (std::abs(a) + 2.0 * std::abs(b) + std::abs(c));
@@ -308,7 +308,7 @@ class Differences {
     return true;
   }
 
-  /// Sets entries to zero that contain only rounding, because the data do not change.
+  /// Removes entries that contain only rounding errors, because the data do not depend on the key.
   static SparseMatrix without_rounding(SparseMatrix a, const SparseMatrix& size, double step) {
     a.prune([&](Eigen::Index row, Eigen::Index column, double value) {
       return std::abs(value) > 4.0 * rounding::eps / std::abs(step) * std::abs(size.coeff(row, column));
@@ -331,7 +331,7 @@ class Differences {
     }
     std::size_t i = 0;
     visit_all(d, [&](double& x) {
-      // the sum of the weights is zero, so constant data give only rounding
+      // The sum of the weights is zero, so constant data give only a rounding error.
       const double size = std::abs(x), sum = sums[i++];
       x = std::abs(sum) > 16.0 * rounding::eps / std::abs(step_) * size ? sum : 0.0;
     });
@@ -355,7 +355,7 @@ class Differences {
   const Model& model_;
   const std::string& path_;
   double value_, step_ = 0.0;
-  bool start_follows_;  // true: u0 is computed from the other data (static_rate() in forcing_rates.hpp)
+  bool start_is_static_;  // true: u0 is computed from the other data (static_rate() in forcing_rates.hpp)
   ModelDerivative base_;
   std::vector<long> shape_;
   std::vector<Moved> moved_;

@@ -1,7 +1,7 @@
 // model_derivative.hpp: derivative of all model data with respect to a key of the scene.
 //
 //   x_p = ( 3/4 (x1 - x-1) - 3/20 (x2 - x-2) + 1/60 (x3 - x-3) ) / h      x_j: the data at p + j h
-//   linear data: (x1 - x-1) / 2h;   at the limit of a key's range: five points on one side
+//   linear data: (x1 - x-1) / 2h;   at the limit of a key's range: p and five points on one side
 //
 // Data are smooth functions of the keys, most of them linear. The truncation error is of order h^6 (h^5 at a limit of the
 // range), the rounding error is eps/h; with h = 2^-9 of the value both are below 1e-12. A fourth-order stencil through the
@@ -69,12 +69,12 @@ struct LoadRates {
 
 /// Derivatives of model data: unit of the datum in the model / unit of the key.
 struct ModelDerivative {
-  SparseMatrix mass, damping, stiffness;  ///< constant entries are left out
+  SparseMatrix mass, damping, stiffness;  ///< entries whose derivative is zero are omitted
   std::vector<LoadRates> loads;
   std::vector<ContactRates> contacts;
   Vector u0, v0;
-  double step = 0.0;
-  bool one_sided = false;
+  double step = 0.0;       ///< step h of the differences; unit of the key
+  bool one_sided = false;  ///< true: all points are on one side of the key's value
 };
 
 /// If `from` has a weight load and `model` has none, adds a weight load of value zero to `model`, as a place for its
@@ -88,7 +88,7 @@ void add_weight_load(const Model& from, Model& model);
 
 // All numbers of a model that a parameter may change, visited in a fixed order.
 //
-//   data_of(model): the numbers themselves in place of derivatives;   visit(d, f): calls f(x) for each
+//   data_of(model): the numbers themselves in place of derivatives;   visit_all(d, f): calls f(x) for each number x
 //
 // Two models with equal shape_of() have the same numbers in the same order, after align() has given their combinations the
 // same terms.
@@ -152,8 +152,8 @@ void align(const std::vector<ModelDerivative*>& all);
 [[nodiscard]] std::vector<long> shape_of(const Model& model);
 /// All numbers except those of the matrices; the numbers of u0 and v0 are last.
 [[nodiscard]] std::vector<double> values_of(ModelDerivative& data);
-/// Magnitude to which the rounding error of each number is relative: its own magnitude, or for a coefficient of a combination
-/// the largest one of the combination.
+/// Magnitude to which the rounding error of each number is relative: the magnitude of the number, or for a coefficient of a
+/// combination the largest coefficient of the combination.
 [[nodiscard]] std::vector<double> sizes_of(ModelDerivative data);
 
 }  // namespace signorini::sensitivity

@@ -8,8 +8,8 @@ namespace signorini::sensitivity {
 namespace {
 
 // slow_square: largest m t^2 for which a pair is computed as a series in m t^2. turning_square: m t^2 above which a mode
-// oscillates. If one of two modes does not oscillate and one is not slow, their squares differ by at least a quarter of the
-// larger one, since l t^2 <= 4.1 and > 6.
+// oscillates. If one of two modes does not oscillate and the other one is not slow, their l differ by at least a quarter of
+// the larger one, because l t^2 <= 4.1 for the first mode and l t^2 > 6 for the second.
 constexpr double slow_square = 6.0, turning_square = 0.09;
 constexpr int max_time_terms = 64;    // 40 terms are sufficient for l t^2 <= 1 and alpha t <= 4
 constexpr int max_series_terms = 24;  // 6^24 / 48! = 4e-43
@@ -57,8 +57,9 @@ void OscillatorPairs<S>::fill_turning(std::size_t k) {
   c_[k] = cosine_[k] * decay_ + s_[k] * (0.5 * alpha_);
 }
 
+/// C and S of two slow modes, from the series
 /// cos(sqrt(m) t) = sum (-m t^2)^j / (2j)!,  sin(sqrt(m) t)/sqrt(m) = t sum (-m t^2)^j / (2j + 1)!
-/// and powers x^j[k, l] = x_k x^(j-1)[k, l] + x_l^(j-1).
+/// with the powers x^j[k, l] = x_k x^(j-1)[k, l] + x_l^(j-1), where x = -m t^2.
 template <class S>
 typename OscillatorPairs<S>::Both OscillatorPairs<S>::near_zero(std::size_t k, std::size_t l) const {
   const S x = m_[k] * (-t_ * t_), y = m_[l] * (-t_ * t_);
@@ -81,8 +82,9 @@ typename OscillatorPairs<S>::Both OscillatorPairs<S>::near_zero(std::size_t k, s
   return {cosine * step + s * (0.5 * alpha_), s};
 }
 
+/// C and S of two modes that oscillate, from
 /// cos[k, l] = - t/(w_k + w_l) sin(a) sin(d)/d,   sin[k, l] = t/(w_k + w_l) cos(a) sin(d)/d,
-/// a, d = (w_k +- w_l) t/2
+/// a = (w_k + w_l) t/2,  d = (w_k - w_l) t/2
 template <class S>
 typename OscillatorPairs<S>::Both OscillatorPairs<S>::turning(std::size_t k, std::size_t l) const {
   const S sum = modal::inverse(w_[k] + w_[l]);
@@ -95,6 +97,7 @@ typename OscillatorPairs<S>::Both OscillatorPairs<S>::turning(std::size_t k, std
   return {cosine * decay_ + s * (0.5 * alpha_), s};
 }
 
+/// C and S of two modes whose l are clearly different, from the definition.
 template <class S>
 typename OscillatorPairs<S>::Both OscillatorPairs<S>::apart(std::size_t k, std::size_t l) const {
   const S over = modal::inverse(m_[k] - m_[l]);
@@ -146,7 +149,7 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
     }
 }
 
-/// From l h = 1 - c, or by a series in time if l t^2 is small.
+/// h of mode k, from l h = 1 - c, or by a series in time if l t^2 is small.
 template <class S>
 S OscillatorPairs<S>::h_of(std::size_t k) const {
   const double square = t_ * t_;
@@ -164,7 +167,7 @@ S OscillatorPairs<S>::h_of(std::size_t k) const {
   return sum;
 }
 
-/// From l_k H = -(C + h(l)) with the larger of both modes as k, or by a series in time if both are small.
+/// H[k, l], from l_k H = -(C + h(l_l)) where l_k is the larger eigenvalue, or by a series in time if both l t^2 are small.
 template <class S>
 S OscillatorPairs<S>::h_pair(std::size_t k, std::size_t l) const {
   const double square = t_ * t_;

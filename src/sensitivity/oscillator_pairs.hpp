@@ -5,10 +5,10 @@
 //   w'' + alpha w' + k w = -y_l,  w(0) = w'(0) = 0:   w(t) = z C + r S + p H
 //   C = c[k, l] = (c(k) - c(l)) / (k - l),   S and H with s and h
 //
-// c, s and h are entire functions of l, so C, S and H have no poles where k approaches l. With m = l - alpha^2/4 and w^2 = m
-// they are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2; if m t^2 is small for both modes, they are computed as
-// series in m t^2. Rates follow from c' = -l s, s' = c - alpha s, h' = s with (l s)[k, l] = k S + s(l). Required: alpha t <=
-// 4. S is double or Complex. Units follow from those of t and l.
+// c, s and h are entire functions of l, so C, S and H have no poles where k approaches l. With m = l - alpha^2/4 and the
+// frequencies w_l = sqrt(m), C and S are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2; if m t^2 is small for both
+// modes, C and S are computed as series in m t^2. Rates follow from c' = -l s, s' = c - alpha s, h' = s with
+// (l s)[k, l] = k S + s(l). Required: alpha t <= 4. S is double or Complex. Units follow from those of t and l.
 #pragma once
 
 #include <cstddef>

@@ -32,11 +32,10 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
         if (const auto f = (*both)[key].value<double>()) found.insert(*f);
       for (const FrictionConstant& constant : friction_constants)
         if (both->contains(constant.key))
-          fail_at(path,
-                  fmt::format(
-                      "expected friction.{}, friction.{} or friction.{}: the friction has several numbers",
-                      both->contains("slow") ? "slow" : "static", both->contains("slow") ? "fast" : "kinetic",
-                      constant.key));
+          fail_at(path, fmt::format("found a table of several friction numbers, expected friction.{}, "
+                                    "friction.{} or friction.{}",
+                                    both->contains("slow") ? "slow" : "static",
+                                    both->contains("slow") ? "fast" : "kinetic", constant.key));
       return;
     }
     const auto number = node.value<double>();
@@ -70,7 +69,8 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
   } else if (const auto number = node.value<double>(); number && rest[next - 1] == "friction") {
     found.insert(*number);  // friction = 0.3 sets both coefficients
   } else {
-    fail_at(path, fmt::format("\"{}\" is not a table", rest[next - 1]));
+    fail_at(path,
+            fmt::format("\"{}\" is a single value, expected a path that ends with this key", rest[next - 1]));
   }
 }
 

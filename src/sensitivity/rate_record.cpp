@@ -178,7 +178,8 @@ void RateRecord::update_at_instant(const InstantMotion& motion, const std::vecto
   const Contact& contact = model_.contacts[c];
   const double t = motion.instant.t;
   for (Peak& peak : peaks_[c])
-    if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution) peak = {};  // offered again below
+    if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution)
+      peak = {};  // the code below records the same peak as a value at the instant
   const auto offer = [&](std::size_t which, double value, auto&& rate_of) {
     if (!(std::abs(value) > peaks_[c][which].size)) return;
     PeakCandidate seen{value, false, {}, {}};

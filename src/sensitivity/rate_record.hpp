@@ -39,6 +39,7 @@ class RateRecord final : public TangentListener, public run::ForwardingRecorder 
     bool turn = false;  // true: an extreme between instants
     std::vector<double> rates, t_rates;
   };
+  /// A value that replaces the peak if its magnitude is larger.
   struct PeakCandidate {
     double value = 0.0;
     bool turn = false;

@@ -9,7 +9,7 @@
 namespace signorini::sensitivity {
 namespace {
 
-// Limit for Newton iterations for an event time; three are enough unless the guard nearly grazes.
+// Largest number of Newton iterations for an event time; three are enough unless the guard nearly grazes zero.
 constexpr int max_corrections = 8;
 
 bool same_states(const contact::ContactStates& a, const contact::ContactStates& b) {
@@ -48,7 +48,7 @@ engine::Stepper& RecomputedMotion::engine(bool in_modes) {
 }
 
 SeriesPoint RecomputedMotion::at(double t) {
-  // A separate engine is used, because the main one may already have advanced beyond the extremes on the way.
+  // A separate engine is used, so that this search does not change the state of the engine that computes the stretch.
   if (!event_search_)
     event_search_ = std::make_unique<exact::ExactEngine>(model_, structure_, systems_, t_end_);
   engine::Stepper& engine = *event_search_;

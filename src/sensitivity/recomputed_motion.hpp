@@ -1,7 +1,7 @@
 // recomputed_motion.hpp: recomputes the motion of an engine whose steps are not Taylor series.
 //
 //   u, v and states are computed independently, without integration error; the engine provides the triggered guards
-//   t_k:   g(t_k) = 0 for the first such guard, by Newton's method starting from the engine's time
+//   t_k:   g(t_k) = 0 for the first triggered guard, by Newton's method starting from the engine's time
 //   then   the decision at t_k is repeated
 //
 // If the guard has no zero nearby, or if the decided states differ from the engine's, the motion continues from the engine's

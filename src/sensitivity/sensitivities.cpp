@@ -32,7 +32,9 @@ void check_options(const RunSpec& run, const SensitivityOptions& options) {
         "discrete derivatives need fixed time steps: found engine {}, expected run.engine = {}",
         to_string(run.engine), run::engines_that(&run::EngineCapabilities::discrete_derivatives)));
   if (options.losses)
-    throw UsageError("discrete derivatives: losses are available for the continuous motion only");
+    throw UsageError(
+        "losses and discrete derivatives cannot be combined: losses are computed for the continuous motion "
+        "only");
 }
 
 /// Adds a weight load of value zero as a place for derivatives with respect to gravity, because zero gravity makes no load.
@@ -72,8 +74,9 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
                             Recorder* recorder, const SensitivityOptions& options) {
   if (recorder != nullptr && recorder->steers())
     throw UsageError(
-        "sensitivities: expected a recorder that does not steer, because derivatives cannot include its "
-        "changes");
+        "sensitivities: expected a recorder that does not steer, because derivatives cannot include the "
+        "changes "
+        "that a recorder makes during the run");
   const Scene scene = read({});
   Model model = build_model(scene);
   sensitivity::check_tangent_laws(scene, model);

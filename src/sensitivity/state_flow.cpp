@@ -12,10 +12,9 @@
 namespace signorini::sensitivity {
 namespace {
 
-constexpr std::size_t most_bytes_of_modes = std::size_t{1}
-                                            << 28;  // largest store of modes in bytes; chosen value
+constexpr std::size_t max_mode_bytes = std::size_t{1} << 28;  // largest store of modes in bytes; chosen value
 // Largest alpha t that one step covers, as in Oscillators::advance.
-constexpr double longest_decay_at_once = 4.0;
+constexpr double max_step_decay = 4.0;
 
 /// Many motions at once, one per column, in flat amplitudes: displacements and their rates.
 struct ModalBundle {
@@ -50,8 +49,8 @@ void add_modewise(const modal::Amplitudes& factor, const Eigen::MatrixXd& x, Eig
   }
 }
 
-ModalBundle moved_modes(const modal::Oscillators& oscillators, const modal::Amplitudes& zero,
-                        const ModalBundle& from, const Eigen::MatrixXd& force, double time) {
+ModalBundle advanced_modes(const modal::Oscillators& oscillators, const modal::Amplitudes& zero,
+                           const ModalBundle& from, const Eigen::MatrixXd& force, double time) {
   ModalBundle to{Eigen::MatrixXd::Zero(from.z.rows(), from.z.cols()),
                  Eigen::MatrixXd::Zero(from.z.rows(), from.z.cols())};
   const modal::ModalPoint c = mode_response(oscillators, zero, 1.0, 0.0, 0.0, time),
@@ -126,7 +125,7 @@ const StateFlow::Modes& StateFlow::modes_of(const contact::ContactStates& contac
     make(modes);
   }
   const auto bytes = static_cast<std::size_t>(modes.in.size() + modes.out.size()) * sizeof(double);
-  if (bytes_ + bytes > most_bytes_of_modes) {
+  if (bytes_ + bytes > max_mode_bytes) {
     known_.clear();
     bytes_ = 0;
   }
@@ -146,8 +145,8 @@ void StateFlow::advance(const contact::ContactStates& contact_states, double tim
     if (state.valid) starts.push_back(&state.now.start);
   const Eigen::Index n = model_.size(), columns = static_cast<Eigen::Index>(starts.size());
   Eigen::MatrixXd W(n, 2 * columns);
-  Eigen::MatrixXd held =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model_.contacts.size()), columns);  // kt p
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model_.contacts.size()),
+                                               columns);  // kt times the tangent of the anchor
   for (Eigen::Index j = 0; j < columns; ++j) {
     const Tangent& start = *starts[static_cast<std::size_t>(j)];
     W.col(j) = start.u;
@@ -161,11 +160,10 @@ void StateFlow::advance(const contact::ContactStates& contact_states, double tim
   ModalBundle now{Z.leftCols(columns), Z.rightCols(columns)};
   const modal::Amplitudes zero = modes.state->spectrum.zero();
   const double alpha = system_->alpha();
-  const double longest =
-      alpha > 0.0 ? longest_decay_at_once / alpha : std::numeric_limits<double>::infinity();
+  const double longest = alpha > 0.0 ? max_step_decay / alpha : std::numeric_limits<double>::infinity();
   for (double done = 0.0; done < time;) {
     const double part = std::min(longest, time - done);
-    now = moved_modes(modes.oscillators, zero, now, force, part);
+    now = advanced_modes(modes.oscillators, zero, now, force, part);
     done = part < longest ? time : done + part;
   }
   Eigen::MatrixXd second = force - alpha * now.rate, pulled = Eigen::MatrixXd::Zero(force.rows(), columns);

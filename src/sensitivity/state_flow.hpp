@@ -5,7 +5,7 @@
 //   W = Phi X w,   w = Y Phi^T M W                                  W: n x columns
 //
 // Loads do not appear, because they act equally on all neighbouring motions. So a stretch costs four matrix products for any
-// excitation and any length. The modes of contact states are kept.
+// excitation and any length. The modes of each contact state are stored.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ class StateFlow {
   /// used.
   explicit StateFlow(const Model& model);
 
-  /// True if all data on which the flow depends are equal: matrices, and forms and stiffnesses of contacts.
+  /// True if the given model has the same data on which the flow depends: matrices, and forms and stiffnesses of contacts.
   [[nodiscard]] bool matches(const Model& model) const;
   /// True if the modes of this contact state are accurate enough to be used.
   [[nodiscard]] bool has_accurate_modes(const contact::ContactStates& contact_states);
@@ -34,7 +34,8 @@ class StateFlow {
   /// Rows of matrices are flat amplitudes: real modes, then real parts and imaginary parts of pairs.
   struct Modes {
     std::shared_ptr<const modal::StateModes> state;
-    /// in: to flat amplitudes; out: to degrees of freedom; seen: rows of `out` at degrees of freedom with contacts.
+    /// in: maps degrees of freedom to flat amplitudes; out: the inverse map; seen: rows of `out` at degrees of freedom with
+    /// contacts; from_tangent: amplitudes that a unit force along t of each contact excites.
     Eigen::MatrixXd in, out, seen, from_tangent;
     modal::Oscillators oscillators;
     bool accurate = false;

@@ -103,7 +103,7 @@ void add_product(const Square<S>& b, const std::vector<S>& x, double factor, std
 }
 
 /// Derivatives of the matrices with respect to one parameter, in unconstrained modes; empty if a matrix does not change.
-struct OpenRates {
+struct UnconstrainedRates {
   Eigen::MatrixXd mass, damping, stiffness;  ///< damping: C_p - alpha M_p
 };
 
@@ -146,7 +146,7 @@ class StateRates {
         unit.pair[k - reals] = modal::Complex(1.0);
       else
         unit.pair[k - reals - pairs] = modal::Complex(0.0, 1.0);
-      const Vector q = in_open_modes(unit);
+      const Vector q = to_unconstrained_modes(unit);
       for (std::size_t i = 0; i < dofs.size(); ++i)
         out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
             at_.modes.basis().shapes().row(dofs[i]).dot(q);
@@ -154,7 +154,7 @@ class StateRates {
     return out;
   }
 
-  [[nodiscard]] ParameterModes<S> parameter_modes(const OpenRates& open,
+  [[nodiscard]] ParameterModes<S> parameter_modes(const UnconstrainedRates& open,
                                                   const std::vector<ContactRates>& contacts,
                                                   const TangentSource& source) const {
     ParameterModes<S> m;
@@ -165,7 +165,7 @@ class StateRates {
   }
 
  private:
-  [[nodiscard]] Vector in_open_modes(const modal::Amplitudes& a) const {
+  [[nodiscard]] Vector to_unconstrained_modes(const modal::Amplitudes& a) const {
     Vector q;
     spectrum_.from_modes({&a}, {&q});
     return q;
@@ -177,15 +177,16 @@ class StateRates {
     modal::Amplitudes unit = spectrum_.zero();
     if (k < reals) {
       unit.real[k] = 1.0;
-      return {in_open_modes(unit)};
+      return {to_unconstrained_modes(unit)};
     }
     const std::size_t j = k < reals + pairs ? k - reals : k - reals - pairs;
     unit.pair[j] = modal::Complex(0.5);
-    const Vector real = in_open_modes(unit);
+    const Vector real = to_unconstrained_modes(unit);
     unit.pair[j] = modal::Complex(0.0, k < reals + pairs ? -0.5 : 0.5);
-    return {real, in_open_modes(unit)};
+    return {real, to_unconstrained_modes(unit)};
   }
 
+  /// Column k of out += factor times the amplitudes of q (real part, and for pairs imaginary part).
   void add_column(const std::vector<Vector>& q, std::size_t k, S factor, Square<S>& out) const {
     modal::Amplitudes part;
     for (std::size_t imaginary = 0; imaginary < q.size(); ++imaginary) {
@@ -195,10 +196,11 @@ class StateRates {
       for (std::size_t i = 0; i < x.size(); ++i) out[i * x.size() + k] += x[i] * turned;
     }
   }
-  static double quarter_turn(double) { return 0.0; }  // never used, because real modes have one part only
+  /// The number multiplied by i. Never called for double, because real modes have no imaginary part.
+  static double quarter_turn(double) { return 0.0; }
   static modal::Complex quarter_turn(modal::Complex a) { return {-a.im, a.re}; }
 
-  void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {
+  void add_matrices(const UnconstrainedRates& open, ParameterModes<S>& m) const {
     if (open.mass.size() + open.damping.size() + open.stiffness.size() == 0) return;
     if (open.damping.size() > 0) m.g.assign(m.b.size(), S(0.0));
     const auto product = [](const Eigen::MatrixXd& a, std::vector<Vector> q) {

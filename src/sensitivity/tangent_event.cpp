@@ -55,13 +55,13 @@ ImpactRates impact_rates(motion::StateSystems& systems, const ModelDerivative& d
 
 namespace {
 
-// Relative difference up to which two derivatives are equal. It is far above rounding errors and far below actual
+// Relative difference up to which two derivatives are treated as equal. It is far above rounding errors and far below actual
 // differences. Chosen value; tests of symmetric frames in tests/unit/sensitivity depend on it.
 constexpr double same = 1e-7;
 // Largest relative difference of velocities and accelerations that is not a jump.
 constexpr double same_motion = 1e-9;
-// A guard grazes zero unless g'^2 > 2 n |g''| n_g, with n = grazes and the noise n_g of the guard; its time is then not
-// smooth.
+// A guard g with the noise n_g grazes zero if g'^2 <= 2 grazes |g''| n_g. The time of its zero then does not depend smoothly
+// on the parameter.
 constexpr double grazes = 1e3;
 
 double greatest(const Vector& x, const Model& model) {
@@ -73,7 +73,7 @@ double greatest(const Vector& x, const Model& model) {
   return size;
 }
 
-/// True if the difference of a and b exceeds the fraction `part` of the vectors and of `least`.
+/// True if the size of b - a exceeds the fraction `part` of the largest of the sizes of a and b and `least`.
 bool differ(const Vector& a, const Vector& b, const Model& model, double part, double least) {
   return greatest(b - a, model) > part * std::max({greatest(a, model), greatest(b, model), least});
 }
@@ -106,7 +106,8 @@ struct TangentEvents::PassState {
   TangentSeries& series;
   TangentAfter after;
   std::vector<std::optional<double>> own;  // dt/dp by the contact's own triggered guard
-  std::vector<ContactMotion> p_before;     // derivatives at fixed time, one entry per contact
+  std::vector<ContactMotion>
+      p_before;  // derivatives of the motion before, at fixed time, one entry per contact
 
   [[nodiscard]] double dt_of(std::size_t c) const { return own[c].value_or(after.dt); }
   void stop(std::string why) {
@@ -114,7 +115,7 @@ struct TangentEvents::PassState {
   }
 };
 
-/// dt/dp from the guard of contact c; nullopt: the guard did not reach zero itself.
+/// dt/dp from the guard of contact c; nullopt: the guard has no zero at the instant, or dt/dp does not exist.
 std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) const {
   const run::RunInstant& now = course.m.instant;
   const Contact& contact = model_.contacts[c];
@@ -135,15 +136,17 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
                                  [&](const decide::TriggeredGuard& f) { return f.contact == c; });
   const double value = crossing.form.value(course.m.motion_before[c]);
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
-  // Another contact changed it.
+  // The guard is not zero just before the instant, so another contact has changed the state of this contact.
   if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;
   const double rate =
       fired ? crossing.derivatives[0]
             : crossing.form.parameter_derivative(course.m.motion_before[c], course.m.rate_before[c]);
   if (!(rate < 0.0) || rate * rate <= grazes * 2.0 * std::abs(crossing.derivatives[1]) * crossing.noise) {
-    if (crosses_grazes_ && is_smooth(course) && !drops_anchor(course, c)) return std::nullopt;
+    if (crosses_grazes_ && is_smooth(course) && !sets_moving_anchor(course, c)) return std::nullopt;
     course.stop(fmt::format(
-        "the {} of contact '{}' grazes: its rate is {:.3g}", contact::to_string(guard->kind), contact.name,
+        "the {} of contact '{}' grazes zero: its rate is only {:.3g}, so the time of the event has no "
+        "derivative",
+        contact::to_string(guard->kind), contact.name,
         rate * scene::factor_of(contact::unit_of(crossing.form), model_.unit) / model_.unit.time));
     return std::nullopt;
   }
@@ -164,9 +167,9 @@ bool TangentEvents::is_smooth(const PassState& course) const {
                  rate);
 }
 
-/// True if the position of the contact's new anchor depends on the time of the instant, because ut - T/kt changes at the
-/// instant.
-bool TangentEvents::drops_anchor(const PassState& course, std::size_t c) const {
+/// True if the contact gets a new anchor whose position depends on the time of the instant, because ut - T/kt varies with
+/// time.
+bool TangentEvents::sets_moving_anchor(const PassState& course, std::size_t c) const {
   const State before = course.m.instant.states_before[c].state,
               after = course.m.instant.after.states[c].state;
   if (after != State::stick || before == State::stick) return false;
@@ -227,8 +230,8 @@ void TangentEvents::move_state(PassState& course) const {
   course.after.start.v = Dv - dt * m.after.a;
 }
 
-/// Computes the derivatives of new anchors. An anchor is the slip position at the end of the slip: p = ut - T/kt. T is its
-/// value just before, or the kinetic friction force if the contact slipped before it sticks.
+/// Computes the derivatives of new anchors. An anchor is the slip position ut - T/kt at the end of the slip. T is the force
+/// just before the instant, or the kinetic friction force if the contact slipped before it sticks.
 void TangentEvents::move_anchors(PassState& course) const {
   const InstantMotion& m = course.m;
   course.after.start.anchors = course.before.start.anchors;
@@ -253,8 +256,10 @@ void TangentEvents::move_anchors(PassState& course) const {
       DT = -s * (rates.friction.kinetic * before.N + contact::kinetic_friction(contact) * D.N);
     }
     if (!matches(T))
-      return course.stop(
-          fmt::format("contact '{}' releases and sticks again within one instant", contact.name));
+      return course.stop(fmt::format(
+          "contact '{}' releases and sticks again within one instant: the derivative of its new anchor "
+          "is not known",
+          contact.name));
     course.after.start.anchors[c] = D.ut - DT / kt + T * rates.tangential_stiffness / (kt * kt);
   }
 }
@@ -292,8 +297,8 @@ void TangentEvents::check_resting_guards(PassState& course) const {
   }
 }
 
-/// Checks for kinks: a guard that is zero afterwards, but not for other values of the parameter, is triggered on one side
-/// only.
+/// Checks for kinks: a guard that is zero just after the instant, but not for neighbouring values of the parameter, is
+/// triggered on one side only.
 void TangentEvents::check_kinks(PassState& course) const {
   const InstantMotion& m = course.m;
   const decide::Decision& decision = m.instant.after;
@@ -320,7 +325,7 @@ void TangentEvents::check_kinks(PassState& course) const {
     terms.vt = std::abs(p.vt) + contact.tangent.magnitude(wv);
     const double size = form_rate.magnitude(m.motion_after[c]) + form.magnitude(terms) +
                         std::abs(dt) * form.magnitude(m.rate_after[c]);
-    // if a gap opens from rest, its rate must be zero, too
+    // If a gap opens from rest, the derivative of its rate must be zero, too.
     const bool opens_slowly = guard.kind == Guard::closing && guard.leading_order != 1;
     if (vanishes(value, size, form.magnitude(unit_motion()) * scale_of(form, model_.scales)) &&
         (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))

@@ -2,11 +2,11 @@
 //
 //   dt/dp = - (G_p + grad G . w)/G'       for the triggered guard;  tau_p for a breakpoint;  0 at the start
 //   w+ = w- + (u'- - u'+) dt/dp,   w'+ = Dv+ - u''+ dt/dp
-//   p_p = D(ut - T/kt)                    for a new anchor
+//   D(ut - T/kt)                          derivative of the position of a new anchor
 //
 // There is no derivative if the one-sided derivatives differ. They differ if two guards reach zero at one instant and
-// separate when the parameter changes, if a guard grazes zero, or if a guard is zero afterwards and would be triggered for
-// other values of the parameter.
+// separate when the parameter changes, if a guard grazes zero, or if a guard is zero just after the instant and would be
+// triggered for other values of the parameter.
 //
 // If a guard grazes zero, dt/dp is unbounded. But if u'- = u'+ and u''- = u''+, and no new anchor depends on the time, w does
 // not depend on dt/dp. Derivatives of states alone (orbits) can cross such a graze with dt/dp = 0.
@@ -28,7 +28,7 @@ namespace signorini::sensitivity {
 //   n . Dv+ + n_p . v+ = -e (n . Dv- + n_p . v-) - e_p min(vn-, 0)       e = 0 if the contact comes to rest
 //   sticks: t . Dv+ + t_p . v+ = Ds',      slides along s: DPt + s f DPn = -s f_p Pn
 //
-// D: derivative along the moving instant. Touching contacts without an impulse are left out, because to first order their
+// D: derivative along the moving instant. Touching contacts without an impulse are omitted, because to first order their
 // impulse stays zero.
 
 struct ImpactRates {
@@ -73,7 +73,8 @@ struct TangentAfter {
 
 class TangentEvents {
  public:
-  /// All arguments must outlive the object. size: size of the parameter, to which tests for zero are relative.
+  /// Model, systems and derivative must outlive the object. size: magnitude of the parameter, to which tests for zero are
+  /// relative.
   TangentEvents(const Model& model, motion::StateSystems& systems, const ModelDerivative& derivative,
                 double size, double t_end)
       : model_(model),
@@ -92,7 +93,7 @@ class TangentEvents {
   void find_times(PassState& course) const;
   [[nodiscard]] std::optional<double> time_of(PassState& course, std::size_t contact) const;
   [[nodiscard]] bool is_smooth(const PassState& course) const;
-  [[nodiscard]] bool drops_anchor(const PassState& course, std::size_t contact) const;
+  [[nodiscard]] bool sets_moving_anchor(const PassState& course, std::size_t contact) const;
   void move_state(PassState& course) const;
   void move_anchors(PassState& course) const;
   [[nodiscard]] bool vanishes(double rate, double terms, double scale) const;
@@ -104,7 +105,7 @@ class TangentEvents {
   motion::StateSystems& systems_;
   const ModelDerivative& derivative_;
   double size_;   // size of the parameter, to which tests for zero are relative
-  double least_;  // rates of times below this limit are treated as zero
+  double least_;  // differences of dt/dp below this limit are treated as zero
   bool crosses_grazes_ = false;
 };
 

@@ -12,8 +12,9 @@ namespace {
 
 // Least number of degrees of freedom for tangents in modes; with fewer, series are as fast (run/choose_engine.hpp).
 constexpr Eigen::Index min_modal = 16;
-constexpr int max_turn_steps = 6;
-constexpr std::size_t forcing_terms = 6;  // coefficients after the first are zero for constants
+constexpr int max_turn_steps = 6;  // largest number of Newton steps for a turning point
+constexpr std::size_t forcing_terms =
+    6;  // coefficients that are computed to check that the forcing is constant
 
 /// Taylor series about an instant, with scale 1, from the derivatives of a jet.
 motion::Series series_of(const motion::Jet& jet, const motion::Forcing& forcing) {
@@ -94,14 +95,14 @@ void TangentRun::begin(const run::RunInstant& start) {
     for (const MovingBreakpoint& b : breakpoints_at(model_, d, 0.0, 0.0))
       if (b.rate != 0.0) {
         state.valid = false;
-        state.reason = "a load starts at t = 0, but starts later for values of the key on one side";
+        state.reason = "a load starts at t = 0, but later for neighbouring values of the key on one side";
       }
   }
   recomputed_motion_.begin(start.after);
   pass(start);
 }
 
-/// Starts the stretch that begins here in modes. Returns false if its tangents cannot be computed in modes.
+/// Starts a stretch in modes, at the beginning of `step`. Returns false if its tangents cannot be computed in modes.
 bool TangentRun::starts_in_modes(const run::RunStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
   modal::ModalSystem* modes = share_->modes != nullptr ? share_->modes : recomputed_motion_.modes();
@@ -229,8 +230,10 @@ std::vector<RequestedPlace> TangentRun::wanted(const run::RunStep& step, std::sp
   return list;
 }
 
-/// Newton's method on the rate, starting at the turning point from the engine, which resolves slow modes only.
-double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const run::RunStep& step) const {
+/// Time of a turning point, by Newton's method for a zero of the rate. t: turning point from the engine, which resolves slow
+/// modes only.
+double TangentRun::refine_turning_point(double t, std::size_t c, std::size_t which,
+                                        const run::RunStep& step) const {
   double at = t;
   for (int i = 0; i < max_turn_steps; ++i) {
     const MotionAndTangents here = modal_->motion(at);
@@ -245,7 +248,7 @@ double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const r
   return at;
 }
 
-/// Times in a step at which a quantity has a local extreme that exceeds all its earlier values.
+/// Times in a step at which a watched quantity has a local extreme that exceeds all earlier values of the quantity.
 std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
   std::vector<double> turns;
   for (const double t : step.facts.turning_points) {
@@ -255,7 +258,8 @@ std::vector<double> TangentRun::turns_in_modes(const run::RunStep& step) const {
       const WatchedMotion m =
           watched(model_.contacts[c], model_.layout, c, model_.u0, here.motion, here.force_bends);
       for (std::size_t which = 0; which < m.values.size(); ++which)
-        if (listener_.exceeds(c, which, m.values[which])) turns.push_back(turn_near(t, c, which, step));
+        if (listener_.exceeds(c, which, m.values[which]))
+          turns.push_back(refine_turning_point(t, c, which, step));
     }
   }
   std::sort(turns.begin(), turns.end());
@@ -408,7 +412,7 @@ void TangentRun::rows_at(const run::RunInstant& instant, const SeriesPoint& afte
 namespace {
 
 template <class Value>
-std::vector<double> of_each(const std::vector<TangentState>& states, const Value& value) {
+std::vector<double> rate_of_each_state(const std::vector<TangentState>& states, const Value& value) {
   std::vector<double> rates;
   for (const TangentState& state : states) rates.push_back(state.valid ? value(state) : EventRates::none);
   return rates;
@@ -420,7 +424,8 @@ void LandingRecord::begin(std::size_t c, const std::vector<double>& start,
                           const std::vector<TangentState>& states) {
   ContactPhase& phase = all_[c].emplace_back();
   phase.landing.contact = static_cast<int>(c);
-  phase.from = of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
+  phase.from = rate_of_each_state(
+      states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
   for (const double t : start) phase.landing.rates.push_back({t, t, 0.0, 0.0});
 }
 
@@ -448,15 +453,17 @@ void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentSta
     const bool was = !m.instant.states_before[c].is_open(), is = !decision.states[c].is_open();
     if (!begun_ && was) begin(c, std::vector<double>(parameters_, 0.0), states);
     const double pushed = decision.impulses.empty() ? 0.0 : decision.impulses[c].normal;
-    const std::vector<double> t = of_each(states, [&](const TangentState& s) { return s.rates[c].t; });
+    const std::vector<double> t =
+        rate_of_each_state(states, [&](const TangentState& s) { return s.rates[c].t; });
     if (was)
-      update_peak(c, -m.motion_before[c].N, of_each(states, [&](const auto& s) { return -s.rates[c].N; }));
+      update_peak(c, -m.motion_before[c].N,
+                  rate_of_each_state(states, [&](const auto& s) { return -s.rates[c].N; }));
     if (!was && (is || pushed > 0.0)) begin(c, t, states);
     active_[c] = is;
     if (!was && !is && !(pushed > 0.0)) continue;
     ContactPhase& phase = all_[c].back();
-    const auto work =
-        of_each(states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
+    const auto work = rate_of_each_state(
+        states, [&](const TangentState& s) { return s.along.works.applied_normal_force[c]; });
     for (std::size_t p = 0; p < parameters_; ++p) {
       LandingRates& rates = phase.landing.rates[p];
       rates.end = t[p];
@@ -466,7 +473,7 @@ void LandingRecord::instant(const InstantMotion& m, const std::vector<TangentSta
     phase.from = work;
     if (is)
       update_peak(c, -m.motion_after[c].N,
-                  of_each(states, [&](const auto& s) { return -s.rates[c].N_after; }));
+                  rate_of_each_state(states, [&](const auto& s) { return -s.rates[c].N_after; }));
   }
   begun_ = true;
 }
@@ -477,8 +484,8 @@ std::vector<std::vector<MovingLanding>> LandingRecord::finish(const std::vector<
     for (const ContactPhase& phase : all_[c]) result[c].push_back(phase.landing);
     if (!active_[c]) continue;
     const ContactPhase& last = all_[c].back();
-    const auto work =
-        of_each(states, [&](const TangentState& s) { return s.works->now().works.applied_normal_force[c]; });
+    const auto work = rate_of_each_state(
+        states, [&](const TangentState& s) { return s.works->now().works.applied_normal_force[c]; });
     for (std::size_t p = 0; p < parameters_; ++p) {
       LandingRates& rates = result[c].back().rates[p];
       rates.end = states[p].valid ? 0.0 : EventRates::none;

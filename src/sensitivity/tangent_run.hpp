@@ -2,7 +2,7 @@
 //
 //   begin:    w = u0_p, w' = v0_p, and derivatives of the initial anchors
 //   step:     every tangent in the modes of the stretch (modal_tangents.hpp), or by the step's series
-//             (tangent_series.hpp), halved where it does not converge
+//             (tangent_series.hpp); the step is halved if the series of the tangent does not converge
 //   instant:  across the event (tangent_event.hpp)
 //
 // If the engine's steps are not series (`ida`, `newmark`), the motion is recomputed after each stretch without integration
@@ -10,7 +10,7 @@
 // tangents cannot be computed in modes is recomputed by series. Tangents with respect to the initial state alone can cross a
 // stretch of `exact` in closed form (state_flow.hpp).
 //
-// Works and losses are integrals over time (work_rates.hpp). If they are requested, every stretch is computed by series.
+// Work and losses are integrals over time (work_rates.hpp). If they are requested, every stretch is computed by series.
 //
 // A listener receives the requested results: rows at output times, extremes, instants.
 #pragma once
@@ -69,8 +69,8 @@ class TangentRun final : public run::RunListener {
   [[nodiscard]] SeriesPoint just_before(const run::RunInstant& instant);
   [[nodiscard]] std::vector<RequestedPlace> wanted(const run::RunStep& step, std::span<const double> turns);
   [[nodiscard]] std::vector<double> turns_in_modes(const run::RunStep& step) const;
-  [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which,
-                                 const run::RunStep& step) const;
+  [[nodiscard]] double refine_turning_point(double t, std::size_t contact, std::size_t which,
+                                            const run::RunStep& step) const;
   void pass(const run::RunInstant& instant);
   void rows_at(const run::RunInstant& instant, const SeriesPoint& after);
 
@@ -83,7 +83,7 @@ class TangentRun final : public run::RunListener {
   std::size_t next_ = 0;
   std::vector<const ModelDerivative*> data_;
   bool losses_;
-  std::optional<ModalTangents> modal_;  ///< empty: the motion of the model cannot be computed in modes
+  std::optional<ModalTangents> modal_;  ///< empty: tangents of this model are not computed in modes
   SeriesTangents series_;
   RecomputedMotion recomputed_motion_;
   StretchMethod stretch_method_ = StretchMethod::unknown;
@@ -125,9 +125,9 @@ class LandingRecord {
 
   const Model& model_;
   std::size_t parameters_;
-  std::vector<std::vector<ContactPhase>> all_;
-  std::vector<bool> active_;
-  bool begun_ = false;
+  std::vector<std::vector<ContactPhase>> all_;  // phases of each contact
+  std::vector<bool> active_;                    // true while the contact is closed
+  bool begun_ = false;                          // true after the first instant
 };
 
 }  // namespace signorini::sensitivity

@@ -14,7 +14,7 @@ constexpr double max_cancelling = 1e3;
 // Limit of the last terms of a series, relative to the tangent. Errors of ten thousand steps accumulate as their square root.
 // Chosen value.
 constexpr double truncation_error = 1e-14;
-constexpr int first_terms = 3;  // number of terms that determine the size of the series
+constexpr int first_terms = 3;  // the largest of these terms is the size of the tangent at the beginning
 
 std::size_t index_in(const motion::Series& series, std::size_t contact, int order) {
   return contact * series.forcing.count + static_cast<std::size_t>(order);
@@ -86,8 +86,8 @@ std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::Matrix
 
 void recentre(const motion::Series& series, const motion::Forcing& forcing, double x, double part,
               motion::Series& out) {
-  // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
-  // Later force coefficients are undefined.
+  // Coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k. Force coefficients of orders above
+  // series.levels are undefined and not used.
   const Eigen::Index columns = series.u.cols(), known = series.levels + 1;
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(columns, columns);
   double power = 1.0;
@@ -112,8 +112,8 @@ TangentSeries::TangentSeries(const Model& model, const linear::SystemMatrices& s
       structure_(structure),
       derivative_(derivative),
       massless_(linear::has_massless(model)),
-      matrices_(derivative.mass.nonZeros() + derivative.damping.nonZeros() + derivative.stiffness.nonZeros() >
-                0),
+      changes_matrices_(
+          derivative.mass.nonZeros() + derivative.damping.nonZeros() + derivative.stiffness.nonZeros() > 0),
       forms_(std::any_of(derivative.contacts.begin(), derivative.contacts.end(),
                          [](const ContactRates& c) { return any(c.normal) || any(c.tangent); })),
       x_(static_cast<std::size_t>(model.size() + model.force_count())),
@@ -167,7 +167,7 @@ bool TangentSeries::expand(const motion::StateSystem& system, const motion::Seri
       const double size = size_of(u_.col(checked)) * power;
       if (!std::isfinite(size)) return false;
       (checked < first_terms ? first : greatest) = std::max(checked < first_terms ? first : greatest, size);
-      // Coefficient k results from k/2 solves, each with a rounding error of about eight half-units.
+      // Coefficient k results from k/2 solves, each with a relative rounding error of about 4 eps.
       rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
     last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
@@ -192,7 +192,7 @@ void TangentSeries::add_sources(int k) {
   if (forcing_.loaded)
     for (std::size_t i = 0; i < known_u_.size(); ++i) x_[i] += forcing_.load(static_cast<Eigen::Index>(i), k);
   const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
-  if (matrices_) {
+  if (changes_matrices_) {
     Eigen::Map<Vector> r(x_.data(), model_.size());
     if (derivative_.mass.nonZeros() > 0) r -= derivative_.mass * (to_acceleration * motion_->u.col(k + 2));
     if (derivative_.damping.nonZeros() > 0) r -= derivative_.damping * (to_velocity * motion_->u.col(k + 1));
@@ -261,7 +261,7 @@ void TangentSeries::add_rows(int k) {
   }
 }
 
-/// Adds friction that depends on the slip rate; omitted terms of the motion are zero.
+/// Adds friction that depends on the slip rate. Terms of the motion beyond its levels are zero.
 void TangentSeries::add_friction(int k) {
   const double to_velocity = (k + 1) / scale_;
   for (auto& [contact, friction] : friction_) {

@@ -80,12 +80,14 @@ class TangentSeries {
   void add_rows(int k);
   void add_friction(int k);
   [[nodiscard]] double size_of(const Eigen::Ref<const Vector>& x) const;
+  /// Number of the last levels for which the coefficients of massless degrees of freedom are not yet known.
   [[nodiscard]] int late() const { return massless_ ? 2 : 0; }
 
   const Model& model_;
   const linear::SystemMatrices& structure_;
   const ModelDerivative& derivative_;
-  bool massless_, matrices_, forms_;
+  bool massless_, changes_matrices_,
+      forms_;  // changes_matrices_, forms_: the parameter changes M, C or K; n or t of a contact
   const motion::StateSystem* system_ = nullptr;
   const motion::Series* motion_ = nullptr;
   const Tangent* start_ = nullptr;

@@ -11,7 +11,7 @@ namespace {
 constexpr int max_halvings = 30;
 constexpr int min_tangent_levels = 12;
 constexpr double step_growth = 1.5;  // length of the next part / length of the last part that converged
-constexpr int turn_places = 24;      // places per step of six radians, a quarter radian apart
+constexpr int turn_places = 24;  // intervals in which a step is searched for maxima: a quarter radian each
 // A product of two motions oscillates twice as fast as the motions, so a step of six radians needs two sets of ten Gauss
 // points. The relative error is then 6^21 (10!)^4 / (21 (20!)^3) = 1e-14.
 constexpr std::size_t work_parts = 2;
@@ -65,7 +65,8 @@ motion::StateSystemPtr SeriesTangents::system_at(const motion::StateSystem& syst
   return systems_.with_friction(system, rows);
 }
 
-/// Adds the works over [from, to] of the step. begin: position in the step at which the tangent's series begins.
+/// Adds the derivatives of the work over [from, to] of the step. begin: position in the step at which the tangent's series
+/// begins.
 void SeriesTangents::integrate(TangentState& state, const run::RunStep& step, double begin, double from,
                                double to) const {
   const engine::Expansion& e = step.facts.expansion;
@@ -137,7 +138,7 @@ void SeriesTangents::advance(TangentState& state, const run::RunStep& step,
       state.reach = std::max(state.reach, length * e.series->scale);
     if (length > 0.0) state.error += state.series.error();
     const double to = length == rest ? e.x : from + length;
-    double done = from;  // end of the part for which works are already added
+    double done = from;  // the work up to this position is already added
     for (; next < wanted.size() && wanted[next].x <= to; ++next) {
       const double x = wanted[next].x - from;
       samples[next].tangents[p] = state.series.at(x);

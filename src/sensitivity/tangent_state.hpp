@@ -1,6 +1,6 @@
 // tangent_state.hpp: state of one parameter's tangent during a run, its advance by series, and the listener interface.
 //
-//   TangentState    for one parameter: data, state just before the next instant, works and losses
+//   TangentState    for one parameter: data, state just before the next instant, derivatives of work and losses
 //   TangentSample   the motion and all tangents at one time between events
 //   TangentListener receives requested results: rows at output times, extremes, instants
 #pragma once
@@ -23,7 +23,7 @@ struct TangentSample {
   std::vector<SeriesPoint> tangents;
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
   std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
-  std::vector<WorkRates> works = {};             ///< one entry per parameter; empty: works are not computed
+  std::vector<WorkRates> works = {};             ///< one entry per parameter; empty: not computed
 };
 
 /// The tangent with respect to one parameter.
@@ -37,7 +37,7 @@ struct TangentState {
   TangentEvents events;
   TangentBefore now;                    ///< state just before the next instant
   std::optional<ForcingRates> forcing;  ///< derivatives of the forcing on the current stretch
-  double reach = 0.0;                   ///< time over which the series converged last; 0: unknown
+  double reach = 0.0;                   ///< length of time over which the last series converged; 0: unknown
   /// Relative error of all stretches so far (TangentSeries::error); only for derivatives of states alone.
   double error = 0.0;
   bool valid = true;
@@ -45,10 +45,10 @@ struct TangentState {
   std::string reason;
   std::vector<EventRates> rates;  ///< derivatives at the last instant, one entry per contact
   double dt = 0.0;                ///< dt/dp of the last instant
-  // The members below are used only if works and losses are computed.
-  std::optional<WorkTangent> works;  ///< present values, at fixed time
+  // The members below are used only if work and losses are computed.
+  std::optional<WorkTangent> works;  ///< present derivatives, at fixed time
   std::optional<LossRates> losses;
-  WorkRates along;               ///< derivatives along the last instant
+  WorkRates along;               ///< derivatives of work and losses along the last instant
   std::vector<double> impulses;  ///< derivatives of the impulses Pn at the last instant; empty: no impact
 };
 
@@ -63,12 +63,12 @@ class TangentListener {
   [[nodiscard]] virtual bool exceeds(std::size_t contact, std::size_t which, double value) const = 0;
 };
 
-// Advances one tangent by the series of a step, part by part, together with its works.
+// Advances one tangent by the series of a step, part by part, together with the derivatives of work.
 //
 //   [0, x_end]  =  parts, each as long as the tangent's series converges; halved if it does not
 //   W_p        +=  sum over Gauss points of factor (power)_p               (work_rates.hpp)
 //
-// Works over a part of a step are integrated with ten Gauss points for each half of the part.
+// The power over a part of a step is integrated with ten Gauss points for each half of the part.
 
 /// A place in a step at which a tangent is requested: time t, and x in the variable of the step's series. row, turn: see
 /// TangentListener::sample().

@@ -27,7 +27,7 @@ Form slip_form_rate(const Contact& contact, const ContactRates& rates, const Con
 double sum_of(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0); }
 
 /// x^T A y + y^T A x
-double both_ways(const SparseMatrix& a, const Vector& x, const Vector& y) {
+double symmetric_product(const SparseMatrix& a, const Vector& x, const Vector& y) {
   return x.dot(a * y) + y.dot(a * x);
 }
 
@@ -48,7 +48,7 @@ double slip_derivative(const Contact& contact, const ContactRates& rates, const 
 void WorkTangent::add(const TangentPlace& at, double factor) {
   const Vector &v = at.motion.v, &w = at.tangent.v;
   now_.works.loads += factor * (at.load.dot(v) + at.forcing.power(at.t, w.data()));
-  double damped = both_ways(model_.damping, v, w);
+  double damped = symmetric_product(model_.damping, v, w);
   if (derivative_.damping.nonZeros() > 0) damped += v.dot(derivative_.damping * v);
   for (std::size_t c = 0; c < at.states.size(); ++c) {
     const Contact& contact = model_.contacts[c];
@@ -71,7 +71,7 @@ void WorkTangent::add(const TangentPlace& at, double factor) {
     if (!contact.obeys_coulomb()) continue;
     if (!is_open(state.state))
       damped += damping_rate(rates) * m.vn * m.vn + 2.0 * contact.normal_damping * m.vn * p.vn;
-    else if (state.state == State::inside)  // its dashpot dissipates the spring energy kn g^2/2
+    else if (state.state == State::inside)  // the contact's dashpot dissipates the spring energy kn g^2/2
       damped -=
           stiffness_rate(rates) * m.gap * m.vn + contact.normal_stiffness * (p.gap * m.vn + m.gap * p.vn);
   }
@@ -96,7 +96,7 @@ void WorkTangent::shift(const motion::Forcing& forcing, double t, const contact:
 }
 
 double WorkTangent::kinetic(const Vector& v, const Vector& Dv) const {
-  double energy = 0.5 * both_ways(model_.mass, v, Dv);
+  double energy = 0.5 * symmetric_product(model_.mass, v, Dv);
   if (derivative_.mass.nonZeros() > 0) energy += 0.5 * v.dot(derivative_.mass * v);
   return energy;
 }
@@ -129,7 +129,7 @@ double WorkTangent::contact_energy(std::size_t c, const StoredMotion& at, double
 Energy WorkTangent::stored(const StoredMotion& at) const {
   Energy e;
   e.kinetic = kinetic(at.v, at.Dv);
-  e.elastic = 0.5 * both_ways(model_.stiffness, at.u, at.Du);
+  e.elastic = 0.5 * symmetric_product(model_.stiffness, at.u, at.Du);
   if (derivative_.stiffness.nonZeros() > 0) e.elastic += 0.5 * at.u.dot(derivative_.stiffness * at.u);
   for (std::size_t c = 0; c < at.states.size(); ++c) {
     double shear = 0.0;
@@ -181,7 +181,7 @@ std::optional<double> LossRates::friction_drop_loss(const Sides& s, std::size_t 
 }
 
 /// Derivative of P . (u+ - u-) on massless parts, which jump under continuous loads.
-double LossRates::driven_by(const Sides& s) const {
+double LossRates::load_work_rate(const Sides& s) const {
   const run::RunInstant& now = s.motion.instant;
   ForcingRatesSeries rates;
   ForcingRates(model_, derivative_, now.t, motion::Side::after).expand(now.t, 1.0, 1, rates);
@@ -211,7 +211,7 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
   }
   const std::vector<bool>& jumped = now.after.jumped;
   if (massless_ && !now.load_jumps && std::find(jumped.begin(), jumped.end(), true) != jumped.end()) {
-    const double driven = driven_by(s);
+    const double driven = load_work_rate(s);
     released += driven;
     works.now().works.loads += driven;
   }

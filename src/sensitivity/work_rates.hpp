@@ -1,4 +1,4 @@
-// work_rates.hpp: derivatives, with respect to a parameter, of works and losses since t = 0.
+// work_rates.hpp: derivatives, with respect to a parameter, of work integrals and losses since t = 0.
 //
 //   W_p+ = W_p + int d/dp ( power at fixed time ) dt         between instants, by Gauss's rule
 //   W_p+ = W_p- + (power- - power+) dt/dp + DL               across an instant with a loss L
@@ -18,7 +18,7 @@
 
 namespace signorini::sensitivity {
 
-/// Derivatives of works and losses with respect to one parameter.
+/// Derivatives of work integrals and losses with respect to one parameter. friction(), surface(): sums over all contacts.
 struct WorkRates {
   motion::WorkIntegrals works;
   double impact = 0.0;
@@ -52,7 +52,7 @@ class WorkTangent {
 
   [[nodiscard]] const WorkRates& now() const { return now_; }
   [[nodiscard]] WorkRates& now() { return now_; }
-  /// Adds `factor` times the derivatives of all powers.
+  /// Adds `factor` times the derivatives of all powers at the given place.
   void add(const TangentPlace& place, double factor);
   /// Adds dt times the powers of loads and damping, and dt_of[c] times the powers of contact c.
   void shift(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
@@ -83,10 +83,11 @@ class WorkTangent {
 //   impact     L = v-^T M v-/2 - v+^T M v+/2 + sum Pt s'
 //   friction   L = (T-^2 - T+^2)/2kt                if the force drops
 //   massless parts, which respond instantaneously (run/audit.hpp):
-//   friction   L = T+ (slip+ - slip-)               at a jump of a load; L = released energy at a drop of friction;
-//                                                   several contacts share the rest equally
+//   friction   L = T+ (slip+ - slip-)               at a jump of a load
+//              L = released energy                  at a drop of friction at one contact; at several contacts L as above,
+//                                                   plus an equal share of the remaining energy
 //   loads      W += sum of L - released energy      at a jump of a load
-//              W += P . (u+ - u-)                   otherwise; this energy is also released
+//              W += P . (u+ - u-)                   otherwise; the released energy increases by the same amount
 //
 // DL and all other derivatives are taken along the moving instant.
 
@@ -105,7 +106,7 @@ class LossRates {
   struct Sides;
   void add_impact(const Sides& sides, WorkRates& works) const;
   [[nodiscard]] std::optional<double> friction_drop_loss(const Sides& sides, std::size_t contact) const;
-  [[nodiscard]] double driven_by(const Sides& sides) const;
+  [[nodiscard]] double load_work_rate(const Sides& sides) const;
   void add_drops(const Sides& sides, WorkTangent& works) const;
 
   const Model& model_;

@@ -294,15 +294,15 @@ TEST_CASE("tables that are no measurements, and measurements that the run has no
   };
   refused("event_index,contact\n1,c\n", ":1: found the columns \"event_index,contact\", expected a column t");
   refused("event_index,t\n1,0.5\n0,0.6\n",
-          ":3:1: event_index: found 0, expected a row of events.csv, from 1");
+          ":3:1: event_index: found 0, expected the number of a row of events.csv (1, 2, ...)");
   refused("event_index,t\n1,soon\n", ":2:2: t: found \"soon\", expected a finite number");
   refused("t,d0.u,sigma\n1,0.5,-1\n", ":2:3: sigma: found -1, expected a number > 0");
   refused("t,d0.u\n", ":2: found no measurement, expected at least one row");
   refused("t,d0.u\n1,0.5\n2\n", ":3: found 1 cells, expected 2 as in the header");
   refused("t,d0.u\n1,0.5,3\n", ":2: found 3 cells, expected 2 as in the header");
   refused("t,d0.u\n1,0.5\n\n2,0.6\n", ":3: found a blank line, expected 2 as in the header");
-  refused("t,d0.u\n-0.1,0.5\n", ":2:1: t: found -0.1, expected a time from 0");
-  refused("event_index,t\n1,-0.1\n", ":2:2: t: found -0.1, expected a time from 0");
+  refused("t,d0.u\n-0.1,0.5\n", ":2:1: t: found -0.1, expected a time >= 0; the run starts at t = 0");
+  refused("event_index,t\n1,-0.1\n", ":2:2: t: found -0.1, expected a time >= 0; the run starts at t = 0");
   refused("event_index,t\n1,0.5\n2,0.6\n1,0.5\n",
           ":4: event_index: found 1 again, expected each event once; it is also in line 2");
   refused("t,d0.u\n1,0.5\n1,0.6\n",

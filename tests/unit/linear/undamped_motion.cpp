@@ -72,7 +72,7 @@ TEST_CASE(
         if ((set >> k & 1U) != 0) CHECK(std::abs(normals[k].dot(z)) < 1e-15);
     }
   }
-  CHECK(linear::undamped_together(own, model).size() == 1);
+  CHECK(linear::joint_undamped_dofs(own, model).size() == 1);
 }
 
 TEST_CASE("dashpots along single degrees of freedom leave all as they are") {
@@ -84,7 +84,7 @@ TEST_CASE("dashpots along single degrees of freedom leave all as they are") {
   CHECK(found.kinds == std::vector<linear::DofKind>{linear::DofKind::damped, linear::DofKind::algebraic,
                                                     linear::DofKind::damped});
   CHECK(found.undamped.empty());
-  CHECK(linear::undamped_together(own, model).empty());
+  CHECK(linear::joint_undamped_dofs(own, model).empty());
 }
 
 TEST_SUITE_END();

@@ -57,7 +57,7 @@ class Dump {
 };
 
 /// Of a law of one's own; empty: there is none.
-std::vector<double> numbers_of(const std::shared_ptr<const UserContactLaw>& own) {
+std::vector<double> stored_numbers(const std::shared_ptr<const UserContactLaw>& own) {
   std::vector<double> numbers;
   if (!own) return numbers;
   static_cast<void>(visit_law_constants(*own, [&](double& x, const Unit&) { numbers.push_back(x); }));
@@ -106,7 +106,7 @@ std::string dump(const Scene& s) {
               c.pendulum_surface ? c.pendulum_surface->radius : 0.0,
               c.pendulum_surface ? c.pendulum_surface->nominal_force : 0.0, c.normal_force,
               c.surface_velocity, c.initial_shear, c.tangential_damping, c.restitution, c.capture_velocity,
-              numbers_of(c.user_law));
+              stored_numbers(c.user_law));
   }
   for (const auto& l : s.loads)
     dump.line("load", l.name, static_cast<int>(l.type), l.direction, l.amplitude, l.history, l.pieces,

@@ -13,15 +13,15 @@ namespace {
 constexpr double level_of_all = 1e-6;
 
 /// Follows g(t) in steps of 0.1 of a method of order two; slot 1, beside one that nobody watches.
-class Followed {
+class ModalTangent {
  public:
-  explicit Followed(std::function<double(double)> g) : g_(std::move(g)) {
+  explicit ModalTangent(std::function<double(double)> g) : g_(std::move(g)) {
     decide::GuardStart idle, watched;
     watched.kind = Guard::sliding;
     grazes.start({idle, watched}, {0.0, level_of_all});
     fill(history_.restart(0.0), 0.0);
   }
-  Followed& to(double end, double limit = 1.0) {
+  ModalTangent& to(double end, double limit = 1.0) {
     for (; t_ < end - 0.05; t_ += 0.1) {
       fill(history_.push(t_ + 0.1), t_ + 0.1);
       history_.prepare(std::min(++steps_, 2));
@@ -53,28 +53,28 @@ TEST_CASE("a guard that sinks back before it has clearly risen") {
       return level_of_all * (t < 0.2 ? 0.25 * t : 0.05 - depth + depth * (t - 1.0) * (t - 1.0) / 0.64);
     };
   };
-  Followed dips(sunk(0.1));
+  ModalTangent dips(sunk(0.1));
   CHECK_FALSE(dips.to(1.5).grazes.first());  // it may still fall
   REQUIRE(dips.to(4.0).grazes.first());
   CHECK(dips.grazes.first()->t == doctest::Approx(1.0).epsilon(0.02));
   CHECK(dips.grazes.first()->slot == 1);
   CHECK(dips.grazes.first()->guard == Guard::sliding);
-  CHECK_FALSE(Followed(sunk(0.005)).to(20.0).grazes.first());  // less than a tenth of a tolerance
+  CHECK_FALSE(ModalTangent(sunk(0.005)).to(20.0).grazes.first());  // less than a tenth of a tolerance
 }
 
 TEST_CASE("a guard that was high, comes down into its tolerance and goes up again") {
   const auto bowl = [](double low) {
     return [=](double t) { return low * level_of_all + 1e-3 * (t - 1.0) * (t - 1.0); };
   };
-  CHECK(Followed(bowl(0.5)).to(3.0).grazes.first());
-  CHECK(Followed(bowl(-0.5)).to(3.0).grazes.first());
-  CHECK_FALSE(Followed(bowl(1.5)).to(3.0).grazes.first());
-  CHECK_FALSE(Followed(bowl(0.5)).to(1.0).grazes.first());
+  CHECK(ModalTangent(bowl(0.5)).to(3.0).grazes.first());
+  CHECK(ModalTangent(bowl(-0.5)).to(3.0).grazes.first());
+  CHECK_FALSE(ModalTangent(bowl(1.5)).to(3.0).grazes.first());
+  CHECK_FALSE(ModalTangent(bowl(0.5)).to(1.0).grazes.first());
 }
 
 TEST_CASE("a guard that rises from the rounding of its start does not graze, nor does one that falls") {
-  CHECK_FALSE(Followed([](double t) { return level_of_all * (t - 0.2); }).to(3.0).grazes.first());
-  Followed falls([](double t) { return 1e-3 * (1.0 - t); });
+  CHECK_FALSE(ModalTangent([](double t) { return level_of_all * (t - 0.2); }).to(3.0).grazes.first());
+  ModalTangent falls([](double t) { return 1e-3 * (1.0 - t); });
   falls.to(1.2).grazes.end({1});
   CHECK_FALSE(falls.grazes.first());
 }
@@ -82,7 +82,7 @@ TEST_CASE("a guard that rises from the rounding of its start does not graze, nor
 TEST_CASE(
     "what sank before it had risen is open when another guard ends the segment, not when it falls itself") {
   const auto g = [](double t) { return level_of_all * t * (0.3 - t); };
-  Followed other(g), itself(g), high([](double t) { return level_of_all * (2.0 - t); });
+  ModalTangent other(g), itself(g), high([](double t) { return level_of_all * (2.0 - t); });
   other.to(0.5).grazes.end({0});
   REQUIRE(other.grazes.first());
   CHECK(other.grazes.first()->t == doctest::Approx(0.5));
@@ -95,11 +95,11 @@ TEST_CASE(
 }
 
 TEST_CASE("of several the first counts, and nothing after an event inside a step") {
-  Followed twice([](double t) {
+  ModalTangent twice([](double t) {
     return level_of_all * (1.0 + 9.0 * (t - 1.0) * (t - 1.0) * (t - 3.0) * (t - 3.0) - 0.5);
   });
   REQUIRE(twice.to(5.0).grazes.first());
   CHECK(twice.grazes.first()->t == doctest::Approx(1.0).epsilon(0.02));
-  Followed cut([](double t) { return 1e-3 * (0.05 - t) * (0.05 - t); });
+  ModalTangent cut([](double t) { return 1e-3 * (0.05 - t) * (0.05 - t); });
   CHECK_FALSE(cut.to(0.1, 0.25).grazes.first());  // it rises after the event at 0.025
 }

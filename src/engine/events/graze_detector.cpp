@@ -4,7 +4,7 @@
 
 namespace signorini::events {
 namespace {
-// Number of sample intervals of a step's polynomial, whose degree is at most 5.
+// Number of sample intervals per step; the polynomial of a step has degree 5 at most.
 constexpr int looks = 8;
 }  // namespace
 
@@ -62,9 +62,9 @@ void GrazeDetector::record(std::size_t slot) {
 
 namespace {
 
-constexpr double near_levels = 1e4;  // chosen: possible error of a run of 1e4 steps, in levels
-constexpr int samples_per_step =
-    8;  // sample intervals per step; the polynomial of a step has degree 5 at most
+constexpr double near_levels = 1e4;  // largest gap of a near hit, in levels: the error of 1e4 steps; chosen
+// Number of sample intervals per step; the polynomial of a step has degree 5 at most.
+constexpr int samples_per_step = 8;
 constexpr std::size_t max_near_hits = 100000;
 
 }  // namespace

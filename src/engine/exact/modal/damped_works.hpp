@@ -1,12 +1,12 @@
 // damped_works.hpp: works and dissipated energies in an interval, in complex modes and in closed form.
 //
-//   int y_k y_i = [y_k y_i] / (l_k + l_i)       and the same with the conjugate of y_i
+//   int y_k y_i = [y_k y_i] / (l_k + l_i),      int y_k conj(y_i) = [y_k conj(y_i)] / (l_k + conj(l_i))
 //   int y_k (c . b) = [y_k (r . b)],  r D = -l_k r + c                       time_basis.hpp
 //
 // Damping dissipates int q'^T C q', friction int T p'. The work of surfaces is int -T s', that of loads int f d . u'. Each
-// integral is a sum over three kinds of pairs: two modes, a mode and a forced part c . b, and two forced parts. Pairs of modes
-// whose sum s = l_k + l_i is small relative to the run use the series of (e^(s h) - 1) / s. The energy balance checks the
-// result independently.
+// integral is a sum over three kinds of pairs: two modes, a mode and a forced part c . b, and two forced parts. If the sum
+// s = l_k + l_i is small relative to 1 / (length of the run), the integral uses the series of (e^(s h) - 1) / s. The energy
+// balance checks the result independently.
 #pragma once
 
 #include <optional>

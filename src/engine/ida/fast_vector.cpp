@@ -12,12 +12,12 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int most = 6;  // most vectors in a linear combination: order 5 has six differences
+constexpr int most = 6;  // number of vectors in a linear combination, at most: order 5 has six differences
 
 using Index = sunindextype;
 
-/// Computes z_j = sum_i f_i x_ij. T: Double4, or double for the remaining entries. z may be the same vector as x_0, but no
-/// other.
+/// Computes z_j = sum_i f_i x_ij. T: Double4, or double for the remaining entries. z may be the same vector as x_0, but not the
+/// same as another x_i.
 template <class T, int count>
 [[gnu::always_inline]] inline void combined(const double* f, const double* const* x, Index j, double* z) {
   T sum = f[0] * base::lanes_at<T>(x[0] + j).v;
@@ -124,8 +124,8 @@ template <class T, int count>
   if constexpr (count > 5) base::lanes_at<T>(x[5] + j).v = sum += base::lanes_at<T>(x[5] + j).v;
 }
 
-/// Updates IDA's differences `vectors` = [phi_q, ..., phi_0] by the correction e: to each vector, the updated
-/// vector before it is added.
+/// Updates IDA's differences `vectors` = [phi_q, ..., phi_0]: adds the correction e to phi_q, and to each other vector the
+/// updated vector before it in the list.
 template <int count>
 [[gnu::always_inline]] inline void cascade(const double* e, N_Vector* vectors, Index n) {
   std::array<double*, count> x{};

@@ -78,7 +78,7 @@ void HistoryTurningPoints::start(const decide::Decision& decision, const motion:
 
 void HistoryTurningPoints::find(const events::StepHistory& history, double x_end) {
   detector_.open();
-  // Fast path: nearly always all values stay within their earlier ranges.
+  // Fast path: in most steps all values stay within their earlier ranges, so no search is needed.
   const double *last = history.last_values() + first_, *bend = history.variation_bounds() + first_;
   const events::TurningPointDetector::Range* seen = detector_.ranges();
   const std::size_t shown = count();

@@ -117,8 +117,8 @@ std::optional<double> first_root(const Bernstein& p, double resolution) {
 namespace {
 
 constexpr std::size_t size = max_root_degree + 1;
-constexpr double near_root =
-    1e-6;  // after a Newton step smaller than near_root x, the next one gives all digits
+// After a Newton step smaller than near_root * x, the next step gives all digits of the root.
+constexpr double near_root = 1e-6;
 constexpr double finest = rounding::many_operations;  // width below which no interval is halved
 using Coefficients = std::array<double, size>;
 

@@ -35,8 +35,7 @@ const GaussRule& short_gauss_rule() {
 
 namespace {
 
-constexpr std::size_t block =
-    16;  // number of degrees of freedom per block, so that coefficients fit into the cache
+constexpr std::size_t block = 16;  // degrees of freedom per block: their coefficients fit into the cache
 
 /// Computes velocities v of a block of degrees of freedom at several times. a[k * stride + j]: coefficient k of degree of
 /// freedom j. at: place in the series for each time and degree of freedom.

@@ -20,7 +20,8 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int max_retries = 4;  // restarts before the run fails; each has a first step ten times shorter
+// Limit of the number of restarts after a failed first step. Each restart divides the length of the first step by ten.
+constexpr int max_retries = 4;
 constexpr double surface_step = 0.25;  // longest step as a phase angle of a surface's motion, rad: error 1e-7
 // First step as a fraction of the longest step whose local error is accepted. After a rebound, the error of the order-one start
 // remains in the gap for the whole flight, and every impact adds such an error. So scenes with rigid contacts use a shorter

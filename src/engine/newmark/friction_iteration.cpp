@@ -16,8 +16,7 @@
 namespace signorini::newmark {
 namespace {
 
-constexpr double unchanged =
-    1e-12;                  // largest change of a converged bound, relative to the greatest contact force
+constexpr double unchanged = 1e-12;  // limit of a converged bound's change, relative to the greatest force
 constexpr int slips = 100;  // key of a slipping contact: T is a load, so both directions have the same matrix
 constexpr int stops = 101;  // key of a contact without tangential stiffness that stops within the step
 

@@ -411,8 +411,8 @@ double trapezoid_by_dt(const Piece& piece, double begin, double end, double dt) 
 
 /// True if f is a cubic that stays between its values at both ends, like the cubic between two rows of a table.
 bool between_rows(const Piece& piece, double begin, double end) {
-  constexpr int looks =
-      16;  // number of samples; a cubic with an interior extreme exceeds its ends at several samples
+  // Number of sample intervals. A cubic with an interior extreme exceeds its end values at several samples.
+  constexpr int looks = 16;
   if (piece.function || piece.amplitude != 0.0 || piece.coefficients.size() != 4) return false;
   const auto [least, greatest] = std::minmax({piece.value(begin), piece.value(end)});
   for (int i = 1; i < looks; ++i)

@@ -34,7 +34,7 @@ struct ModalTerm {
   bool rigid = false;
 };
 
-/// Largest number of terms for which modes are computed.
+/// Largest number of terms (springs, dashpots, constraints) of a contact state for which complex modes are computed.
 inline constexpr std::size_t max_damped_terms = 9;
 
 struct DampedModes {

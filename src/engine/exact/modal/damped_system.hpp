@@ -52,7 +52,7 @@ struct DampedState {
   std::vector<ContactRows> contacts;
   std::vector<Eigen::Index> rigid;  ///< indices of the rigid terms in `terms`
   Eigen::MatrixXd from_forces;      ///< rigid x n: (V^T U)^-1 V^T
-  Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes = 1
+  Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes is the unit matrix
   RootSums sums;
   /// Dissipated power of each pair of modes, divided by the sum of both roots: the integral over time is the dissipated energy.
   Eigen::MatrixXcd loss, loss_conjugate;

@@ -217,8 +217,8 @@ class Spectrum {
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // real eigenvalues as sums, for accurate differences
   VectorProducts products_;
-  RowMatrix x_,
-      y_;  // X, Y; a conjugate pair has the columns 2 Re x, -2 Im x in X and the rows Re y, Im y in Y
+  // X and Y. A conjugate pair has the columns 2 Re x, -2 Im x in X and the rows Re y, Im y in Y.
+  RowMatrix x_, y_;
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
 };

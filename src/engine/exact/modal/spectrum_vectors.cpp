@@ -270,8 +270,8 @@ void Spectrum::store_matrices() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
              n = static_cast<Eigen::Index>(coupled_.size() + uncoupled_.size());
-  std::vector<Eigen::Index> place(
-      order_.size());  // index in Amplitudes of each mode of the list real_, uncoupled_
+  // Index in Amplitudes of each mode of the list real_, uncoupled_.
+  std::vector<Eigen::Index> place(order_.size());
   for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<Eigen::Index>(p);
   y_.setZero(reals + 2 * pairs, n);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, reals + 2 * pairs);

@@ -27,8 +27,7 @@ namespace signorini::engine {
 // amplitudes. So one sum bounds the outputs of all forms. A sum over all modes has a rounding error of a few eps r |u|_M for
 // every form, even for a stress at a clamped end.
 
-/// Bounds on |u|_M, |v|_M and |a|_M in a step. Units: length times the square root of a mass; for v and a
-/// divided by time and time squared.
+/// Bounds on |u|_M, |v|_M and |a|_M in a step. Units: length sqrt(mass) for u, divided by time for v and by time^2 for a.
 struct FastModeBound {
   double u = 0.0, v = 0.0, a = 0.0;
   Eigen::VectorXd forces;  ///< bounds of all contact forces, in the order of the model's layout
@@ -43,7 +42,7 @@ struct Expansion {
   const motion::StateSystem* system = nullptr;
 };
 
-/// Bounds on the fast part of the last step; only engines that follow modes provide them.
+/// Bounds on the contribution of fast modes to the last step. Only engines that compute in modes provide these bounds.
 class FastModes {
  public:
   virtual ~FastModes() = default;
@@ -58,8 +57,7 @@ class FastModes {
 };
 
 struct StepFacts {
-  /// Times inside the step of local extremes of N, T, g or ut of a contact that exceed all earlier values,
-  /// ascending.
+  /// Ascending times inside the step at which N, T, g or ut of a contact has a local extreme beyond all earlier values.
   std::span<const double> turning_points = {};
   /// Contact, quantity and time of each turning point, unordered. Null if evaluate_watched() is not faster for one contact than
   /// for all contacts.
@@ -72,7 +70,7 @@ struct StepFacts {
   /// Largest phase angle of u, v, a and forces on the step in rad, without the phase angle of the forcing: frequency times step
   /// length, or n pi for polynomials of degree n. Infinite if unknown: callers then use the frequencies of the model.
   double phase_angle = std::numeric_limits<double>::infinity();
-  const FastModes* fast_modes = nullptr;  ///< null if the engine has no modes of the model
+  const FastModes* fast_modes = nullptr;  ///< null if the engine does not compute in modes
 };
 
 class DenseOutput {
@@ -94,7 +92,7 @@ class DenseOutput {
     evaluate(t, point);
     accelerate(t, point);
   }
-  /// Adds the integrals of all powers over the part [from, to] of the step.
+  /// Adds the integrals of all powers over the part [from, to] of the step to `works`.
   virtual void integrate(double from, double to, motion::WorkIntegrals& works) = 0;
   /// Largest magnitude of an entry of the residual of the equation of motion at the end of the step, as a force.
   [[nodiscard]] virtual double residual() = 0;

@@ -144,10 +144,11 @@ const double* conversion(std::size_t n) {
   return tables[n].data();
 }
 
-/// The only downward zero crossing of p in [lo, hi], by Newton's method; steps that leave the interval are bisected.
+/// The only downward zero crossing of p in [lo, hi], by Newton's method. Bisection replaces a step that would leave the
+/// interval.
 double only_zero(const double* a, std::size_t degree, double lo, double hi, double guess) {
   double x = guess > lo && guess < hi ? guess : 0.5 * (lo + hi);
-  double last = 1.0;  // length of the last step
+  double last = 1.0;  // length of the last Newton or bisection step
   for (int i = 0; i < 200; ++i) {
     double value = a[degree], slope = 0.0;
     for (std::size_t k = degree; k-- > 0;) {
@@ -209,7 +210,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     return {FirstRoot::Kind::not_finite};  // a NaN would be halved endlessly
   if (a[0] - rest > slack) return {};
 
-  // Undecided intervals, the leftmost on top; each halving adds one.
+  // Stack of undecided intervals, the leftmost on top. Each halving adds one interval.
   std::array<Interval, 64> stack;
   std::size_t count = 1;
   stack[0].lo = 0.0;
@@ -267,7 +268,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
       --count;
       continue;
     }
-    // The right half stays below on the stack, the left half goes on top.
+    // The right half replaces the interval on the stack; the left half is put on top.
     Interval& left = stack[count++];
     left.lo = now.lo;
     left.hi = now.hi;

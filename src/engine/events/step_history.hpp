@@ -82,7 +82,7 @@ class StepHistory {
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
   std::array<double, max_degree + 1> lengths_{};  // length of the step that ended at times_[b]
   int filled_ = 0;
-  bool one_basis_ = true;  // scalars use powers_basis_ too
+  bool one_basis_ = true;  // true: scalars use powers_basis_, because their degree is that of the powers
   Basis order_basis_, powers_basis_;
 };
 

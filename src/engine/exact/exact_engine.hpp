@@ -4,9 +4,9 @@
 //   guard(x)   = sum_k g_k x^k        first root by interval bounds, engine/events/first_root.hpp
 //
 // Between events the equations of a contact state are linear with constant coefficients. The Taylor series of the motion
-// converges for all x, and |u_(k+1)| <= W s/(k+1) |u_k|, where W is the greatest growth rate of the contact state. A step is as
-// long as this bound proves convergence down to rounding, but so short that the terms do not cancel. docs/theory.md contains
-// the proof that no event is missed.
+// converges for all x, and |u_(k+1)| <= W s/(k+1) |u_k|, where W is the greatest growth rate of the contact state. A step has
+// the greatest length for which this bound proves convergence down to rounding and the terms do not cancel. docs/theory.md
+// contains the proof that no event is missed.
 //
 // The part of a series after an event is not used, so a step that begins at an event is limited to twice the recent time
 // between events. Exception: on large structures, an event in compliant contacts changes the motion only near these contacts
@@ -103,7 +103,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   PatchedSeries motion_;
   std::optional<motion::LocalSeries> local_series_;  // nullopt: no local updates
   contact::ContactStates states_;  // contact states of the segment, if local_series_ is used
-  bool series_continued_ = false;  // the segment begins within motion_
+  bool series_continued_ = false;  // true: the next step continues the series motion_
   double begin_x_ = 0.0;           // beginning of the step, as a place in motion_
   double reach_ = 0.0;             // end of the valid range of motion_, as a place in it
   double reach_time_ = 0.0;        // time of the place reach_
@@ -134,7 +134,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   double event_interval_ = 0.0;  // mean time between recent events; 0: none
   // event_interval_ limits the steps, because all series of this segment were long enough.
   bool limited_by_events_ = false;
-  double end_x_ = 0.0;  // end of the last step, as a place in its series
+  double end_x_ = 0.0;  // end of the last step, as a place in motion_
   engine::Step step_;
   SeriesWorkIntegrals works_;
   events::TurningPointDetector turns_;

@@ -80,7 +80,7 @@ std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& sys
 double FlowGrowth::rate_from_series(const motion::StateSystemPtr& system) {
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
-  std::mt19937_64 random(1);  // the same motion in every run
+  std::mt19937_64 random(1);  // fixed seed, so that the motion is the same in every run
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (Eigen::Index i = 0; i < n; ++i) {
     u[i] = uniform(random) / scales_[static_cast<std::size_t>(i)];

@@ -25,7 +25,7 @@ struct BdfStep {
   double begin = 0.0, end = 0.0;  ///< ends of the accepted step
   double root = 0.0;              ///< Kind::root: time at which a guard reached zero, begin < root <= end
   std::vector<decide::TriggeredGuard> triggered;  ///< guards that reached zero; only for Kind::root
-  double length = 0.0;                            ///< step length by IDA, without the rounding of end - begin
+  double length = 0.0;                            ///< IDA's step length, without the rounding of end - begin
   int order = 1;                                  ///< degree of the solution's polynomial on the step
   std::string reason;                             ///< reason of the failure; only for Kind::failed
 };

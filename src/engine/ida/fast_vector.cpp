@@ -80,7 +80,7 @@ SIGNORINI_WIDE_LANES void linear_sum(double a, N_Vector x_vector, double b, N_Ve
   const double *x = NV_DATA_S(x_vector), *y = NV_DATA_S(y_vector);
   double* z = NV_DATA_S(z_vector);
   Index j = 0;
-  if (a == 1.0) {  // the case of all sums in IDA's steps
+  if (a == 1.0) {  // fast path: a is 1 in all sums of IDA's steps
     for (; j + 3 < n; j += 4)
       base::lanes_at<base::Double4>(z + j).v =
           base::lanes_at<base::Double4>(x + j).v + b * base::lanes_at<base::Double4>(y + j).v;

@@ -84,7 +84,7 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
 /// then accurate to 3e-9 s; with the re-arming level as limit, only to 1e-7 s.
 double IdaEngine::flight_level(const Contact& contact, const Vector& u) const {
   double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
-  for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
+  for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // sum over all terms
   const double tolerance = flight_tolerances_ * (tolerance_.rtol * size + absolute * tolerance_.displacement);
   size = std::max(size, absolute * model_.scales.displacement);
   return std::max(std::sqrt(tolerance * size), 2.0 * events::re_arm_tolerances * tolerance);

@@ -1,4 +1,4 @@
-// ida_engine.hpp: engine `ida`: takes IDA's steps and proves that no guard crosses zero inside a step without an event.
+// ida_engine.hpp: engine `ida`: takes IDA's steps and proves that no zero crossing of a guard inside a step is missed.
 //
 //   advance: a step of IDA -> polynomials of the guards on this step (step_history.hpp, active_guards.hpp)
 //            -> first zero crossing, refined with forces recomputed from u and v (locate.hpp)

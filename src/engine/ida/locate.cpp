@@ -22,7 +22,7 @@ double locate(BdfIntegrator& bdf, motion::ConsistentMotion& consistent, const en
   const double g = value(time);
   if (g == 0.0) return time;
   double width = 0.25 * resolution;
-  if (g > 0.0) {  // the crossing is later
+  if (g > 0.0) {  // the crossing is after `time`
     for (double lo = time; lo < end; width *= 4.0) {
       const double hi = std::min(end, time + width);
       if (value(hi) <= 0.0) return events::root_between(value, lo, hi, 0.25 * resolution);

@@ -35,9 +35,10 @@ OrderChoice choose_order(const Model& model, const RunSpec& run) {
     greatest = s.order;
     break;
   }
-  return {greatest, fmt::format("auto: rtol is above {}, so the greatest order that is stable for every mode "
-                                "(least damping ratio {:.2g})",
-                                loose, ratio)};
+  return {greatest,
+          fmt::format("auto: the greatest order that is stable for every mode, because rtol is above "
+                      "{} (least damping ratio {:.2g})",
+                      loose, ratio)};
 }
 
 }  // namespace signorini::ida

@@ -34,7 +34,7 @@ struct OrderChoice {
   int max_order = 5;
   std::string reason;
 };
-/// Maximum order of run.max_order, or chosen as described above.
+/// Maximum order of BDF: run.max_order if it is given, otherwise the order for the scene as described above.
 [[nodiscard]] OrderChoice choose_order(const Model& model, const RunSpec& run);
 
 /// Number and length of the steps that IDA takes before a segment.

@@ -11,8 +11,8 @@
 // correction (up to one slip-rate scale of the friction law), which IDA's test would regard as divergence. So the test is
 // applied only after the first correction within the tolerance.
 //
-// With a prescribed jet, e is computed from the jet's polynomials and no equations are solved. This is used for the steps
-// before a segment, which give IDA a history of a higher order (restart_order.hpp).
+// With a prescribed jet, e is computed from the jet's polynomials and no equations are solved. Steps of this kind before a
+// segment give IDA a history of a higher order (restart_order.hpp).
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>

@@ -221,7 +221,8 @@ NewmarkEngine::Candidate NewmarkEngine::earliest_candidate(double h, bool locate
   return first;
 }
 
-/// True if this guard caused the decision at the beginning of this step (Sunk), and the same guard is active after the decision.
+/// True if this guard caused the decision at the beginning of this step (Sunk), and the same guard is active after the
+/// decision.
 bool NewmarkEngine::has_sunk(std::size_t slot) const {
   return sunk_ && sunk_->slot == slot && sunk_->guard == segment_.decision->guards[slot].kind &&
          std::abs(t0_ - sunk_->t) <= motion::resolution_at(t0_, 0.0);
@@ -326,7 +327,7 @@ bool NewmarkEngine::end_after(double h) {
 }
 
 engine::Step NewmarkEngine::advance() {
-  // The end of the last step is the beginning of this one. Swapping reuses the memory of the vectors.
+  // The end of the last step is the beginning of this step. Swapping reuses the memory of the vectors.
   std::swap(a_before_, begin_.a);
   if (h_ == 0.0) a_before_.resize(0);
   std::swap(begin_, end_);

@@ -19,7 +19,7 @@ constexpr base::CacheLimits max_kept{32, std::size_t{8} << 20};
 // Time of a factorisation divided by the time of a solve. Measured for a banded matrix with 3000 unknowns: factorisation
 // 0.64 ms, plus 0.3 ms for the preparation of the factors; solve 0.045 ms.
 constexpr double solves_a_factorisation = 20.0;
-constexpr double bytes_a_number = 12.0;  // memory of one entry of KLU's factors
+constexpr double bytes_a_number = 12.0;  // memory of one entry of KLU's factors, in bytes
 // Iterative refinement continues while each round reduces the correction at least to a tenth. Eight rounds take as long as a
 // factorisation.
 constexpr double least_gain = 0.1;

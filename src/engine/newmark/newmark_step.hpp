@@ -85,9 +85,10 @@ class NewmarkStep {
   Key key_;
   std::shared_ptr<std::vector<Rows>> own_rows_;
   std::shared_ptr<const std::vector<Rows>> rows_;
-  const std::vector<linear::DofKind> own_kinds_;  // kinds without the contact rows
+  const std::vector<linear::DofKind>
+      own_kinds_;  // kinds of the structure's degrees of freedom without contacts
   const bool massless_;
-  linear::MotionKinds in_rows_;  // unknown of each degree of freedom
+  linear::MotionKinds in_rows_;  // kinds in the current contact states: they determine the unknowns
   linear::SystemMatrix workspace_;
   base::LruCache<std::pair<Key, double>, Factors> kept_;  // factors by rows and step length
   linear::SystemMatrix irregular_;                        // matrix for a length that will not recur

@@ -34,7 +34,7 @@ void DampedFlow::forces(const ModalPoint& at, motion::Point& point) const {
 
 namespace {
 
-constexpr double max_round_trip_error = 1e-12, worst_dependence = 1e4;  // limits as in spectrum.cpp
+constexpr double max_round_trip_error = 1e-12, worst_dependence = 1e4;  // same as in spectrum.cpp
 
 }  // namespace
 

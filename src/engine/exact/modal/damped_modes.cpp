@@ -69,7 +69,7 @@ bool Search::find_roots() {
   return true;
 }
 
-/// Merges equal roots into one root with their multiplicity; ascending by |l|.
+/// Merges equal roots into one root with a multiplicity, and sorts the roots by |l|, ascending.
 void Search::merge_roots() {
   std::sort(roots_.begin(), roots_.end(), [](const Root& a, const Root& b) {
     return std::pair(size_of(a.l), a.l.re) < std::pair(size_of(b.l), b.l.re);

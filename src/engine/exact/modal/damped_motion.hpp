@@ -6,7 +6,7 @@
 // Q is the response to loads and moving constraints: the sum of the responses of all modes (time_basis.hpp) and of the
 // displacement u_c that the constraints prescribe. The force lambda of a constraint is the sum of the forces due to all modes
 // and of the direct reaction to the loads p:
-//   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p
+//   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p,   z_k = y_k + (response of mode k to p)
 #pragma once
 
 #include "engine/exact/modal/damped_system.hpp"

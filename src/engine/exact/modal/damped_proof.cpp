@@ -200,7 +200,8 @@ double DampedProof::length_without_turning(const ModalPoint& at, const events::T
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double off_place = part.fast_bound + part.rest;
-      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // see ModalProof::length_without_turning
+      if (range.is_exceeded(part.p[0], part.p[1],
+                            off_place) &&  // reason: see ModalProof::length_without_turning()
           range.is_exceeded(
               part.p[0], part.p[1],
               off_place + rounding::elimination * motion_.magnitude(*watched_quantities(c)[f], at)))

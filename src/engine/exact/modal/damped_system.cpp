@@ -18,7 +18,7 @@ using Index = Eigen::Index;
 constexpr Index max_damper_dofs = 24;  // largest number of degrees of freedom with discrete dampers
 constexpr double hardly = 1e-3;        // limit of |l_k + l_i| t_end for RootSums::slow
 
-/// Decomposition of the damping matrix: C = alpha M + beta K + sum of r d d^T for a few dampers; each entry is a pair r, d.
+/// Decomposition of the damping matrix: C = alpha M + beta K + sum of r d d^T. dampers: a few pairs r, d.
 struct Damping {
   double alpha = 0.0, beta = 0.0;
   std::vector<std::pair<double, Vector>> dampers;

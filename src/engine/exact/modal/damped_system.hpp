@@ -30,7 +30,7 @@ namespace signorini::modal {
 /// gap or the displacement.
 struct ContactRows {
   Eigen::VectorXcd gap, slide;
-  int normal_term = -1, tangent_term = -1;  ///< indices of the contact's terms
+  int normal_term = -1, tangent_term = -1;  ///< indices of the contact's terms; -1: no such term
   Form normal, tangent;                     ///< the contact's rows in this contact state
 };
 

@@ -37,7 +37,7 @@ class DampedWorkIntegrals {
   struct ProductIntegral {
     ModalQuantity f, g;
     Eigen::MatrixXcd responses;           // modes x functions b; empty if there are no such products
-    bool pairs = false, courses = false;  // true if f g has products of two modes; of two forced parts
+    bool pairs = false, courses = false;  // f g contains products of two modes; of two forced parts
   };
   [[nodiscard]] ProductIntegral product_integral(ModalQuantity f, ModalQuantity g);
   [[nodiscard]] ModalQuantity without_modes(TimeCoefficients course) const;
@@ -52,7 +52,7 @@ class DampedWorkIntegrals {
   void add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const;
 
   const DampedMotion& motion_;
-  std::vector<ProductIntegral> loads_;  // power of each active load
+  std::vector<ProductIntegral> loads_;  // integrals of the powers of the active loads
   struct ContactProducts {
     std::optional<ProductIntegral> applied_normal_force, slip, surface, dashpot;
   };

@@ -79,7 +79,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   void fill_rest(const ModalPoint& z, const Motion& motion, motion::Point& point) const;
   void fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, motion::Point& point) const;
   struct ZeroCrossing {
-    double offset = 0.0, uncertainty = 0.0;  // times
+    double offset = 0.0, uncertainty = 0.0;  // time of the zero minus t_, and its error bound
   };
   [[nodiscard]] ZeroCrossing crossing_of(std::size_t slot, const motion::Point& point) const;
   [[nodiscard]] double refine_crossing(std::size_t slot);

@@ -104,7 +104,7 @@ class ModalCache {
     const Model model;  ///< its load histories and initial state are not used
     const UnconstrainedBasis basis;
     const double t_end;
-    std::unique_ptr<DampedSystem> damped;  ///< created on first use; null before
+    std::unique_ptr<DampedSystem> damped;  ///< null before the first use
   };
 
   /// Returns the stored data if they fit this structure and the run length t_end, otherwise new data.

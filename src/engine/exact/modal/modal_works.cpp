@@ -20,7 +20,7 @@ using Ends = ModalWorkIntegrals::Ends<S>;
 template <class S>
 struct Integrals {
   S rates{}, mixed{};  // int y_k' y_l', int y_k y_l'
-  S changed{};         // y_k y_l
+  S changed{};         // [y_k y_l]: difference of y_k y_l between end and beginning
 };
 
 /// Computes the integrals `rates` and `mixed`, each as a [y_k y_l] + b [y_k' y_l'] + c1 [y_k y_l'] + c2 [y_k' y_l].

@@ -46,7 +46,7 @@ class ModalWorkIntegrals {
     std::vector<Ends<double>> real;
     std::vector<Ends<Complex>> pair;
     std::vector<double> drift;  // drift velocity d of each real mode; 0 if the mode has a nonzero frequency
-    Amplitudes area;            // int z
+    Amplitudes area;            // time integrals of the amplitudes z
   };
   /// rates: int q'^T q'. crossed: int (sum a_k y_k)(sum b_k y_k') of each contact; 0 if the contact does not slip.
   struct Sums {

@@ -10,7 +10,7 @@ namespace signorini::modal {
 namespace {
 
 constexpr double small_turn = 1.0;     // largest l time^2 for which the Taylor series is used
-constexpr std::size_t max_terms = 64;  // 40 are enough for alpha time <= 4 and l time^2 <= 1
+constexpr std::size_t max_terms = 64;  // limit of the terms; alpha time <= 4 and l time^2 <= 1 need 40
 
 Complex cosine(Complex a) { return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)}; }
 Complex sine(Complex a) { return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)}; }

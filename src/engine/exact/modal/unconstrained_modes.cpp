@@ -61,7 +61,7 @@ using Long = long double;
 using LongVector = std::vector<Long>;
 
 constexpr std::size_t widest_band = 48;  // largest half-width of the band, without the diagonal
-constexpr double free_share = 1e-14;     // part of the highest omega^2 below which a motion is free
+constexpr double free_share = 1e-14;     // omega^2 of a free motion is below this part of the highest omega^2
 // Below doubtful * free_share of the highest omega^2, a mode cannot be distinguished from a free motion.
 constexpr double doubtful = 100.0;
 constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are computed together

@@ -105,7 +105,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   contact::ContactStates states_;  // contact states of the segment, if local_series_ is used
   bool series_continued_ = false;  // true: the next step continues the series motion_
   double begin_x_ = 0.0;           // beginning of the step, as a place in motion_
-  double reach_ = 0.0;             // end of the valid range of motion_, as a place in it
+  double reach_ = 0.0;             // place in motion_ at which its valid range ends
   double reach_time_ = 0.0;        // time of the place reach_
   /// Bound `rest` on the remainder of the displacements near a contact, in norm_, up to the distance x from the origin of the
   /// contact's polynomials.

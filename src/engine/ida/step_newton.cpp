@@ -24,7 +24,7 @@ StepNewton::StepNewton(IdaProblem& problem, void* ida, N_Vector like, SUNContext
   ops->solve = [](SUNNonlinearSolver s, N_Vector, N_Vector e, N_Vector w, realtype tolerance,
                   booleantype setup,
                   void* memory) { return newton_of(s).solve(e, w, tolerance, setup != 0, memory); };
-  // IDA passes a function for F. It is ignored, because iterate() calls the problem directly.
+  // IDA's function for F is not used, because iterate() calls the problem directly.
   ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
   ops->setlsetupfn = [](SUNNonlinearSolver s, SUNNonlinSolLSetupFn f) {
     newton_of(s).setup_ = f;

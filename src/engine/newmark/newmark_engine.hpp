@@ -9,7 +9,7 @@
 //                      positive; contacts without springs are treated as with "root"
 //
 // The step after an event has the full length again. Factorisations are cached by contact states and step length, so only new
-// contact states need a new one. Inside a step, the solution at t is that of a shorter step to t, which also satisfies
+// contact states need a factorisation. Inside a step, the solution at t is that of a shorter step to t, which also satisfies
 // equilibrium and the contact laws. Source: Lukashevich et al. 2021, (5) to (11), corrected as described in docs/theory.md.
 #pragma once
 

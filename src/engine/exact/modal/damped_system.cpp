@@ -204,7 +204,7 @@ void DampedSystem::find_constraints(DampedState& out) const {
     v.col(i) = term.v;
   }
   out.from_forces = base::solve_dense(v.transpose() * u, v.transpose());
-  // Many displacements satisfy the constraints. This one has a low elastic energy, so stiff modes contribute little.
+  // Many displacements satisfy the constraints. static_shapes have a low elastic energy, so stiff modes contribute little.
   const Vector soft =
       (basis_.omega_squared().array() + basis_.omega_squared()[std::min(n - 1, m + 3)]).inverse().matrix();
   const Eigen::MatrixXd weighted = soft.asDiagonal() * v;

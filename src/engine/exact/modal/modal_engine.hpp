@@ -44,7 +44,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
     return modal_ ? 0.0 : taylor_.guard_error(guard, motion, contact);
   }
   [[nodiscard]] engine::StepFacts facts() const override;
-  /// The uncoupled modes that the engine uses. Null if it uses complex modes or none.
+  /// The uncoupled modes that the engine uses. Null if the engine uses complex modes or no modes.
   [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
   [[nodiscard]] engine::StepperReport report() override;
 

@@ -117,7 +117,7 @@ class ModalCache {
 /// Data that the engine shares with a listener of its run.
 struct SharedModalData {
   ModalCache* memory = nullptr;  ///< data of earlier runs, or null
-  ModalSystem* modes = nullptr;  ///< set by the engine: its uncoupled modes; null if it has none
+  ModalSystem* modes = nullptr;  ///< set by the engine: its uncoupled modes, or null
 };
 
 // Extreme values of N, T, g and ut within a passage, in modes.

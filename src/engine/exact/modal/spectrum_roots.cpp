@@ -19,7 +19,7 @@ namespace {
 constexpr int max_sweeps = 200;
 constexpr double nearly = 1e-9;     // relative step length below which rounding may limit the convergence
 constexpr double straight = 1e-14;  // relative step length for which a linear update of G0 is accurate
-// Imaginary part of initial values, relative to the real part. Without it, no complex root is found.
+// Imaginary part of initial values, relative to the real part. From real initial values no complex root would be found.
 constexpr double lift = 1e-3;
 constexpr double real_share = 1e-7;  // largest relative imaginary part of the offset of a real root
 constexpr double paired = 1e-8;      // largest relative distance of a root from the conjugate of its partner

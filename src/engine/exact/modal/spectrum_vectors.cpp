@@ -164,7 +164,7 @@ void Spectrum::find_squares() {
       sum += entry * entry;
       beside = std::hypot(beside, size_of(entry));
     }
-    // condition_ was computed with |x| = 1 of the coupled entries alone; `beside` corrects it.
+    // condition_ was computed as if |x| = 1, but only the coupled entries have this norm; `beside` is the norm of all entries.
     worst = std::max(worst, std::isfinite(beside) ? beside : std::numeric_limits<double>::infinity());
     return sum;
   };

@@ -12,18 +12,19 @@
 namespace signorini::newmark {
 namespace {
 
-// Limits of the number and the memory of kept factors: two step lengths (dt, and 2 dt for step doubling) for each of 16 contact
-// states of a cycle. The memory limit equals that for state systems (motion/state_systems.hpp).
+// Limits of the number and the memory of cached factors: two step lengths (dt, and 2 dt for step doubling) for each of 16
+// contact states of a cycle. The memory limit is the same as for state systems (motion/state_systems.hpp).
 constexpr base::CacheLimits max_kept{32, std::size_t{8} << 20};
 
-// Ratio of the times of a factorisation and of a solve. Measured for a banded matrix with 3000 unknowns: 0.64 ms, plus 0.3 ms
-// for the preparation of the factors, and 0.045 ms.
+// Time of a factorisation divided by the time of a solve. Measured for a banded matrix with 3000 unknowns: factorisation
+// 0.64 ms, plus 0.3 ms for the preparation of the factors; solve 0.045 ms.
 constexpr double solves_a_factorisation = 20.0;
-constexpr double bytes_a_number = 12.0;  // memory of one entry of KLU's factors
-// Refinement continues while each round reduces the correction to a tenth. Eight rounds take as long as a factorisation.
+constexpr double bytes_a_number = 12.0;  // memory of one entry of KLU's factors, in bytes
+// Iterative refinement continues while each round reduces the correction at least to a tenth. Eight rounds take as long as a
+// factorisation.
 constexpr double least_gain = 0.1;
 constexpr int most_rounds = 8;
-constexpr double left_of_rounding = rounding::eps / 16.0;  // relative error of a refined solution
+constexpr double left_of_rounding = rounding::eps / 16.0;  // admissible relative error of a refined solution
 
 }  // namespace
 
@@ -75,8 +76,8 @@ void NewmarkStep::set_weights(double h) {
                                                                  : linear::Weights{0.0, 0.0, 1.0};
 }
 
-/// Factorises the matrix. fresh: choose new pivots. The pivots of other contact states are reused in any case if each contact
-/// force is the pivot of its own row.
+/// Factorises the matrix. fresh: choose new pivots, unless each contact force is the pivot of its own row: then the pivots of
+/// other contact states are reused.
 bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
   set_weights(h);
   return matrix.set(*rows_, weights_,
@@ -84,7 +85,7 @@ bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
                     in_rows_.undamped);
 }
 
-/// Differences between the current rows and base_rows_, in the columns of the matrix at base_h_.
+/// Differences between the current rows and base_rows_, as rows of the matrix for the step length base_h_.
 std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
   std::vector<linear::ChangedRow> changed;
   const auto n = static_cast<std::size_t>(structure_.size);
@@ -112,7 +113,7 @@ std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
   return changed;
 }
 
-/// Updates the base factors to the current rows. False: a factorisation is faster.
+/// Updates the base factors to the current rows. False: a new factorisation is needed, or is faster.
 bool NewmarkStep::update(double h) {
   if (!economical_ || updated_.base() == nullptr || base_h_ != h) return false;
   if (!updates_) {
@@ -125,7 +126,8 @@ bool NewmarkStep::update(double h) {
   return updates_ = updates_ && spent_ <= factorisation;
 }
 
-/// Solves x_ := A^-1 x_ with the factors of the band matrix. False: no such factors exist, and x_ is unchanged.
+/// Solves x_ := A^-1 x_ with the factors of the band matrix. False: there is no band matrix, or its elimination loses digits;
+/// x_ is then unchanged.
 bool NewmarkStep::solve_condensed(double h, bool kept) {
   if (!condensed_) return false;
   const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
@@ -150,7 +152,7 @@ void NewmarkStep::double_radius() {
   if (local_step_) local_step_->double_radius();
 }
 
-/// Solves x_ := A^-1 x_ for a step length that will recur.
+/// Solves x_ := A^-1 x_ for a step length that will recur. False: the matrix is singular.
 bool NewmarkStep::solve_kept(double h) {
   if (last_ == nullptr || last_h_ != h) {
     last_h_ = h;
@@ -206,8 +208,8 @@ void NewmarkStep::set_residual(const Vector& b, const Vector& x, double h) {
   rest_.noalias() = b - product_;
 }
 
-/// Solves x_ := A^-1 x_ for the step length h by iterative refinement: factors and initial solution are those of the last
-/// irregular length. False: slow convergence; x_ is unchanged.
+/// Solves x_ := A^-1 x_ for the step length h by iterative refinement. Factors and initial solution are those of the last
+/// irregular step length. False: the convergence is too slow; x_ is then unchanged.
 bool NewmarkStep::refine(double h) {
   const Eigen::Index n = structure_.size, m = x_.size() - n;
   const auto greatest = [](const auto& of) { return of.size() > 0 ? of.cwiseAbs().maxCoeff() : 0.0; };
@@ -239,7 +241,7 @@ bool NewmarkStep::refine(double h) {
   return false;
 }
 
-/// Solves x_ := A^-1 x_ for a step length that will hardly recur.
+/// Solves x_ := A^-1 x_ for a step length that will probably not recur. False: the matrix is singular.
 bool NewmarkStep::solve_irregular(double h) {
   const bool same_rows = irregular_key_ == key_ && irregular_h_ != 0.0;
   if (!(same_rows && irregular_h_ == h)) {
@@ -303,7 +305,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   const std::vector<Rows>& rows = *rows_;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    ContactMotion m;  // only the part that does not depend on the unknowns
+    ContactMotion m;  // the part of the contact's motion that does not depend on the unknowns
     contact::set_displacement(contact, u_, forcing.surface(k, t1, 0), m);
     contact::set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
@@ -315,7 +317,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
     if (!(kept ? solve_kept(h) : solve_irregular(h))) return false;
     if (economical_) {
       if (!kept) irregular_x_ = x_;
-      predict(from, h);  // the refinement has overwritten u_ and v_
+      predict(from, h);  // again, because the refinement has overwritten u_ and v_
     }
   }
 
@@ -323,7 +325,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   to.forces.resize(x_.size() - from.u.size());
   const double* x = x_.data();
   for (std::size_t i = n; i < static_cast<std::size_t>(x_.size()); ++i) to.forces.data()[i - n] = x[i];
-  // T of a slipping contact is computed from N and not taken from the solve, so that rounding does not let it drift.
+  // T of a slipping contact is computed from N instead of taken from the solution, so that T cannot drift by rounding errors.
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
       to.forces.data()[model_.layout.tangent(k)] = -tangent.N * to.forces.data()[model_.layout.normal(k)];
@@ -367,16 +369,16 @@ void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::Co
 
 namespace {
 
-constexpr std::size_t finest =
-    1024;  // number of parts: T of a half wave then has a relative error of pi^2 / 12 / 1024^2
-// Error limit relative to int |f|, for steps of length dt. Four steps over a half sine have a smaller error, three steps a
-// larger one.
+// Largest number of parts of a segment. The impulse T(1024) of a half wave has a relative error of pi^2 / 12 / 1024^2.
+constexpr std::size_t finest = 1024;
+// Largest error of an impulse for steps of length dt, relative to int |f|. The error is smaller for four steps over a half
+// sine, and larger for three steps.
 constexpr double lost = 1.0 / 16.0;
-constexpr double passed = 1e-4;  // error limit relative to int |f|, for shorter steps
+constexpr double passed = 1e-4;  // largest error of an impulse for shorter steps, relative to int |f|
 
 using Values = std::array<double, finest + 1>;
 
-/// True if the polynomial has degree 2 or higher.
+/// True if the polynomial with the coefficients c has degree 2 or higher.
 bool curves(const std::vector<double>& c) {
   return std::any_of(c.begin() + std::min<std::ptrdiff_t>(2, std::ssize(c)), c.end(),
                      [](double x) { return x != 0.0; });
@@ -407,9 +409,10 @@ double trapezoid_by_dt(const Piece& piece, double begin, double end, double dt) 
   return sum / (end - begin);
 }
 
-/// True if f is a cubic that stays between its values at both ends, as a table's cubic does between two rows.
+/// True if f is a cubic that stays between its values at both ends, like the cubic between two rows of a table.
 bool between_rows(const Piece& piece, double begin, double end) {
-  constexpr int looks = 16;  // samples; a cubic with an extreme inside exceeds its ends at several of them
+  // Number of sample intervals. A cubic with an interior extreme exceeds its end values at several samples.
+  constexpr int looks = 16;
   if (piece.function || piece.amplitude != 0.0 || piece.coefficients.size() != 4) return false;
   const auto [least, greatest] = std::minmax({piece.value(begin), piece.value(end)});
   for (int i = 1; i < looks; ++i)
@@ -418,8 +421,8 @@ bool between_rows(const Piece& piece, double begin, double end) {
   return true;
 }
 
-/// True if dt is proved short enough without the integral of |f|: for a sine plus a straight line, steps of length h have an
-/// error of at most h^2/12 |f''|, and int |f| >= |J|.
+/// True if an estimate without the integral of |f| proves that dt is short enough: for a sine plus a straight line, steps of
+/// length h have an error of at most h^2/12 |f''|, and int |f| >= |J|.
 bool dt_clearly_suffices(const Piece& piece, double begin, double end, double dt) {
   if (piece.function || curves(piece.coefficients)) return false;
   const double turn = piece.omega * std::min(dt, end - begin);
@@ -427,7 +430,7 @@ bool dt_clearly_suffices(const Piece& piece, double begin, double end, double dt
   return error <= lost * (std::abs(trapezoid_by_dt(piece, begin, end, dt)) - error);
 }
 
-/// Number of equal steps that this piece of a history needs, or 1 if dt is short enough.
+/// Number of equal steps that a piece of a history needs between `begin` and `end`. 1: dt is short enough.
 std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
   if (between_rows(piece, begin, end) || dt_clearly_suffices(piece, begin, end, dt)) return 1;
   Values f, size;

@@ -9,8 +9,8 @@
 namespace signorini::modal {
 namespace {
 
-/// Limit of the amplification of rounding errors in the response of a slow mode, or a mode near resonance, to a force. Equal to
-/// the limit for works in modal_works.cpp.
+/// Limit of TimeBasis::cancellation(), the amplification of rounding errors in the response of a slow mode, or of a mode near
+/// resonance, to a force. Equal to the limit for works in modal_works.cpp.
 constexpr double max_loss = 1e3;
 
 }  // namespace
@@ -84,7 +84,7 @@ std::string DampedMotion::start(const engine::Segment& segment, const Vector& q,
   time_ = TimeBasis(model_, t);
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
     if (!(time_.cancellation(modes.root[k], t_end_) < max_loss))
-      return "decay rates that are neither zero nor fast compared with the run, or resonance";
+      return "a decay rate is neither zero nor fast compared with the run, or a load is in resonance";
   time_.reserve_slow_roots(modes.root, segment.end - t);
   contacts_.resize(model_.contacts.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {

@@ -9,8 +9,8 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double quarter_of_guard = 0.25;        // part of a guard: limit of the sum of all fast modes
-constexpr double guard_noise_part = 1.0 / 16.0;  // part of the decision's rounding bound
+constexpr double quarter_of_guard = 0.25;        // limit of the sum of all fast modes, as a part of the guard
+constexpr double guard_noise_part = 1.0 / 16.0;  // part of the decision's rounding bound in a guard's slack
 constexpr double turn_of_step = 4.0;             // largest |l| h of a slow mode
 constexpr std::size_t highest_degree = 30;
 constexpr double slow_rounding = 1.0 + 1e-12;
@@ -65,7 +65,7 @@ void DampedProof::measure(const ModalPoint& at) {
   for (Watched& guard : guards_) guard.now = motion_.value(watched(guard), at);
 }
 
-/// Number of slow modes, at least `first`, such that the other modes contribute at most `most` to f.
+/// Smallest number of slow modes, at least `first`, for which all faster modes together contribute at most `most` to f.
 Eigen::Index DampedProof::slow_for(const ModalQuantity& f, Eigen::Index first, double most) const {
   double sum = 0.0;
   Eigen::Index k = amplitude_.size();
@@ -200,7 +200,8 @@ double DampedProof::length_without_turning(const ModalPoint& at, const events::T
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double off_place = part.fast_bound + part.rest;
-      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // see ModalProof::length_without_turning
+      if (range.is_exceeded(part.p[0], part.p[1],
+                            off_place) &&  // reason: see ModalProof::length_without_turning()
           range.is_exceeded(
               part.p[0], part.p[1],
               off_place + rounding::elimination * motion_.magnitude(*watched_quantities(c)[f], at)))
@@ -248,7 +249,7 @@ const std::vector<motion::ContactSeries>& DampedProof::series(const ModalPoint& 
   return series_;
 }
 
-/// Finds extremes exactly at the beginning of a passage: quantities that were monotone up to this point and reverse there.
+/// Finds extremes exactly at the beginning of a passage: a quantity exceeds its earlier range there, and its rate points back.
 void DampedProof::find_turning_at_start(const ModalPoint& at, double time,
                                         events::TurningPointDetector& turning,
                                         LastTurningTimes& turns) const {

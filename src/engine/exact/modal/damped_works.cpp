@@ -10,7 +10,7 @@
 namespace signorini::modal {
 namespace {
 
-/// Computes (e^(s h) - 1) / s for |s| h < 1e-3 by a series. The first omitted term is at most 1e-15 of the sum.
+/// Computes (e^(s h) - 1) / s for |s| h < 1e-3 by a power series. The omitted terms are at most 1e-15 of the sum.
 std::complex<double> grown(std::complex<double> s, double h) {
   const std::complex<double> x = s * h;
   return h * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x / 120.0))));

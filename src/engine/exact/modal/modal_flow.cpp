@@ -5,8 +5,8 @@
 namespace signorini::modal {
 namespace {
 
-// Chosen for orbit searches: the transient takes about 40 periods; later runs to a section are short, and their works are not
-// used.
+// headroom: stored data are computed for this multiple of the first run's length. much_longer: a run may be shorter than the
+// stored length by this factor. Chosen for orbit searches: a transient of about 40 periods, then many short runs without works.
 constexpr double headroom = 8.0, much_longer = 1e4;
 
 }  // namespace

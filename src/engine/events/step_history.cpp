@@ -54,8 +54,8 @@ double* StepHistory::push(double t, double length) {
 
 void StepHistory::prepare(int order) {
   prepare(powers_basis_, filled_ - 1);
-  one_basis_ = order >= powers_basis_.degree;
-  if (!one_basis_) prepare(order_basis_, order);
+  shares_basis_ = order >= powers_basis_.degree;
+  if (!shares_basis_) prepare(order_basis_, order);
   Kept rows{};
   for (int b = 0; b < filled_; ++b) rows[z(b)] = values_.data() + z(slot_[z(b)]) * scalars_;
   variations_and_means(rows, order_basis().degree, 2.0 * order_basis().variation_factor, powers_basis_.degree,

@@ -70,7 +70,7 @@ class StepHistory {
     double monotone_factor = 0.0;   // 2 q max_i sum_b |w_i+1,b - w_ib|: the factor 2 covers rounding
   };
   void prepare(Basis& basis, int degree) const;
-  [[nodiscard]] const Basis& order_basis() const { return one_basis_ ? powers_basis_ : order_basis_; }
+  [[nodiscard]] const Basis& order_basis() const { return shares_basis_ ? powers_basis_ : order_basis_; }
   [[nodiscard]] Bernstein interpolant(const Basis& basis, std::size_t i) const;
 
   std::size_t scalars_;
@@ -82,7 +82,7 @@ class StepHistory {
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
   std::array<double, max_degree + 1> lengths_{};  // length of the step that ended at times_[b]
   int filled_ = 0;
-  bool one_basis_ = true;  // true: scalars use powers_basis_, because their degree is that of the powers
+  bool shares_basis_ = true;  // true: scalars use powers_basis_, because their degree is that of the powers
   Basis order_basis_, powers_basis_;
 };
 

@@ -16,21 +16,22 @@
 namespace signorini::exact {
 namespace {
 
-constexpr int min_levels = 12, more_levels = 3;  // number of levels at first, and of each extension
+constexpr int min_levels = 12, level_increment = 3;  // number of levels at first, and of each extension
 // A degree of freedom whose motion exceeds this part of the greatest motion keeps all its digits.
 constexpr double least_share = 1e-6;
 // Number of first terms that measure the size of a motion. Several, because the first ones are zero if the body starts at rest.
 constexpr std::size_t first_terms = 4;
-constexpr double flights_a_step = 3.0;  // limit of the step length, in durations of the shortest flight
+constexpr double step_in_flights = 3.0;  // limit of the step length, in durations of the shortest flight
 constexpr double longer = 1.5, much_longer = 4.0;  // limits of the step length, relative to the previous step
-constexpr double least_step = 1.0 / longer;        // lower limit of share_of_step(), so that steps can grow
+constexpr double min_step_factor =
+    1.0 / longer;  // lower limit of random_step_factor(), so that steps can grow
 // Random events at mean intervals tau occur in a step of length h with the probability 1 - exp(-h/tau). A step needs 14 levels
 // for a phase angle of 0.5 rad, 18 for 1 rad, 30 for 4 rad. So the work per event is least at h = 2 tau. Steps below a phase
-// angle of `shortest_turn` (rad) save nothing, because every step has at least 12 levels.
-constexpr double times_pace = 2.0, shortest_turn = 0.3;
-// With local updates, one series is used across several events. A series longer than the phase angle `longest_turn` (rad) needs
+// angle of `min_step_angle` (rad) save nothing, because every step has at least 12 levels.
+constexpr double step_in_event_intervals = 2.0, min_step_angle = 0.3;
+// With local updates, one series is used across several events. A series longer than the phase angle `max_series_angle` (rad) needs
 // so many levels that it is slower than two series.
-constexpr double events_a_series = 12.0, longest_turn = 2.0;
+constexpr double events_per_series = 12.0, max_series_angle = 2.0;
 constexpr double least_left = 0.5;  // a local update must be valid on this part of the remaining series
 constexpr double fresh = 0.25;      // weight of the last interval in the mean interval between events; chosen
 constexpr double max_cancelled = 0.9;  // limit of later terms, relative to the greatest of the first terms
@@ -75,7 +76,7 @@ void ExactEngine::start(const engine::Segment& segment) {
   growth_now_ =
       std::max({growth_.growth_rate(decision.system), 2.0 * segment.forcing->max_omega(), 1.0 / t_end_});
   choose_first_step();
-  polynomial_ = segment.forcing->max_degree();
+  forcing_polynomial_degree_ = segment.forcing->max_degree();
   active_guards_.start(decision.guards);
   turns_.start(decision);
   series_continued_ = same_motion && continue_series(before);
@@ -107,7 +108,7 @@ bool ExactEngine::continue_series(const contact::ContactStates& before) {
     if (reach < least_left * rest) return false;
     if (reach < rest) {
       reach_ = end_x_ + reach;
-      reach_time_ = motion_.whole.t + motion_.whole.scale * reach_;
+      valid_end_time_ = motion_.whole.t + motion_.whole.scale * reach_;
     }
     motion_.patch(*near, end_x_, reach);
     const LocalRemainder reached{local_remainder(*near, reach), reach};
@@ -128,15 +129,15 @@ void ExactEngine::choose_first_step() {
   const double flights = flights_limit();
   limited_by_events_ = !(flights > 0.0) && event_interval_ > 0.0;
   max_next_step_ = flights > 0.0        ? longer * flights
-                   : limited_by_events_ ? paced_length()
+                   : limited_by_events_ ? length_by_event_rate()
                                         : std::numeric_limits<double>::infinity();
 }
 
-double ExactEngine::paced_length() const {
-  const double shortest = shortest_turn / growth_now_, longest = longest_turn / growth_now_;
+double ExactEngine::length_by_event_rate() const {
+  const double shortest = min_step_angle / growth_now_, longest = max_series_angle / growth_now_;
   if (local_series_ && local_series_->possible() && event_interval_ < longest)
-    return std::clamp(events_a_series * event_interval_, shortest, longest);
-  return std::max(times_pace * event_interval_, shortest);
+    return std::clamp(events_per_series * event_interval_, shortest, longest);
+  return std::max(step_in_event_intervals * event_interval_, shortest);
 }
 
 /// Random factor on the length of a step; 1 without a step_seed. Steps of equal length multiply the motion by the same matrix
@@ -144,9 +145,9 @@ double ExactEngine::paced_length() const {
 /// with these lengths have the same error. With random lengths the rounding errors differ, and their sum grows like sqrt(N).
 /// The first step of a segment has its full length, because a guard may start at zero up to rounding: an event in that step is
 /// then as uncertain as reported.
-double ExactEngine::share_of_step() {
+double ExactEngine::random_step_factor() {
   if (!random_ || t_ == segment_begin_) return 1.0;
-  return std::uniform_real_distribution<double>(least_step, 1.0)(*random_);
+  return std::uniform_real_distribution<double>(min_step_factor, 1.0)(*random_);
 }
 
 /// Limit of the step length if a rigid contact opens at t_: a few times the duration of the shortest flight. 0: no limit.
@@ -166,7 +167,7 @@ double ExactEngine::flights_limit() const {
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
   }
   if (!std::isfinite(shortest) || !(shortest > 0.0)) return 0.0;
-  return flights_a_step * shortest;
+  return step_in_flights * shortest;
 }
 
 /// Sets the weight of each degree of freedom to the reciprocal size of its motion, so that the convergence test also covers
@@ -234,14 +235,15 @@ double ExactEngine::expand(double scale) {
   const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts needs two more levels
   taylor_.begin(segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v, max_levels, scale, series);
   std::size_t measured = 0;
-  for (int level = min_levels;; level = std::min(level + more_levels, max_levels)) {
+  for (int level = min_levels;; level = std::min(level + level_increment, max_levels)) {
     taylor_.extend(*segment_.forcing, level, series);
     degree_ = static_cast<std::size_t>(level - late);
     if (measured == 0) set_weights();
     measure_coefficients(measured, degree_ + 2);
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
     // For k > degree_ + 1, |u_(k+1)| <= |u_k|/2. So the remainder is small if the two terms after degree_ are small.
-    if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
+    if (degree_ >= forcing_polynomial_degree_ &&
+        growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
         converges(sizes_, series.forcing, 1.0))
       break;
     if (level == max_levels) break;
@@ -359,11 +361,11 @@ double ExactEngine::series_remainder(double x) {
 /// Bound on the remainder of the displacements in a locally updated region, by the method of series_remainder().
 double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& near, double x) {
   double rest = 0.0;
-  near_column_.setZero(model_.size());
+  local_column_.setZero(model_.size());
   for (int k = 1; k <= 2; ++k) {
     const auto order = static_cast<Eigen::Index>(degree_) + k;
-    near_column_(near.where->dofs) = near.series->u.col(order);
-    rest = std::max(rest, 2.0 * norm_.norm(near_column_) * std::pow(x, static_cast<double>(order)));
+    local_column_(near.where->dofs) = near.series->u.col(order);
+    rest = std::max(rest, 2.0 * norm_.norm(local_column_) * std::pow(x, static_cast<double>(order)));
   }
   return rest;
 }
@@ -373,7 +375,7 @@ double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& n
 double ExactEngine::local_radius(const motion::LocalSeries::LocalExpansion& near, double x) {
   const std::vector<int>& dofs = near.where->dofs;
   const Eigen::MatrixXd& u = near.series->u;
-  near_sizes_.assign(degree_ + 3, 0.0);
+  local_sizes_.assign(degree_ + 3, 0.0);
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     double size = 0.0;
@@ -382,11 +384,12 @@ double ExactEngine::local_radius(const motion::LocalSeries::LocalExpansion& near
     const double scale = scales_[static_cast<std::size_t>(dofs[i])];
     greatest_ = std::max(greatest_, scale * size);
     const double weight = greatest_ > 0.0 ? scale / std::max(scale * size, least_share * greatest_) : scale;
-    for (std::size_t k = 0; k < near_sizes_.size(); ++k)
-      near_sizes_[k] = std::max(near_sizes_[k], weight * std::abs(u(row, static_cast<Eigen::Index>(k))));
+    for (std::size_t k = 0; k < local_sizes_.size(); ++k)
+      local_sizes_[k] = std::max(local_sizes_[k], weight * std::abs(u(row, static_cast<Eigen::Index>(k))));
   }
   x = std::min(x, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * near.series->scale));
-  while (x > std::numeric_limits<double>::min() && !converges(near_sizes_, near.series->forcing, x)) x *= 0.9;
+  while (x > std::numeric_limits<double>::min() && !converges(local_sizes_, near.series->forcing, x))
+    x *= 0.9;
   return x;
 }
 
@@ -452,10 +455,11 @@ void ExactEngine::begin_series(double scale) {
   double x = expand(scale);
   limited_by_events_ = limited_by_events_ && x == 1.0;
   max_next_step_ = (limited_by_events_ ? much_longer : longer) * scale * x;
-  reach_time_ = t_ + scale * x;
-  if (reach_time_ > segment_.end || segment_.end - reach_time_ < 0.01 * scale * x) reach_time_ = segment_.end;
+  valid_end_time_ = t_ + scale * x;
+  if (valid_end_time_ > segment_.end || segment_.end - valid_end_time_ < 0.01 * scale * x)
+    valid_end_time_ = segment_.end;
   begin_x_ = 0.0;
-  reach_ = (reach_time_ - t_) / scale;
+  reach_ = (valid_end_time_ - t_) / scale;
   motion_.set_complete(degree_);
   if (local_series_) motion_.bound_rates(reach_);
   local_remainders_.assign(local_remainders_.size(), {series_remainder(reach_), reach_});
@@ -466,7 +470,7 @@ engine::Step ExactEngine::advance() {
   if (!std::exchange(series_continued_, false)) {
     const double remaining = segment_.end - t_;
     const double longest = 0.5 * static_cast<double>(max_levels) / growth_now_;
-    const double scale = std::min(share_of_step() * std::min(longest, max_next_step_), remaining);
+    const double scale = std::min(random_step_factor() * std::min(longest, max_next_step_), remaining);
     if (std::string why = failure_reason(scale); !why.empty()) return failed(std::move(why));
     begin_series(scale);
   }
@@ -476,7 +480,7 @@ engine::Step ExactEngine::advance() {
   step_ = {};
   step_.begin = t_;
   const double x = first.at;
-  double end = reach_time_;
+  double end = valid_end_time_;
   if (first.slot) {
     step_.kind = engine::Step::Kind::event;
     step_.triggered = {{model_.layout.contact_of_guard(*first.slot),

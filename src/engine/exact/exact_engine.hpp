@@ -61,8 +61,8 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
  private:
   [[nodiscard]] double flights_limit() const;
   void choose_first_step();
-  [[nodiscard]] double paced_length() const;
-  [[nodiscard]] double share_of_step();
+  [[nodiscard]] double length_by_event_rate() const;
+  [[nodiscard]] double random_step_factor();
   void set_weights();
   void measure_coefficients(std::size_t first, std::size_t last);
   [[nodiscard]] bool converges(const double* a, std::size_t last, double x) const;
@@ -106,7 +106,7 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   bool series_continued_ = false;  // true: the next step continues the series motion_
   double begin_x_ = 0.0;           // beginning of the step, as a place in motion_
   double reach_ = 0.0;             // place in motion_ at which its valid range ends
-  double reach_time_ = 0.0;        // time of the place reach_
+  double valid_end_time_ = 0.0;    // time of the place reach_
   /// Bound `rest` on the remainder of the displacements near a contact, in norm_, up to the distance x from the origin of the
   /// contact's polynomials.
   struct LocalRemainder {
@@ -121,10 +121,10 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   };
   std::vector<ZeroCrossing> crossings_;
   events::ActiveGuards active_guards_;
-  std::vector<double> scales_, weights_, sizes_, guard_, near_sizes_;
-  Vector near_column_;
-  double greatest_ = 0.0;       // greatest displacement, in units of scales_
-  std::size_t polynomial_ = 0;  // greatest polynomial degree in the forcing
+  std::vector<double> scales_, weights_, sizes_, guard_, local_sizes_;
+  Vector local_column_;
+  double greatest_ = 0.0;                      // greatest displacement, in units of scales_
+  std::size_t forcing_polynomial_degree_ = 0;  // greatest polynomial degree in the forcing
   int touches_ = 0;
   std::optional<std::mt19937_64> random_;  // generator of random step lengths
   motion::Point end_;                      // end of the last step

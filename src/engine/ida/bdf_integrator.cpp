@@ -30,12 +30,12 @@ constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
 // `part` in restart_order.hpp. Of the values from 0.1 to 0.4, this one has the smallest error for a growing and for a damped
 // motion at eight tolerances (docs/decisions/ida-restart-order.md). The number of steps differs by a tenth in this range.
-constexpr double rehearsed_part = 0.2;
+constexpr double jet_step_part = 0.2;
 // Longest step before a segment, as a fraction of the segment. The segment then has several steps even if the polynomials of
 // the jet are exact for any step length.
-constexpr double longest_rehearsed = 0.0625;
+constexpr double longest_jet_step = 0.0625;
 // Shortest step before a segment, relative to the time; IDA requires at least 100 eps.
-constexpr double least_rehearsed = 1e3 * std::numeric_limits<double>::epsilon();
+constexpr double shortest_jet_step = 1e3 * std::numeric_limits<double>::epsilon();
 // Factor on the error weights in the steps before a segment. It is so small that no error test fails.
 constexpr double no_error_test = 1e-15;
 
@@ -48,7 +48,7 @@ void check(int flag, const char* what) {
 
 /// Converts the times in a message of IDA, such as "t = 0.5" and "h = 1e-9", to scene units. unit: internal unit of time in
 /// scene units.
-std::string with_times_in(std::string text, double unit) {
+std::string convert_times(std::string text, double unit) {
   for (const char* name : {"t = ", "h = "}) {
     const std::size_t at = text.find(name);
     if (at == std::string::npos) continue;
@@ -103,7 +103,7 @@ struct BdfIntegrator::Memory {
     const bool is_hit = std::any_of(model.contacts.begin(), model.contacts.end(),
                                     [](const Contact& c) { return c.takes_impulses(); });
     if (is_hit) start_part = first_step_part_of_flights;
-    rehearses = in_closed_form(model) && !is_hit;
+    uses_jet_steps = in_closed_form(model) && !is_hit;
     directions.assign(problem.slots(), -1);
     found.assign(problem.slots(), 0);
   }
@@ -131,12 +131,12 @@ struct BdfIntegrator::Memory {
     double h = m->first;
     if (IDAGetNumSteps(m->ida, &steps) == IDA_SUCCESS && steps > 0) IDAGetLastStep(m->ida, &h);
     m->problem.weights(NV_DATA_S(y), h > 0.0 ? 1.0 / h : 0.0, NV_DATA_S(w));
-    if (m->rehearsing) N_VScale(no_error_test, w, w);
+    if (m->in_jet_steps) N_VScale(no_error_test, w, w);
     return 0;
   }
   static int roots(realtype t, N_Vector y, N_Vector yp, realtype* g, void* self) {
     auto* m = static_cast<Memory*>(self);
-    if (m->rehearsing) {
+    if (m->in_jet_steps) {
       std::fill(g, g + m->problem.slots(), 1.0);
       return 0;
     }
@@ -176,40 +176,40 @@ struct BdfIntegrator::Memory {
     if (!directions.empty()) IDASetRootDirection(ida, directions.data());
     t_previous = start->t;
     reported_end = start->t;
-    if (steps > 0) rehearse(steps);
+    if (steps > 0) take_jet_steps(steps);
     IDASetMaxStep(ida, longest);
   }
 
   /// Takes IDA's steps before the segment, up to the beginning of the segment. These steps cannot fail: error tests are
   /// disabled, and each step is far longer than the resolution of time.
-  void rehearse(int steps) {
-    rehearsing = true;
+  void take_jet_steps(int steps) {
+    in_jet_steps = true;
     newton->prescribe_jet(start);
     double t = 0.0;
     for (int i = 0; i < steps; ++i)
       check(IDASolve(ida, segment.end + std::abs(segment.end), &t, y, yp, IDA_ONE_STEP), "IDASolve");
     newton->prescribe_jet(nullptr);
-    rehearsing = false;
+    in_jet_steps = false;
   }
 
   /// Number (RestartOrder::order) and length of the steps before the segment, or 0 and the length of the first step. 0 in three
   /// cases: user functions, which are not defined before the segment; step lengths near the resolution of time; and rigid
   /// contacts, whose ever shorter flights need shorter steps than the error test requires at any order.
   [[nodiscard]] RestartOrder past() {
-    if (rehearses)
-      if (const RestartOrder r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
+    if (uses_jet_steps)
+      if (const RestartOrder r = jet_steps(); r.length > shortest_jet_step * std::abs(start->t)) return r;
     return {0, first_step()};
   }
-  [[nodiscard]] RestartOrder rehearsal() {
+  [[nodiscard]] RestartOrder jet_steps() {
     problem.fill(*start, 0, NV_DATA_S(y));
     problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
     const double shaking = segment.forcing->surface_omega();
-    double h = longest_rehearsed * (segment.end - start->t);
+    double h = longest_jet_step * (segment.end - start->t);
     if (shaking > 0.0) h = std::min(h, surface_step / shaking);
     constexpr std::size_t order = RestartOrder::order + 1;
     problem.fill(*start, order, NV_DATA_S(yp));
     if (const double norm = N_VWrmsNorm(yp, work); norm > 0.0)
-      h = std::min(h, rehearsed_part * std::pow(order / norm, 1.0 / order));
+      h = std::min(h, jet_step_part * std::pow(order / norm, 1.0 / order));
     return {RestartOrder::order, h};
   }
 
@@ -290,7 +290,7 @@ struct BdfIntegrator::Memory {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver solver = nullptr;
   std::unique_ptr<StepNewton> newton;
-  bool rehearses = true;
+  bool uses_jet_steps = true;
   double start_part = first_step_part;
   double first = 0.0;  // length of the first step of the segment
   std::vector<int> directions;
@@ -301,8 +301,8 @@ struct BdfIntegrator::Memory {
   double t_previous = 0.0;      // beginning of the last accepted step
   double reported_end = 0.0;    // end of the last returned step
   double evaluated_time = 0.0;  // time to which the values in y and yp belong
-  bool rehearsing = false;      // IDA takes the steps before the segment, with solutions from the jet
-  bool rooted = false;          // the last returned step ended at a root
+  bool in_jet_steps = false;    // IDA takes the steps before the segment, with solutions from the jet
+  bool ended_at_root = false;   // the last returned step ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
   std::array<long, events::max_degree + 1> steps_by_order{};  // steps since the last count()
@@ -326,7 +326,7 @@ RestartOrder BdfIntegrator::start(const engine::Segment& segment, const motion::
   const RestartOrder past = m_->past();
   m_->begin(past.length, past.steps);
   m_->counted = Counters{};
-  m_->rooted = false;
+  m_->ended_at_root = false;
   ++counters_.restarts;
   return past;
 }
@@ -337,7 +337,7 @@ BdfStep BdfIntegrator::advance() {
   // In one-step mode, IDA uses the argument tout only to choose a first step, so tout may be any later time.
   const double far = m_->segment.end + (m_->segment.end - m_->t_previous) + std::abs(m_->segment.end);
   int flag = IDASolve(m_->ida, far, &t, m_->y, m_->yp, IDA_ONE_STEP);
-  if (flag >= 0 && m_->rooted) flag = m_->leave_step(flag, far, t);
+  if (flag >= 0 && m_->ended_at_root) flag = m_->leave_step(flag, far, t);
   const bool first = m_->reported_end == m_->start->t;
   double h0 = 0.0;
   for (int retry = 0; flag < 0 && first && retry < max_retries; ++retry) {
@@ -353,7 +353,7 @@ BdfStep BdfIntegrator::advance() {
     step.kind = BdfStep::Kind::failed;
     step.begin = step.end = m_->reported_end;
     step.reason =
-        fmt::format("IDA cannot continue: {}: {}", name, with_times_in(m_->message, m_->unit_of_time));
+        fmt::format("IDA cannot continue: {}: {}", name, convert_times(m_->message, m_->unit_of_time));
     std::free(name);
     return step;
   }
@@ -368,8 +368,8 @@ BdfStep BdfIntegrator::advance() {
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
   // In IDA's y' the velocities of massless degrees of freedom are inaccurate. NaN makes evaluate() compute them again.
   m_->evaluated_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
-  m_->rooted = flag == IDA_ROOT_RETURN;
-  if (m_->rooted) {
+  m_->ended_at_root = flag == IDA_ROOT_RETURN;
+  if (m_->ended_at_root) {
     step.kind = BdfStep::Kind::root;
     step.root = t;
     std::vector<int>& found = m_->found;

@@ -48,7 +48,7 @@ IdaEngine::IdaEngine(const Model& model, const linear::SystemMatrices& structure
       flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
-    accelerations_ = accelerations_ || contact.normal_damping > 0.0;
+    guards_need_accelerations_ = guards_need_accelerations_ || contact.normal_damping > 0.0;
   resolves_low_flights = follows_low_flights(model);
 }
 
@@ -106,7 +106,7 @@ void IdaEngine::start(const engine::Segment& segment) {
   segment_ = segment;
   zero_start_guards_.clear();
   const decide::Decision& decision = *segment.decision;
-  makes_points_consistent_ = accelerations_ || has_undamped_massless_parts();
+  makes_points_consistent_ = guards_need_accelerations_ || has_undamped_massless_parts();
   flight_ = flights_.take(segment, [&](const Contact& contact) { return flight_level(contact, decision.u); });
   if (flight_) return;
   std::vector<double> levels;
@@ -252,7 +252,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     }
   std::erase_if(candidates, [&](const Located& c) {
     if (!is_touch(c.slot, (c.time - step.begin) / h)) return false;
-    guard_monitor_.set_waiting(c.slot, allowance(c.slot));
+    guard_monitor_.set_waiting(c.slot, error_bound_since_start(c.slot));
     if (!std::exchange(touch_warned_, true))
       warnings.push_back(fmt::format(
           "contact '{}': its {} touches zero at t = {:.9g}, and falls below zero by less than the error of "
@@ -304,7 +304,7 @@ bool IdaEngine::is_touch(std::size_t slot, double x) const {
   const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
   if (!(bend > 0.0)) return false;
   const double depth = (rate < 0.0 ? rate * rate / (2.0 * bend) : 0.0) - value;
-  return depth <= allowance(slot);
+  return depth <= error_bound_since_start(slot);
 }
 
 void IdaEngine::add_zero_start_guard(std::size_t slot) {
@@ -336,7 +336,7 @@ void IdaEngine::add_errors() {
 
 /// Bound on the error of a guard that began at zero: sum of the errors of all steps of the segment, plus one tolerance for the
 /// present value.
-double IdaEngine::allowance(std::size_t slot) const {
+double IdaEngine::error_bound_since_start(std::size_t slot) const {
   const auto guard = std::lower_bound(zero_start_guards_.begin(), zero_start_guards_.end(), slot,
                                       [](const ZeroStartGuard& g, std::size_t s) { return g.slot < s; });
   return guard->off + guard->tolerance;

@@ -60,7 +60,7 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] bool is_touch(std::size_t slot, double x) const;
   void add_zero_start_guard(std::size_t slot);
   void add_errors();
-  [[nodiscard]] double allowance(std::size_t slot) const;
+  [[nodiscard]] double error_bound_since_start(std::size_t slot) const;
 
   const Model& model_;
   motion::ConsistentMotion consistent_;
@@ -82,7 +82,7 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   motion::Jet jet_;  // complete jet, used if the jet of the decision is incomplete
   motion::Point point_;
   std::vector<double> integrals_;
-  bool accelerations_ = false;                     // at least one guard needs accelerations
+  bool guards_need_accelerations_ = false;         // at least one guard needs accelerations
   bool makes_points_consistent_ = false;           // forces and accelerations are recomputed at each point
   std::vector<ZeroStartGuard> zero_start_guards_;  // in ascending order of slots
   bool touch_warned_ = false;                      // the warning about a touch was issued

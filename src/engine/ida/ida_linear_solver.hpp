@@ -75,8 +75,8 @@ class IdaLinearSolver {
   std::vector<linear::Weights> weights_;
   // Degrees of freedom whose acceleration a contact row prescribes. solve() sets the prescribed values, because elimination
   // would add rounding errors.
-  std::vector<linear::PrescribedDof> pinned_;
-  std::vector<double> held_;  // solution for each entry of pinned_
+  std::vector<linear::PrescribedDof> prescribed_dofs_;
+  std::vector<double> held_;  // solution for each entry of prescribed_dofs_
   std::vector<double> rhs_;
   double cj_ = 1.0;
   bool fresh_ = true;

@@ -10,7 +10,7 @@ namespace {
 
 // Limit of the number of additional iterations if friction rises with the slip rate. Each iteration approaches the solution by
 // up to one slip-rate scale of the friction law; at this number of scales, friction is constant to all digits.
-constexpr int most_towards = 40;
+constexpr int max_extra_iterations = 40;
 
 StepNewton& newton_of(SUNNonlinearSolver solver) { return *static_cast<StepNewton*>(solver->content); }
 
@@ -93,7 +93,7 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   double* const change = NV_DATA_S(change_);
   bool near = !problem_.has_rate_dependent_friction();
   iteration_ = 0;
-  for (int i = 0; iteration_ < max_iterations_ && i < max_iterations_ + most_towards; ++i) {
+  for (int i = 0; iteration_ < max_iterations_ && i < max_iterations_ + max_extra_iterations; ++i) {
     const bool first = i == 0;
     if (!first) {
       N_VLinearSum(1.0, y_predicted, 1.0, e, y);

@@ -135,7 +135,7 @@ State FrictionIteration::state_of(std::size_t k) const {
 }
 
 /// Sets the contact states that follow from the last iterate. True if a state has changed.
-bool FrictionIteration::new_states() {
+bool FrictionIteration::update_states() {
   bool changed = false;
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
     const State state = state_of(k);
@@ -157,7 +157,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     if (!step_.take(*segment_.forcing, begin_, t1_, h, kept, end_))
       return "the matrix of a step is singular; another dt may help";
     if (!end_.u.allFinite()) return "the motion overflows and is no longer finite";
-    switching = new_states();
+    switching = update_states();
     if (switching) continue;  // change the bounds only after the states have become consistent
     change = 0.0;
     const ForceScale known = known_forces(end_);
@@ -175,7 +175,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       side.normal_force += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
     }
     // The iteration has converged only if the new bounds give the same states.
-    switching = new_states();
+    switching = update_states();
     if (!switching && change <= bound_error_) return {};
   }
   std::vector<std::string> what;

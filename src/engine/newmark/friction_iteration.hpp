@@ -60,7 +60,7 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   void begin_iterates();
   void apply_rows();
   [[nodiscard]] State state_of(std::size_t k) const;
-  [[nodiscard]] bool new_states();
+  [[nodiscard]] bool update_states();
   [[nodiscard]] std::string iterate(double h, bool kept);
   void solve_massless_velocities();
 

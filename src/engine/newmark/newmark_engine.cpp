@@ -104,14 +104,14 @@ double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
 /// True if the contact has springs. Contacts without springs need a more accurate root: at an event the decision sets the
 /// remaining gap, slip rate or force of such a contact to zero. This change is a small impulse that excites modes faster than
 /// the step and so causes further events.
-bool NewmarkEngine::is_soft(std::size_t slot) const {
+bool NewmarkEngine::has_springs(std::size_t slot) const {
   const Contact& contact = model_.contacts[model_.layout.contact_of_guard(slot)];
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
 /// Largest magnitude of a guard that is regarded as zero. A root search for a smaller value would follow rounding errors.
 double NewmarkEngine::zero_of(std::size_t slot) const {
-  return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
+  return has_springs(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
 
 double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
@@ -165,15 +165,16 @@ double NewmarkEngine::crossing_near(std::size_t slot, double h) {
   };
   const auto fall = guards_.has_rate(slot) ? path.cubic_root() : std::nullopt;
   Tangent next = fall ? Tangent{fall->x * h, fall->slope / h} : Tangent{nan, nan};
-  const auto near = is_soft(slot) && fall ? tangent_near(slot, h, next) : std::nullopt;
+  const auto near = has_springs(slot) && fall ? tangent_near(slot, h, next) : std::nullopt;
   if (near) next = *near;
   double before = nan, g_before = nan;
-  const int most = is_soft(slot) ? max_tangents : 1;
+  const int most = has_springs(slot) ? max_tangents : 1;
   for (int i = 0; i < most && next.slope < 0.0; ++i) {
     const double g = narrow(next.at);
     if (std::abs(g) <= zero_of(slot)) return next.at;
     if (i > 0 && !near) next.slope = (g - g_before) / (next.at - before);
-    if (is_soft(slot) && std::abs(g / next.slope) <= 0.25 * motion::resolution_at(t0_ + h, h)) return next.at;
+    if (has_springs(slot) && std::abs(g / next.slope) <= 0.25 * motion::resolution_at(t0_ + h, h))
+      return next.at;
     if (i == 0 && near) step_.double_radius();
     before = next.at;
     g_before = g;
@@ -184,7 +185,7 @@ double NewmarkEngine::crossing_near(std::size_t slot, double h) {
   return crossing_between(slot, lo, g_lo, hi, g_hi);
 }
 
-bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
+bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && has_springs(slot); }
 
 /// Step length by the paper's single linear interpolation. If the guard is still positive at this step length, the decision
 /// would find no event. Then the step is extended by twice the next interpolation until the guard is not positive.
@@ -221,11 +222,12 @@ NewmarkEngine::Candidate NewmarkEngine::earliest_candidate(double h, bool locate
   return first;
 }
 
-/// True if this guard caused the decision at the beginning of this step (Sunk), and the same guard is active after the
+/// True if this guard caused the decision at the beginning of this step (NeverPositiveGuard), and the same guard is active after the
 /// decision.
-bool NewmarkEngine::has_sunk(std::size_t slot) const {
-  return sunk_ && sunk_->slot == slot && sunk_->guard == segment_.decision->guards[slot].kind &&
-         std::abs(t0_ - sunk_->t) <= motion::resolution_at(t0_, 0.0);
+bool NewmarkEngine::was_never_positive(std::size_t slot) const {
+  return never_positive_guard_ && never_positive_guard_->slot == slot &&
+         never_positive_guard_->guard == segment_.decision->guards[slot].kind &&
+         std::abs(t0_ - never_positive_guard_->t) <= motion::resolution_at(t0_, 0.0);
 }
 
 bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
@@ -251,9 +253,9 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
     }
     case Candidate::Kind::sink: {
       // The guard began at zero, rose, and reached zero again within the step. If this guard also caused the last decision and
-      // did not rise (has_sunk), any rise is below rounding. Then the root is the place where the guard becomes clearly
+      // did not rise (was_never_positive), any rise is below rounding. Then the root is the place where the guard becomes clearly
       // negative.
-      const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
+      const double floor = was_never_positive(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
       double hi = h, g_hi = path.g1;
       for (int i = 0; i < max_halvings; ++i) {
         const double lo = 0.5 * hi;
@@ -268,7 +270,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         g_hi = g;
       }
       h = hi;  // the guard did not rise at any tried step length: the contact states are decided again
-      sunk_ = Sunk{t0_ + h, slot, segment_.decision->guards[slot].kind};
+      never_positive_guard_ = NeverPositiveGuard{t0_ + h, slot, segment_.decision->guards[slot].kind};
       return true;
     }
   }

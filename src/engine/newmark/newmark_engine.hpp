@@ -67,7 +67,7 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] double value_near(std::size_t slot, double h, double longer);
   [[nodiscard]] Candidate earliest_candidate(double h, bool located, std::size_t slot);
-  [[nodiscard]] bool is_soft(std::size_t slot) const;
+  [[nodiscard]] bool has_springs(std::size_t slot) const;
   [[nodiscard]] double zero_of(std::size_t slot) const;
   [[nodiscard]] double crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
                                         double floor = 0.0);
@@ -79,7 +79,7 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] double crossing_near(std::size_t slot, double h);
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_root(std::size_t slot, double hi);
-  [[nodiscard]] bool has_sunk(std::size_t slot) const;
+  [[nodiscard]] bool was_never_positive(std::size_t slot) const;
   /// Shortens the step length h to the time of the candidate's event. False: the candidate is no event.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool end_after(double h);
@@ -111,13 +111,13 @@ class NewmarkEngine final : public engine::Stepper, public engine::DenseOutput {
   double grid_length_ = 0.0;
   long grid_steps_ = 0;
   /// Event of a guard that started at zero and was positive at none of the tried step lengths.
-  struct Sunk {
+  struct NeverPositiveGuard {
     double t = 0.0;
     std::size_t slot = 0;
     Guard guard = Guard::none;
   };
-  std::optional<Sunk> sunk_;  // last event of this kind
-  bool second_ = false;       // step doubling: this is the second step of a pair
+  std::optional<NeverPositiveGuard> never_positive_guard_;  // last event of this kind
+  bool second_ = false;  // step doubling: this is the second step of a pair
 };
 
 }  // namespace signorini::newmark

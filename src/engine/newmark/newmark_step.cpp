@@ -33,17 +33,17 @@ NewmarkStep::NewmarkStep(const Model& model, const linear::SystemMatrices& struc
       structure_(structure),
       own_kinds_(linear::dof_kinds(model, structure)),
       massless_(linear::has_massless(model)),
-      in_rows_{own_kinds_, {}},
+      kinds_in_states_{own_kinds_, {}},
       workspace_(model, structure),
       kept_(max_kept),
       irregular_(model, structure),
-      economical_(linear::saves_factorisations(model, structure, irregular_.redundant_rows())),
+      saves_factorisations_(linear::saves_factorisations(model, structure, irregular_.redundant_rows())),
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = u_;
   x_.setZero(structure.size + model.force_count());
   work_ = x_;
-  if (economical_) condensed_ = linear::CondensedRows::create(model, structure, widest_band);
+  if (saves_factorisations_) condensed_ = linear::CondensedRows::create(model, structure, widest_band);
   if (!condensed_) return;
   kept_band_.emplace(*condensed_);
   irregular_band_.emplace(*condensed_);
@@ -63,17 +63,18 @@ void NewmarkStep::set(Key key, std::shared_ptr<const std::vector<Rows>> rows) {
       if (!beside || key[k] != key_[k]) condensed_->set_rows(k, (*rows_)[k]);
   }
   key_ = std::move(key);
-  if (massless_) in_rows_ = linear::kinds_in_states(own_kinds_, model_, *rows_);
+  if (massless_) kinds_in_states_ = linear::kinds_in_states(own_kinds_, model_, *rows_);
   last_ = nullptr;
-  updates_ = false;
+  updates_valid_ = false;
   spent_ = 0.0;
 }
 
 void NewmarkStep::set_weights(double h) {
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = in_rows_.kinds[i] == linear::DofKind::massive  ? linear::Weights{1.0, 0.5 * h, 0.25 * h * h}
-                  : in_rows_.kinds[i] == linear::DofKind::damped ? linear::Weights{0.0, 1.0, 0.5 * h}
-                                                                 : linear::Weights{0.0, 0.0, 1.0};
+    weights_[i] = kinds_in_states_.kinds[i] == linear::DofKind::massive
+                      ? linear::Weights{1.0, 0.5 * h, 0.25 * h * h}
+                  : kinds_in_states_.kinds[i] == linear::DofKind::damped ? linear::Weights{0.0, 1.0, 0.5 * h}
+                                                                         : linear::Weights{0.0, 0.0, 1.0};
 }
 
 /// Factorises the matrix. fresh: choose new pivots, unless each contact force is the pivot of its own row: then the pivots of
@@ -81,8 +82,8 @@ void NewmarkStep::set_weights(double h) {
 bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
   set_weights(h);
   return matrix.set(*rows_, weights_,
-                    fresh && !(economical_ && !linear::contact_force_blocks(*rows_).empty()),
-                    in_rows_.undamped);
+                    fresh && !(saves_factorisations_ && !linear::contact_force_blocks(*rows_).empty()),
+                    kinds_in_states_.undamped);
 }
 
 /// Differences between the current rows and base_rows_, as rows of the matrix for the step length base_h_.
@@ -115,15 +116,15 @@ std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
 
 /// Updates the base factors to the current rows. False: a new factorisation is needed, or is faster.
 bool NewmarkStep::update(double h) {
-  if (!economical_ || updated_.base() == nullptr || base_h_ != h) return false;
-  if (!updates_) {
+  if (!saves_factorisations_ || updated_.base() == nullptr || base_h_ != h) return false;
+  if (!updates_valid_) {
     set_weights(h);
-    updates_ = updated_.set(changed_rows());
+    updates_valid_ = updated_.set(changed_rows());
   }
   spent_ += static_cast<double>(updated_.numbers());
   const double factorisation =
       solves_a_factorisation * static_cast<double>(updated_.base()->bytes()) / bytes_a_number;
-  return updates_ = updates_ && spent_ <= factorisation;
+  return updates_valid_ = updates_valid_ && spent_ <= factorisation;
 }
 
 /// Solves x_ := A^-1 x_ with the factors of the band matrix. False: there is no band matrix, or its elimination loses digits;
@@ -157,7 +158,7 @@ bool NewmarkStep::solve_kept(double h) {
   if (last_ == nullptr || last_h_ != h) {
     last_h_ = h;
     const std::pair<Key, double> place(key_, h);
-    const Factors* known = updates_ && base_h_ == h ? nullptr : kept_.find(place);
+    const Factors* known = updates_valid_ && base_h_ == h ? nullptr : kept_.find(place);
     last_ = known != nullptr ? *known : nullptr;
     if (last_ == nullptr && update(h)) {
       updated_.solve(x_.data(), work_.data());
@@ -168,11 +169,11 @@ bool NewmarkStep::solve_kept(double h) {
       if (!factor(workspace_, h, true)) return false;
       last_ = std::make_shared<const linear::TriangularFactors>(workspace_.klu().factors());
       kept_.insert(place, last_, last_->bytes());
-      if (economical_) {
+      if (saves_factorisations_) {
         updated_.set_base(last_);
         base_rows_ = *rows_;
         base_h_ = h;
-        updates_ = false;
+        updates_valid_ = false;
       }
     }
   }
@@ -245,7 +246,7 @@ bool NewmarkStep::refine(double h) {
 bool NewmarkStep::solve_irregular(double h) {
   const bool same_rows = irregular_key_ == key_ && irregular_h_ != 0.0;
   if (!(same_rows && irregular_h_ == h)) {
-    if (economical_ && same_rows && irregular_x_.size() > 0 && refine(h)) return true;
+    if (saves_factorisations_ && same_rows && irregular_x_.size() > 0 && refine(h)) return true;
     irregular_key_ = key_;
     irregular_h_ = factor(irregular_, h, !same_rows) ? h : 0.0;
     if (irregular_h_ == 0.0) return false;
@@ -258,13 +259,13 @@ bool NewmarkStep::solve_irregular(double h) {
 /// Sets u_ and v_ to the parts of u1 and v1 that do not depend on the unknowns of the step.
 void NewmarkStep::predict(const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
-  for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
-    const bool massive = in_rows_.kinds[i] == linear::DofKind::massive,
-               damped = in_rows_.kinds[i] == linear::DofKind::damped;
+  for (std::size_t i = 0; i < kinds_in_states_.kinds.size(); ++i) {
+    const bool massive = kinds_in_states_.kinds[i] == linear::DofKind::massive,
+               damped = kinds_in_states_.kinds[i] == linear::DofKind::damped;
     u_.data()[i] = massive ? u0[i] + h * (v0[i] + 0.25 * h * a0[i]) : damped ? u0[i] + 0.5 * h * v0[i] : 0.0;
     v_.data()[i] = massive ? v0[i] + 0.5 * h * a0[i] : 0.0;
   }
-  for (const linear::UndampedMotion& motion : in_rows_.undamped)
+  for (const linear::UndampedMotion& motion : kinds_in_states_.undamped)
     for (const auto& [dof, factor] : motion.others)
       u_.data()[dof] -= factor * (u0[motion.dof] + 0.5 * h * v0[motion.dof]);
 }
@@ -273,13 +274,13 @@ void NewmarkStep::read_motion(const motion::Point& from, double h, motion::Point
   for (Vector* part : {&to.u, &to.v, &to.a}) part->resize(from.u.size());
   const double *u0 = from.u.data(), *v0 = from.v.data(), *x = x_.data();
   double *u1 = to.u.data(), *v1 = to.v.data(), *a1 = to.a.data();
-  for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
+  for (std::size_t i = 0; i < kinds_in_states_.kinds.size(); ++i) {
     a1[i] = 0.0;
-    if (in_rows_.kinds[i] == linear::DofKind::massive) {
+    if (kinds_in_states_.kinds[i] == linear::DofKind::massive) {
       u1[i] = u_.data()[i] + 0.25 * h * h * x[i];
       v1[i] = v_.data()[i] + 0.5 * h * x[i];
       a1[i] = x[i];
-    } else if (in_rows_.kinds[i] == linear::DofKind::damped) {
+    } else if (kinds_in_states_.kinds[i] == linear::DofKind::damped) {
       u1[i] = u_.data()[i] + 0.5 * h * x[i];
       v1[i] = x[i];
     } else {
@@ -287,7 +288,7 @@ void NewmarkStep::read_motion(const motion::Point& from, double h, motion::Point
       v1[i] = h > 0.0 ? 2.0 * (u1[i] - u0[i]) / h - v0[i] : v0[i];
     }
   }
-  for (const linear::UndampedMotion& motion : in_rows_.undamped)
+  for (const linear::UndampedMotion& motion : kinds_in_states_.undamped)
     for (const auto& [dof, factor] : motion.others) {
       u1[dof] += factor * u1[motion.dof];
       v1[dof] += factor * v1[motion.dof];
@@ -315,7 +316,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   }
   if (!solve_condensed(h, kept)) {
     if (!(kept ? solve_kept(h) : solve_irregular(h))) return false;
-    if (economical_) {
+    if (saves_factorisations_) {
       if (!kept) irregular_x_ = x_;
       predict(from, h);  // again, because the refinement has overwritten u_ and v_
     }

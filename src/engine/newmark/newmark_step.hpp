@@ -88,7 +88,7 @@ class NewmarkStep {
   const std::vector<linear::DofKind>
       own_kinds_;  // kinds of the structure's degrees of freedom without contacts
   const bool massless_;
-  linear::MotionKinds in_rows_;  // kinds in the current contact states: they determine the unknowns
+  linear::MotionKinds kinds_in_states_;  // kinds in the current contact states: they determine the unknowns
   linear::SystemMatrix workspace_;
   base::LruCache<std::pair<Key, double>, Factors> kept_;  // factors by rows and step length
   linear::SystemMatrix irregular_;                        // matrix for a length that will not recur
@@ -96,7 +96,7 @@ class NewmarkStep {
   double irregular_h_ = 0.0;  // 0: irregular_ has no factors
   Factors last_;              // factors of the last recurring step length; null after a change of rows
   double last_h_ = 0.0;
-  const bool economical_;
+  const bool saves_factorisations_;
   std::optional<linear::CondensedRows> condensed_;         // used if the band is narrow
   std::optional<linear::CondensedMatrix> kept_band_;       // band matrix for step lengths that recur
   std::optional<linear::CondensedMatrix> irregular_band_;  // band matrix for other step lengths
@@ -105,7 +105,7 @@ class NewmarkStep {
   linear::WoodburyFactors updated_;
   std::vector<Rows> base_rows_;  // rows of the base matrix
   double base_h_ = 0.0;
-  bool updates_ = false;                 // updated_ is valid for the current rows
+  bool updates_valid_ = false;           // updated_ is valid for the current rows
   double spent_ = 0.0;                   // operations of solves with updated_ since the rows changed
   Vector irregular_x_, rest_, product_;  // last solution at an irregular length; work arrays
   std::vector<linear::Weights> weights_;

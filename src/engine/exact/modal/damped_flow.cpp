@@ -34,7 +34,7 @@ void DampedFlow::forces(const ModalPoint& at, motion::Point& point) const {
 
 namespace {
 
-constexpr double max_round_trip_error = 1e-12, worst_dependence = 1e4;  // same as in spectrum.cpp
+constexpr double max_round_trip_error = 1e-12, max_condition = 1e4;  // same as in spectrum.cpp
 
 }  // namespace
 
@@ -78,7 +78,7 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
   if (!(out.round_trip < max_round_trip_error))
     out.failure =
         "the modes of the contact state are inaccurate: a motion changes by conversion to modes and back";
-  else if (!(out.condition < worst_dependence))
+  else if (!(out.condition < max_condition))
     out.failure = "the modes of the contact state are nearly linearly dependent";
 }
 

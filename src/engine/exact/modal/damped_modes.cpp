@@ -40,8 +40,8 @@ class Search {
               Vectors& out) const;
   [[nodiscard]] Wide product(Wide l, const Vectors& left, const Vectors& right) const;
   void keep(Wide l, const Vectors& v, Wide product, DampedModes& out);
-  void turn_back(DampedModes& out) const;
-  [[nodiscard]] Vectors no_vectors() const {
+  void to_given_modes(DampedModes& out) const;
+  [[nodiscard]] Vectors zero_vectors() const {
     const auto n = static_cast<std::size_t>(n_);
     return {std::vector<Wide>(n), std::vector<Wide>(n), std::vector<Wide>(rank())};
   }
@@ -176,7 +176,7 @@ bool Search::add_coupled_root(const Root& root, DampedModes& out) {
   for (std::size_t i = 0; i < m; ++i) {
     SmallVector<Wide> right{}, left{};
     lu.null_vectors(right, left, m, i);
-    all[i] = no_vectors();
+    all[i] = zero_vectors();
     spread(local, root.l, &right, left, all[i]);
   }
   // Multiple root: combine the right vectors x so that y_i^T L' x_k = 0 for i != k.
@@ -225,7 +225,7 @@ bool Search::add_uncoupled_roots(Index j, DampedModes& out) {
     roots.push_back({d / far, 0});
   }
   for (const Wide l : roots) {
-    Vectors v = no_vectors();
+    Vectors v = zero_vectors();
     v.x[static_cast<std::size_t>(j)] = v.y[static_cast<std::size_t>(j)] = Wide(1);
     if (rank() > 0) {
       Local local;
@@ -242,7 +242,7 @@ bool Search::add_uncoupled_roots(Index j, DampedModes& out) {
   return true;
 }
 
-void Search::turn_back(DampedModes& out) const {
+void Search::to_given_modes(DampedModes& out) const {
   for (const auto& [first, vectors] : pencil_.rotations()) {
     const Index rows = vectors.rows();
     out.shape.middleRows(first, rows) = (vectors * out.shape.middleRows(first, rows)).eval();
@@ -285,7 +285,7 @@ DampedModes Search::run() {
   out.from_q = out.from_q(order, Eigen::all).eval();
   out.from_rate = out.from_rate(order, Eigen::all).eval();
   test_round_trip(pencil_, out);
-  turn_back(out);
+  to_given_modes(out);
   return out;
 }
 

@@ -108,7 +108,7 @@ class DampedMotion {
   TimeBasis time_;
   Eigen::MatrixXd forced_response_, forced_response_rate_, change_;
   Eigen::VectorXd lengths_, omega_shape_norms_;  // norms of the shapes, and of omega times the shapes
-  Eigen::VectorXd place_lengths_, rate_lengths_, place_swings_;
+  Eigen::VectorXd response_norms_, response_rate_norms_, response_omega_norms_;
   std::vector<ContactQuantities> contacts_;
 };
 

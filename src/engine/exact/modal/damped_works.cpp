@@ -106,8 +106,8 @@ DampedWorkIntegrals::ProductIntegral DampedWorkIntegrals::product_integral(Modal
 }
 
 /// Returns the integral of (Re a . y)(Re b . y) over the interval s.
-double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
-                                     const Stretch& s) const {
+double DampedWorkIntegrals::integral_of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
+                                              const Stretch& s) const {
   const RootSums& sums = motion_.state().sums;
   const auto form = [&](const ModalPoint& at) {
     const Eigen::VectorXcd left = a.cwiseProduct(at.y), right = b.cwiseProduct(at.y);
@@ -127,7 +127,7 @@ double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::Vec
 }
 
 /// Contribution of the products of modes and forced parts to an integral. answers: ProductIntegral::responses.
-double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
+double DampedWorkIntegrals::integral_with_forced_part(const Eigen::MatrixXcd& answers, const Stretch& s) {
   if (answers.size() == 0) return 0.0;
   return (s.to.y.transpose() * (answers * s.b_to) - s.from.y.transpose() * (answers * s.b_from))
       .value()
@@ -135,8 +135,8 @@ double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const 
 }
 
 double DampedWorkIntegrals::integral(const ProductIntegral& pairing, const Stretch& s) const {
-  double sum = with_courses(pairing.responses, s);
-  if (pairing.pairs) sum += of_pairs(pairing.f.row, pairing.g.row, s);
+  double sum = integral_with_forced_part(pairing.responses, s);
+  if (pairing.pairs) sum += integral_of_pairs(pairing.f.row, pairing.g.row, s);
   if (pairing.courses) sum += pairing.f.time_coefficients.dot(s.products * pairing.g.time_coefficients);
   return sum;
 }
@@ -156,7 +156,7 @@ double DampedWorkIntegrals::loss(const Stretch& s) const {
     const std::complex<double> rate = l[k] + (turned ? std::conj(l[i]) : l[i]);
     sum += 0.5 * (taken * s.from.y[k] * right * grown(rate, s.to.time - s.from.time)).real();
   }
-  sum += with_courses(loss_responses_, s);
+  sum += integral_with_forced_part(loss_responses_, s);
   if (forced_loss_.size() > 0 && s.products.size() > 0) sum += forced_loss_.cwiseProduct(s.products).sum();
   return sum;
 }

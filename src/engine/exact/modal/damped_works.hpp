@@ -45,8 +45,9 @@ class DampedWorkIntegrals {
                      Eigen::MatrixXcd& answers) const;
   void prepare_contact(std::size_t c);
   void prepare_loss();
-  [[nodiscard]] double of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, const Stretch& s) const;
-  [[nodiscard]] static double with_courses(const Eigen::MatrixXcd& answers, const Stretch& s);
+  [[nodiscard]] double integral_of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
+                                         const Stretch& s) const;
+  [[nodiscard]] static double integral_with_forced_part(const Eigen::MatrixXcd& answers, const Stretch& s);
   [[nodiscard]] double integral(const ProductIntegral& pairing, const Stretch& s) const;
   [[nodiscard]] double loss(const Stretch& s) const;
   void add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const;

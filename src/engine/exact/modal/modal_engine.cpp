@@ -15,10 +15,10 @@
 namespace signorini::modal {
 namespace {
 
-constexpr std::size_t max_parts = 256;   // limit of the number of parts of a step: each stores all amplitudes
-constexpr int max_touches = 5;           // limit of the number of warnings about touches
-constexpr double lost_in_modes = 1e-12;  // limit of the error of a conversion to modes and back
-constexpr int max_corrections = 4;       // limit of the corrections of an event time; one is usually enough
+constexpr std::size_t max_parts = 256;  // limit of the number of parts of a step: each stores all amplitudes
+constexpr int max_touches = 5;          // limit of the number of warnings about touches
+constexpr double max_conversion_error = 1e-12;  // limit of the error of a conversion to modes and back
+constexpr int max_corrections = 4;  // limit of the corrections of an event time; one is usually enough
 
 }  // namespace
 
@@ -42,7 +42,7 @@ ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& struc
       kept_->damped = std::make_unique<DampedSystem>(kept_->model, kept_->basis, kept_->t_end);
     flow_ = std::make_unique<DampedFlow>(model, basis_, t_end, kept_ ? kept_->damped.get() : nullptr);
   }
-  of_contacts_ = rows_of({});
+  contact_shape_rows_ = rows_of({});
   if (use.watched) watched_ = rows_of(*use.watched);
   if (use.share != nullptr) use.share->modes = flow_->modes();
 }
@@ -102,7 +102,7 @@ void ModalEngine::update_cancellation() {
       std::max({max_displacement_, q_.norm(), model_.omega1 > 0.0 ? max_velocity_ / model_.omega1 : 0.0});
   const SumTerms terms = flow_->terms(now_);
   const auto over = [](double sum, double motion) {
-    return motion > 0.0 ? rounding::many_operations * sum / (lost_in_modes * motion) : 0.0;
+    return motion > 0.0 ? rounding::many_operations * sum / (max_conversion_error * motion) : 0.0;
   };
   cancellation_ = std::max({1.0, over(terms.amplitude, max_displacement_), over(terms.rate, max_velocity_),
                             over(terms.omega_amplitude, max_velocity_)});
@@ -139,7 +139,7 @@ double ModalEngine::refine_crossing(std::size_t slot) {
     t_ = part.begin + part.length;
     Motion reached = motion(now_, true);
     motion::Point point;
-    fill_rows(of_contacts_, now_, reached, point);
+    fill_rows(contact_shape_rows_, now_, reached, point);
     const ZeroCrossing fall = crossing_of(slot, point);
     const bool sharp =
         std::abs(fall.offset) <= std::max(0.25 * motion::resolution_at(t_, 0.0), fall.uncertainty);

@@ -91,7 +91,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   std::shared_ptr<ModalCache::Entry> kept_;  // null if no ModalCache is used
   std::unique_ptr<UnconstrainedBasis> own_basis_;
   const UnconstrainedBasis& basis_;
-  Rows watched_, of_contacts_;
+  Rows watched_, contact_shape_rows_;
   std::unique_ptr<ModalFlow> flow_;  // null if there are no unconstrained modes
   exact::ExactEngine taylor_;
   events::TurningPointDetector turning_points_;

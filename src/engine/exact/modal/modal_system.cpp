@@ -26,7 +26,7 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double app
 
 /// Limit of the relative error eps (omega/alpha)^2 of works. Cause of this error: the division by
 /// (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) in modal_works.hpp.
-constexpr double most_lost = 1e-12;
+constexpr double max_work_error = 1e-12;
 
 std::string coupling_refusal(const Model& model) {
   if (model.size() == 0) return "no degrees of freedom";
@@ -54,7 +54,7 @@ std::string proportional_refusal(const Model& model) {
   if (std::string why = coupling_refusal(model); !why.empty()) return why;
   const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
   if (!(alpha > 0.0)) return "no damping proportional to the mass";
-  if (!(alpha * alpha * most_lost >= rounding::eps * model.omega1 * model.omega1))
+  if (!(alpha * alpha * max_work_error >= rounding::eps * model.omega1 * model.omega1))
     return "damping so small that work integrals of two modes lose accuracy";
   return {};
 }
@@ -153,7 +153,7 @@ namespace {
 constexpr std::size_t most_degree = 30;
 
 /// Errors of N, T, g and ut (order of TurningPointDetector::watched_fields) due to the error `normal` of g and `tangent` of ut.
-std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent) {
+std::array<double, 4> errors_by_law(const ForceLaw& law, double normal, double tangent) {
   return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
           tangent};
 }
@@ -184,7 +184,7 @@ ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) c
     normal += std::abs(state_->normal[c].real[k]) * most;
     tangent += std::abs(state_->tangent[c].real[k]) * most;
   }
-  return of_law(law, normal, tangent);
+  return errors_by_law(law, normal, tangent);
 }
 
 /// For each quantity N, T, g and ut: the largest s <= 1 for which the quantity is monotone or constant on [0, s x_end]. N is a
@@ -211,8 +211,8 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
   double safe = 1.0;  // relative to x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
     const WatchedValues ripple = fast_bounds(c, false), forth = monotone_parts(c, x_end, p);
-    const WatchedValues unsure = of_law(laws_[c], rounding::elimination * normal_size_[c].place,
-                                        rounding::elimination * tangent_size_[c].place);
+    const WatchedValues unsure = errors_by_law(laws_[c], rounding::elimination * normal_size_[c].place,
+                                               rounding::elimination * tangent_size_[c].place);
     for (std::size_t f = 0; f < ripple.size(); ++f) {
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);

@@ -11,8 +11,8 @@ namespace {
 
 // Modal velocity, relative to the greatest one, below which the works of a mode are only rounding.
 constexpr double least_velocity = 1e-9;
-// Limits of omega^2 t_end^2. Below no_frequency, a frequency is regarded as zero. Below least_frequency, works are inaccurate.
-constexpr double no_frequency = 1e-12, least_frequency = 1e-3;
+// Limits of omega^2 t_end^2. Below zero_frequency_bound, a frequency is regarded as zero. Below least_frequency, works are inaccurate.
+constexpr double zero_frequency_bound = 1e-12, least_frequency = 1e-3;
 
 template <class S>
 using Ends = ModalWorkIntegrals::Ends<S>;
@@ -62,7 +62,7 @@ double sum_over(const Amplitudes& row, const Real& real, const Pair& pair) {
 bool ModalWorkIntegrals::is_accurate_for(const Spectrum& spectrum, double t_end) {
   const double square = t_end * t_end;
   const auto bad = [&](double l) {
-    return std::abs(l) * square > no_frequency && l * square < least_frequency;
+    return std::abs(l) * square > zero_frequency_bound && l * square < least_frequency;
   };
   return std::none_of(spectrum.real().begin(), spectrum.real().end(), bad) &&
          std::none_of(spectrum.pairs().begin(), spectrum.pairs().end(),
@@ -75,7 +75,7 @@ void ModalWorkIntegrals::start(const engine::Segment& segment, const StateModes&
   state_ = &state;
   oscillators_ = &oscillators;
   forces_ = &forces;
-  zero_frequency_limit_ = no_frequency / (t_end * t_end);
+  zero_frequency_limit_ = zero_frequency_bound / (t_end * t_end);
   loads_.clear();
   for (std::size_t i = 0; i < model_.loads.size(); ++i) {
     const double t = decision_->jet.t, f = model_.loads[i].history.piece(t).value(t);

@@ -37,7 +37,7 @@ Poles::Poles(const Eigen::VectorXd& values)
 }
 
 Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
-                   std::size_t written_up_to)
+                   std::size_t max_stored)
     : rank_(static_cast<std::size_t>(u.cols())), order_(poles.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t(0));
   values_ = poles.base;
@@ -78,10 +78,10 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   find_vectors(pairs_);
   order_values();
   find_squares();
-  find_alike();
+  compute_close_products();
   split_close_roots();
   find_products();
-  if (order_.size() + 2 * pairs_.size() <= written_up_to) store_matrices();
+  if (order_.size() + 2 * pairs_.size() <= max_stored) store_matrices();
   test();
 }
 
@@ -224,7 +224,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     z.pair.clear();
     return;
   }
-  if (form && x_.size() > 0) return of_form_written(q, z);
+  if (form && x_.size() > 0) return stored_form_coefficients(q, z);
   Eigen::VectorXd turned = q;
   for (const auto& [row, vectors] : rotations_)
     turned.segment(row, vectors.rows()) = vectors.transpose() * q.segment(row, vectors.rows());
@@ -255,7 +255,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
 
 void Spectrum::to_modes(const std::vector<const Eigen::VectorXd*>& q,
                         const std::vector<Amplitudes*>& z) const {
-  if (x_.size() > 0) return to_modes_written(q, z);
+  if (x_.size() > 0) return to_modes_stored(q, z);
   for (std::size_t s = 0; s < q.size(); ++s) project(*q[s], false, *z[s]);
 }
 
@@ -267,7 +267,7 @@ void Spectrum::from_modes(const std::vector<const Amplitudes*>& z,
           Eigen::Map<const Eigen::VectorXd>(z[s]->real.data(), static_cast<Eigen::Index>(z[s]->real.size()));
     return;
   }
-  if (x_.size() > 0) return from_modes_written(z, q);
+  if (x_.size() > 0) return from_modes_stored(z, q);
   const auto n = static_cast<Eigen::Index>(n_), rank = static_cast<Eigen::Index>(rank_);
   std::vector<std::vector<double>> real(z.size(), std::vector<double>(order_.size()));
   for (std::size_t s = 0; s < z.size(); ++s)

@@ -68,9 +68,9 @@ inline constexpr std::size_t max_stored_modes = 1024;
 class Spectrum {
  public:
   /// u, v: U and V, n x rank; sets failure() if rank > max_rank. symmetric: each column of V is a positive multiple of the same
-  /// column of U, so that all roots are real. written_up_to: largest number of modes for which X and Y are stored.
+  /// column of U, so that all roots are real. max_stored: largest number of modes for which X and Y are stored.
   Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
-           std::size_t written_up_to = max_stored_modes);
+           std::size_t max_stored = max_stored_modes);
 
   /// Reason why the modes cannot be used. Empty: the modes can be used.
   [[nodiscard]] const std::string& failure() const { return failure_; }
@@ -144,8 +144,8 @@ class Spectrum {
   void find_vectors(Roots<S>& roots);
   /// Clusters of roots that double precision cannot separate. Each cluster is a list of indices of roots.
   [[nodiscard]] std::vector<std::vector<std::size_t>> find_clusters(const Roots<double>& roots) const;
-  [[nodiscard]] std::pair<std::size_t, std::size_t> poles_of(const std::vector<std::size_t>& members,
-                                                             const Roots<double>& roots) const;
+  [[nodiscard]] std::pair<std::size_t, std::size_t> cluster_poles(const std::vector<std::size_t>& members,
+                                                                  const Roots<double>& roots) const;
   bool split_cluster(const std::vector<std::size_t>& members, Roots<double>& roots);
   template <class S>
   void outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
@@ -165,18 +165,17 @@ class Spectrum {
   void entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small, const Eigen::MatrixXd& side,
                std::vector<S>& out) const;
   void store_matrices();
-  void to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
-                        const std::vector<Amplitudes*>& z) const;
-  void of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const;
-  void from_modes_written(const std::vector<const Amplitudes*>& z,
-                          const std::vector<Eigen::VectorXd*>& q) const;
+  void to_modes_stored(const std::vector<const Eigen::VectorXd*>& q, const std::vector<Amplitudes*>& z) const;
+  void stored_form_coefficients(const Eigen::VectorXd& form, Amplitudes& row) const;
+  void from_modes_stored(const std::vector<const Amplitudes*>& z,
+                         const std::vector<Eigen::VectorXd*>& q) const;
   template <class S>
   void cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
               std::vector<S>& out) const;
   [[nodiscard]] Eigen::VectorXd coupled_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
                                                std::size_t k) const;
   void split_close_roots();
-  void find_alike();
+  void compute_close_products();
   [[nodiscard]] double difference(std::size_t k, std::size_t l) const {
     return (value_base_[k] - value_base_[l]) + (value_offset_[k] - value_offset_[l]);
   }
@@ -208,11 +207,11 @@ class Spectrum {
   std::vector<double> values_;
   struct Close {
     std::size_t k, l;
-    double product;  // in close_: y_k^T x_l, which is only rounding; in alike_: x_k^T x_l
+    double product;  // in close_: y_k^T x_l, which is only rounding; in close_products_: x_k^T x_l
   };
   std::vector<Close> close_;
   // x_k^T x_l of modes k > l whose difference l_k - l_l is so small that products_ are inaccurate.
-  std::vector<Close> alike_;
+  std::vector<Close> close_products_;
   std::vector<double> squares_;
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // real eigenvalues as sums, for accurate differences

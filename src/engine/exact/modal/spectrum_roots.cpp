@@ -385,8 +385,8 @@ std::vector<std::vector<std::size_t>> Spectrum::find_clusters(const Roots<double
 
 /// Range of poles for a cluster: the poles of its roots, and as many neighbouring poles as needed so that the range contains at
 /// least as many poles as roots. Returns the first pole and the end of the range.
-std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::size_t>& members,
-                                                       const Roots<double>& roots) const {
+std::pair<std::size_t, std::size_t> Spectrum::cluster_poles(const std::vector<std::size_t>& members,
+                                                            const Roots<double>& roots) const {
   std::size_t first = n_, last = 0;
   for (const std::size_t k : members) {
     first = std::min(first, group_begin_[roots.pole_index[k]]);
@@ -479,7 +479,7 @@ bool Spectrum::split_cluster(const std::vector<std::size_t>& members, Roots<doub
   Wide own = 0;
   for (const std::size_t k : members)
     own += (Wide(roots.offset[k]) + poles_.pole_difference(roots.pole_index[k], home)) / static_cast<Wide>(m);
-  const auto [first, last] = poles_of(members, roots);
+  const auto [first, last] = cluster_poles(members, roots);
   Local<Wide> local;
   local.first = first;
   local.count = last - first;

@@ -179,7 +179,7 @@ void Spectrum::find_squares() {
 }
 
 /// Computes x_k^T x_l directly from the vectors, for pairs of modes whose l_k - l_l is so small that products() is inaccurate.
-void Spectrum::find_alike() {
+void Spectrum::compute_close_products() {
   for (std::size_t l = 0; l < order_.size(); ++l)
     for (std::size_t k = l + 1; k < order_.size() && std::abs(difference(k, l)) <= alike * values_[k]; ++k) {
       const std::size_t own = order_[k], other = order_[l];
@@ -188,14 +188,14 @@ void Spectrum::find_alike() {
       for (std::size_t j = 0; j < uncoupled_.size(); ++j)
         product += uncoupled_coordinate(real_, own, j, uncoupled_poles_[j]) *
                    uncoupled_coordinate(real_, other, j, uncoupled_poles_[j]);
-      alike_.push_back({k, l, product});
+      close_products_.push_back({k, l, product});
     }
 }
 
 double Spectrum::product(std::size_t k, std::size_t l) const {
   const double apart = difference(k, l);
   if (std::abs(apart) <= alike * std::abs(values_[k]))
-    for (const Close& pair : alike_)
+    for (const Close& pair : close_products_)
       if (pair.k == std::max(k, l) && pair.l == std::min(k, l)) return pair.product;
   const std::vector<double>&c = products_.c, &h = products_.h;
   double sum = 0.0;
@@ -318,7 +318,7 @@ void Spectrum::store_matrices() {
   x_ = right;
 }
 
-void Spectrum::of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const {
+void Spectrum::stored_form_coefficients(const Eigen::VectorXd& form, Amplitudes& row) const {
   const Eigen::VectorXd all = x_.transpose() * form;
   const auto reals = static_cast<Eigen::Index>(order_.size());
   row.real.assign(all.data(), all.data() + reals);
@@ -326,8 +326,8 @@ void Spectrum::of_form_written(const Eigen::VectorXd& form, Amplitudes& row) con
   for (Eigen::Index k = reals; k < all.size(); k += 2) row.pair.push_back({0.5 * all[k], -0.5 * all[k + 1]});
 }
 
-void Spectrum::to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
-                                const std::vector<Amplitudes*>& z) const {
+void Spectrum::to_modes_stored(const std::vector<const Eigen::VectorXd*>& q,
+                               const std::vector<Amplitudes*>& z) const {
   std::vector<Eigen::VectorXd> all(q.size());
   std::vector<Eigen::VectorXd*> lists;
   for (Eigen::VectorXd& list : all) lists.push_back(&list);
@@ -340,8 +340,8 @@ void Spectrum::to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
   }
 }
 
-void Spectrum::from_modes_written(const std::vector<const Amplitudes*>& z,
-                                  const std::vector<Eigen::VectorXd*>& q) const {
+void Spectrum::from_modes_stored(const std::vector<const Amplitudes*>& z,
+                                 const std::vector<Eigen::VectorXd*>& q) const {
   std::vector<Eigen::VectorXd> all(z.size(), Eigen::VectorXd(x_.cols()));
   std::vector<const Eigen::VectorXd*> lists;
   const auto reals = static_cast<Eigen::Index>(order_.size());

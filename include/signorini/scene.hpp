@@ -534,9 +534,8 @@ struct OutputSpec {
   std::size_t spring = 0;         ///< index into Scene::springs
   std::vector<OutputTerm> terms;  ///< the output is the sum of these terms
   SourcePlace place;
-  Fibre fibre = Fibre::both;  ///< fibre of a stress
-  std::optional<double> intensification =
-      {};  ///< factor on bending stresses; absent: factor of the bend, or 1
+  Fibre fibre = Fibre::both;                   ///< fibre of a stress
+  std::optional<double> intensification = {};  ///< bending stress factor; absent: factor of the bend, or 1
 };
 
 /// Triplets (row, column, value); of symmetric matrices both triangles are stored.

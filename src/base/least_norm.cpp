@@ -90,8 +90,7 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
   for (int step = 0; step < most_steps; ++step) {
     const VectorXd left = r - a * now.x;
     if (left.norm() <= rounding::elimination * size) {
-      if (!(left.norm() < 0.5 * least))
-        return best;  // the residual does not decrease further: it is rounding
+      if (!(left.norm() < 0.5 * least)) return best;  // the residual is only rounding error
       least = left.norm();
       best = now.x;
     }

@@ -179,9 +179,8 @@ void check_run_files(const fs::path& directory, const std::vector<std::string_vi
 std::string unchecked_reason(const fs::path& directory) {
   if (is_there(directory / manifest_file)) return "";
   std::string why = fmt::format(
-      "{}: {} is missing: the run may not have finished, or is of an earlier version; the files of the run "
-      "are "
-      "not checked",
+      "{}: {} is missing: the run may not have finished, or is of an earlier version; the files of the "
+      "run are not checked",
       directory.string(), manifest_file);
   if (is_cut(directory / "states.csv"))
     why += ". The last line of states.csv has no line end: its state is ignored";

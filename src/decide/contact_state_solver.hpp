@@ -77,7 +77,7 @@ class ContactStateSolver {
   const Model& model_;
   motion::StateSystems& systems_;
   motion::JetMaker jets_;
-  std::optional<motion::LocalDerivatives> local_derivatives_;  // nullopt: all derivatives are computed
+  std::optional<motion::LocalDerivatives> local_derivatives_;  // nullopt: jets of the whole structure
   const std::vector<std::size_t> all_contacts_;                // indices of all contacts
   int max_rounds_;
   RigidContactSolver rigid_solver_;

@@ -4,8 +4,8 @@
 //   0 <= l  _|_  rn >= 0,      |k| <= f l,  k = -f l sign(rt) where rt is not 0        (frictional)
 //
 // l acts on the body along n, k along t: N = -l, T = -k. r and f are velocities and impulses, or accelerations and forces, or
-// time derivatives of accelerations and forces. With planar friction the problem is a linear complementarity problem; with k =
-// a - b:
+// time derivatives of accelerations and forces. With planar friction the problem is a linear complementarity problem;
+// with k = a - b:
 //   rn _|_ l,   rt + c _|_ a,   -rt + c _|_ b,   f l - a - b _|_ c                     all >= 0
 // The coefficient f is the static one in stick and the kinetic one in slip.
 // Source: Stewart, Trinkle 1996; Anitescu, Potra 1997; for one contact Glocker 2001.

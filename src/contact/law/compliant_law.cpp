@@ -43,8 +43,8 @@ class CompliantLaw : public CoulombLaw {
   }
 };
 
-/// Compliant law whose springs represent compliance of the structure. The scene names the contact "rigid", so name() does,
-/// too.
+/// Compliant law whose springs represent compliance of the structure. name() is "rigid", because
+/// scenes name such a contact so.
 class ComplianceSplitLaw final : public CompliantLaw {
  public:
   ComplianceSplitLaw() : CompliantLaw({.normal_spring = true, .compliance_split = true}) {}

@@ -17,7 +17,7 @@ namespace signorini::decide {
 /// Properties of a guard just after the decision.
 struct GuardStart {
   Guard kind = Guard::none;
-  bool at_zero = false;   ///< the guard is zero just after the decision and then becomes positive
+  bool at_zero = false;   ///< true: the guard is zero just after the decision
   int leading_order = 0;  ///< order of the first nonzero derivative; -1: no derivative is known to be nonzero
   /// Rounding error of the guard's value. Not less than the value itself if the decision treated the value as zero.
   double noise = 0.0;
@@ -40,10 +40,10 @@ struct Crossing {
   double noise = 0.0;  ///< rounding error of the guard's value
 };
 
-/// A contact that sticks from an instant on, although rounding errors do not allow to decide between stick and slip.
+/// A contact that sticks from an instant on, although rounding errors hide whether it sticks or slips.
 struct ContactAtLimit {
   std::size_t contact = 0;
-  double margin = 0.0;  ///< limit of friction minus |T|, as computed; force
+  double margin = 0.0;  ///< computed friction limit minus |T|; force
   double noise = 0.0;   ///< rounding error of `margin`
 };
 
@@ -64,15 +64,15 @@ struct Decision {
   /// True for contacts that changed state during the decision, one entry per contact.
   std::vector<bool> visited;
   std::vector<bool> jumped;  ///< true for contacts whose N or T jumps, one entry per contact
-  std::vector<std::size_t>
-      released;  ///< contacts from which massless parts separated instantaneously (massless_jump.hpp)
+  /// Contacts from which massless parts separated instantaneously (massless_jump.hpp).
+  std::vector<std::size_t> released;
   std::vector<Impulse> impulses;  ///< one entry per contact if rigid contacts were hit; otherwise empty
   /// Impulses of each single impact, in the order of the impacts. `impulses` contains their sums.
   std::vector<SingleImpact> single_impacts;
   std::vector<double> departures;    ///< see ImpactResult::departures
   double impact_loss = 0.0;          ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;  ///< work of moving surfaces in the impacts
-  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
+  bool impact_gains = false;         ///< true: an impact gained energy (Newton's law with friction)
   /// True if rounding errors did not allow a unique decision: the states with the smallest violation were taken, or a contact
   /// stays at rest at its friction limit.
   bool undecided = false;

@@ -17,9 +17,8 @@ namespace signorini::decide {
 
 /// Effect of forces at the listed contacts: on all degrees of freedom, and on the listed contacts.
 struct Delassus {
-  Eigen::MatrixXd
-      /// n x places of the list: accelerations for unit forces (l along n, k along t); 0 at massless degrees of freedom.
-      effect;
+  /// n x places of the list: accelerations due to unit forces (l along n, k along t); 0 at massless degrees of freedom.
+  Eigen::MatrixXd effect;
   Eigen::MatrixXd W;   ///< matrix W of the listed contacts; rows and columns of unused places are zero
   ForceLayout layout;  ///< layout of the listed contacts
 };
@@ -65,11 +64,11 @@ Eigen::VectorXd impose_velocities(const Delassus& delassus, const std::vector<Fi
 //
 //   min sum ( l_i^2 + k_i^2 )   over   W f = W f_0,   (l_i, k_i) in the cone of contact i
 //
-//   contact i presses and rests    0 <= l,  |k| <= fs l        l is given:  |k| <= fs l
-//   contact i presses and slips    0 <= l,  k = -f l sign(rt)
-//   without friction               0 <= l
+//   contact i is closed and sticks    0 <= l,  |k| <= fs l        l is given:  |k| <= fs l
+//   contact i is closed and slips     0 <= l,  k = -f l sign(rt)
+//   contact i has no friction         0 <= l
 //
-// f_0 is one solution of a complementarity problem. Two sticking feet of one body may share the friction in different ways
+// f_0 is one solution of the Coulomb problem. Two sticking feet of one body may share the friction in different ways
 // with equal accelerations; feet at unequal heights may also share the compression in different ways. The forces of least
 // norm are unique: they depend neither on the order of contacts nor on the method that found f_0. A contact is at its limit
 // if its force of least norm lies on its friction cone.

@@ -9,7 +9,7 @@
 namespace signorini::decide {
 namespace {
 
-constexpr double same_value = 1e-12;  // relative difference up to which two pieces of a history meet smoothly
+constexpr double same_value = 1e-12;  // relative difference up to which values of two pieces are equal
 
 /// Magnitude of the terms of a form of x, to which the rounding error of its value is proportional. Each translation is
 /// replaced by the largest translation in x, but at least `own`; each rotation by the largest rotation, but at least

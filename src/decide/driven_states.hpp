@@ -29,7 +29,7 @@ namespace signorini::decide {
 [[nodiscard]] bool resolve_slip_reversal(const Model& model, const std::vector<ContactMotion>& before,
                                          const std::vector<MotionJet>& after, contact::ContactStates& states);
 
-/// Changes `states` at a jump of the forcing. motion: motion of each contact just before the jump.
+/// Changes `states` at an instant at which the forcing is not smooth. motion: motion of each contact just before the instant.
 void apply_forcing_jump(const Model& model, const Instant& instant, const motion::Forcing& before,
                         const motion::Forcing& after, const std::vector<ContactMotion>& motion,
                         contact::ContactStates& states);

@@ -64,7 +64,7 @@ struct Known {
 
 /// Known signs of the guards of a contact that is decided together with other contacts.
 struct KnownGuards {
-  bool touches = false;  ///< g = 0
+  bool touches = false;  ///< true: g = 0
   Known closing, separation, slip_plus, slip_minus, sliding;
 
   /// The known signs that are valid in every state of the contact: zeros of g, g' and the slip rate.
@@ -102,7 +102,7 @@ struct KnownGuards {
 struct Sign {
   int sign = 0;         // -1, 0, +1
   int order = 0;        // order of the first nonzero derivative; MotionJet::orders if all are zero
-  double excess = 0.0;  // magnitude of that derivative / magnitude up to which it is treated as zero
+  double excess = 0.0;  // that derivative's magnitude / limit up to which it is treated as zero
 };
 
 /// Returns `so_far`, the motion of the contact up to the instant, if the guard is a friction limit in Instant::resting_limits

@@ -12,7 +12,7 @@
 //   an event has no partner, or its partner differs in contact, from or to
 //   c |change of t - t'|, from one event of a contact to the next, exceeds half the time between these two events
 //     (an error that is equal for both events does not change their order)
-// the companion run stops
+//   the companion run stops
 //
 // If two events of different contacts lie closer than their errors, their order is uncertain. Such pairs are counted
 // (Certificate::unordered) but do not end the certificate. validation/certified measures how often the bounds are correct.
@@ -69,7 +69,7 @@ struct Certificate {
   double wall_time = 0.0;  ///< sum of the wall times of all companion runs, s
   double wait = 0.0;       ///< wall time from the end of the run to the end of its last companion run, s
 
-  /// True if the row of events.csv is certain; the comparison is false for NaN.
+  /// True if the row of events.csv is certain, that is, if its error bound is not NaN.
   [[nodiscard]] bool certain(std::size_t row) const { return t_errors[row] == t_errors[row]; }
   /// Number of certain rows of events.csv.
   [[nodiscard]] std::size_t certain_events() const;

@@ -47,10 +47,10 @@ void defer_slip_failures(const Model& model, std::vector<FailedGuard>& failed);
 //   |T| = f|N| in stick, h = f|N| - |T|;   with the slip rate a:  h' = h0' + c a,   h0' < 0,  c <= 0
 //
 // If h0' < 0 and c <= 0, neither stick (h' = h0' < 0) nor slip (a = -h0'/c < 0) is possible, because slip reduces f|N| more
-// than |T|. No continuous motion exists. With a small mass, the slip would accelerate until N = 0, the contact
-// would open, and the parts would move to their equilibrium without the contact. In the limit of zero mass this motion takes
-// no time. The jump also occurs if friction drops to its kinetic value, or if the data at the start require a tensile force. The
-// jump must open the gap.
+// than |T|. No continuous motion exists. With a small mass, the slip would accelerate until N = 0, the contact would open, and
+// the parts would move to their equilibrium without the contact. In the limit of zero mass this motion takes no time. The jump
+// also occurs if friction drops to its kinetic value, or if the data at the start require a tensile force. The jump must open
+// the gap.
 
 /// True if the normal or the tangent of the contact moves a massless degree of freedom.
 [[nodiscard]] bool acts_on_massless(const Model& model, const Contact& contact);

@@ -130,8 +130,7 @@ std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combinat
   std::size_t combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.states.size();
   std::optional<BestCombination> best;
-  std::vector<std::pair<contact::ContactStates, Vector>>
-      holding;  // consistent combinations, with accelerations
+  std::vector<std::pair<contact::ContactStates, Vector>> holding;  // consistent states and accelerations
   double greatest = 0.0;
   for (std::size_t code = 0; code < combinations; ++code) {
     contact::ContactStates tried = contact_states;

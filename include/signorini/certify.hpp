@@ -9,7 +9,7 @@
 //
 // Events are paired contact by contact, in their order. The certain part of the sequence ends as soon as one of these occurs:
 //
-//   an event has no partner, or its partner differs in contact, from or to
+//   an event has no partner, or the contact, `from` or `to` of the partner is different
 //   c |change of t - t'|, from one event of a contact to the next, exceeds half the time between these two events
 //     (an error that is equal for both events does not change their order)
 //   the companion run stops

@@ -46,7 +46,7 @@ inline constexpr std::array all_event_types = {
   return all_event_types[static_cast<std::size_t>(type)].name;
 }
 
-/// Number of events that change a state; jumps of loads are left out.
+/// Number of events that change a state; jumps of loads are not counted.
 [[nodiscard]] inline long count_state_changes(const std::map<std::string, long>& by_type) {
   long sum = 0;
   for (const auto& [type, count] : by_type) sum += type == to_string(EventType::time) ? 0 : count;

@@ -81,7 +81,7 @@ class History {
   [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
   /// The history t -> f(t - dt). Errors: std::invalid_argument if rounding merges starts; the same error in repeated().
   [[nodiscard]] History shifted(double dt) const;
-  /// The history that is equal to this one before t and to `next` from t on.
+  /// The history that is equal to f before t and to `next` from t on.
   [[nodiscard]] History then(double t, const History& next) const;
   /// The history in which f on [from, from + period) occurs `rounds` times in succession; f is unchanged before `from` and from
   /// from + rounds * period on.

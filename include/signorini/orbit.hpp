@@ -84,8 +84,8 @@ struct Orbit {
   SavedState start;      ///< state at the orbit's time 0
 };
 
-/// Searches for a periodic motion. The search calls only `progress` of `recorder`, which may stop it. A failed search returns
-/// an Orbit with found = false and a `reason`. Errors are SceneError and UsageError:
+/// Searches for a periodic motion. The search calls only `progress` of `recorder`, which may stop the search. A failed search
+/// returns an Orbit with found = false and a `reason`. Errors are SceneError and UsageError:
 ///   a scene without a period and without a belt;  loads that do not repeat with `period`
 ///   a given energy in a driven or damped scene;  an engine or law without tangents (exact and ida have them)
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
@@ -116,7 +116,7 @@ struct BranchOptions {
   /// Number of successive switches to side branches: at a flip to the branch of twice the period, and at branch points. 0:
   /// only the first branch is computed.
   int switches = 0;
-  /// Resumes at this checkpoint, whose point is not repeated.
+  /// Checkpoint at which the branch resumes; the point of the checkpoint is not repeated.
   std::optional<BranchCheckpoint> resume_from = {};
   /// Called after each point of the first branch. The argument is a function that makes the checkpoint of the point, at the
   /// cost of a run of one period; an interrupted branch can be resumed from the checkpoint.
@@ -166,8 +166,9 @@ struct Branch {
   /// exists). False: the branch ended before, was interrupted, or returned after a gap between two pieces of the branch.
   bool complete = false;
   bool interrupted = false;
-  std::optional<BranchCheckpoint> last;  ///< last checkpoint of the first branch, if it has a point
-  std::vector<SideBranch> sides;         ///< in the order in which they were followed
+  std::optional<BranchCheckpoint>
+      last;                       ///< last checkpoint of the first branch; absent: the branch has no point
+  std::vector<SideBranch> sides;  ///< in the order in which they were followed
 };
 
 /// Pseudo-arclength continuation, beginning with the orbit that find_orbit finds at `from`. `seen` is called after every

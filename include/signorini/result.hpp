@@ -91,14 +91,15 @@ struct InstantImpact {
 struct InstantRow {
   double t = 0.0;
   double resolution = 0.0;  ///< two times closer than this are treated as one instant
-  /// Violation, in units of its rounding error, by states that were accepted although rounding left them undecided.
+  /// Largest violation of a guard, as a multiple of its rounding error, in states that were accepted although rounding left
+  /// the decision open.
   double tolerated_violation = 0.0;
   /// Engine `exact`: condition number of the mode shapes, by which rounding errors of modal sums are multiplied.
   double eigenvector_condition = 1.0;
   bool start = false;       ///< true: the instant is the start of the run
-  bool breakpoint = false;  ///< true: the forcing is not smooth here
+  bool breakpoint = false;  ///< true: the forcing is not smooth at this instant
   bool load_jumps = false;
-  /// True: a guard is zero here. False: the instant is the end of a step in which a change of state was detected.
+  /// True: a guard is zero at this instant. False: the instant is the end of a step in which a change of state was detected.
   bool located = true;
   InstantSide before, after;
   std::vector<InstantImpact> impacts;

@@ -1,6 +1,7 @@
 // constants.hpp: functions that visit every constant and every form of a contact, for any contact law.
 //
-// Code that rescales, perturbs, renumbers or reduces contacts uses these functions, so it need not know the laws.
+// Code that rescales, perturbs, renumbers or reduces contacts uses these functions, so this code does not depend
+// on the laws.
 #pragma once
 
 #include "base/unit.hpp"

@@ -7,8 +7,8 @@
 //   with a shear element, whose sliding point is massless:   p' = 0                       T + s fk N = 0
 //   static limit in direction s, without slip (other contacts prevent slip):              T + s fs N = 0
 //   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction.hpp.
-// A dashpot adds cn g' to kn g. The contact opens at N = 0, because it must not pull, although g is still negative. It stays
-// open (state "inside") until kn g + cn g' < 0 again or until the gap has opened.
+// A dashpot adds cn g' to kn g. The contact opens at N = 0, because it must not pull, although g is still negative. The contact
+// stays open (state "inside") until kn g + cn g' < 0 again or until the gap has opened.
 //
 //   guards     open    g                        (sliders: none, because an open slider has q = 0)
 //              inside  g + (cn/kn) g', -g
@@ -22,7 +22,7 @@
 //              p' = ut' - s F'/kt               friction that depends on N
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
-// These are the built-in laws: contact/law/coulomb_law.hpp and the normal laws in the same folder. A user-defined law gets
+// Built-in laws: contact/law/coulomb_law.hpp and the normal laws in the same folder. A user-defined law gets
 // its rows and guards from data (signorini/user_contact_law.hpp, contact/law/user_law.hpp). All laws implement the interface
 // signorini/contact_law.hpp. A guard is positive while its state is valid; the event is the first zero of a guard. Guards
 // continue smoothly beyond their zero, so a root finder may evaluate them slightly after the event.

@@ -166,8 +166,8 @@ struct Branch {
   /// exists). False: the branch ended before, was interrupted, or returned after a gap between two pieces of the branch.
   bool complete = false;
   bool interrupted = false;
-  std::optional<BranchCheckpoint>
-      last;                       ///< last checkpoint of the first branch; absent: the branch has no point
+  /// Last checkpoint of the first branch; absent: the branch has no point.
+  std::optional<BranchCheckpoint> last;
   std::vector<SideBranch> sides;  ///< in the order in which they were followed
 };
 

@@ -30,8 +30,8 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
 
 namespace {
 
-/// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. B is scaled to a unit diagonal because translations and
-/// rotations have different units.
+/// Reduction of A x = mu B x to C y = mu y: B = D L L^T D with D = diag(B)^1/2, C = (D L)^-1 A (D L)^-T. B is
+/// scaled to a unit diagonal because translations and rotations have different units.
 struct Reduced {
   Eigen::VectorXd s;  ///< 1 / D; empty if B is not positive definite
   Eigen::LLT<Eigen::MatrixXd> llt;
@@ -109,7 +109,7 @@ std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a, const Eig
   return lu.solve(b);
 }
 
-/// Inverse iteration, x <- A^-1 A^-T x. A may be singular; a small diagonal term keeps its factors regular.
+/// Inverse iteration, x <- A^-1 A^-T x. Since A may be singular, a small diagonal matrix is added before the factorisation.
 Eigen::MatrixXd smallest_singular_vectors(const Eigen::MatrixXd& a, Eigen::Index count) {
   constexpr int rounds = 4;
   const Eigen::Index n = a.rows();

@@ -38,7 +38,7 @@ std::ifstream opened(const fs::path& path) {
   return stream;
 }
 
-/// True if the last line has no line end, for example because the run was killed.
+/// True if the last line of the table has no line end, for example because the run was killed.
 bool is_cut(const fs::path& table) {
   if (!input_file_error(table).empty()) return false;
   std::ifstream stream(table, std::ios::binary | std::ios::ate);
@@ -80,10 +80,11 @@ void check_file(const fs::path& directory, const Manifest& manifest, std::string
   const ManifestEntry* expected = manifest.find(file);
   if (expected == nullptr) {
     if (!is_there(path)) return;
-    throw FileError(path.string(),
-                    fmt::format("found a file that {} does not list: it does not belong to this run, or is "
-                                "incomplete. Delete it, or delete {} if the change was intended",
-                                manifest_file, (directory / manifest_file).string()));
+    throw FileError(
+        path.string(),
+        fmt::format("found a file that {} does not list: the file does not belong to this "
+                    "run, or is incomplete. Delete the file, or delete {} if the change was intended",
+                    manifest_file, (directory / manifest_file).string()));
   }
   if (!is_there(path)) refuse(directory, file, fmt::format("not found, expected {} bytes", expected->size));
   std::error_code error;
@@ -142,14 +143,15 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
       manifest.files.push_back({e.at("file"), e.at("size"), e.at("checksum")});
       const std::string& file = manifest.files.back().file;
       if (file.empty() || file.find('/') != std::string::npos)
-        throw FileError(path.string(),
-                        "is not a manifest of a run: found the file name \"" + excerpt(file) + "\"");
+        throw FileError(path.string(), "is not a manifest of a run: found the file name \"" + excerpt(file) +
+                                           "\", expected a name without \"/\"");
     }
     return manifest;
   } catch (const Json::exception& error) {
-    throw FileError(path.string(),
-                    std::string("is not a manifest of a run: ") + error.what() +
-                        "; compute the run again, or delete the manifest: its files are then not checked");
+    throw FileError(
+        path.string(),
+        std::string("is not a manifest of a run: ") + error.what() +
+            "; compute the run again, or delete the manifest; the files of the run are then not checked");
   }
 }
 
@@ -178,7 +180,8 @@ void check_run_files(const fs::path& directory, const std::vector<std::string_vi
 std::string unchecked_reason(const fs::path& directory) {
   if (is_there(directory / manifest_file)) return "";
   std::string why = fmt::format(
-      "{}: no {}: the run may not have finished, or is of an earlier version; its files are not checked",
+      "{}: {} is missing: the run may not have finished, or is of an earlier version; the files of the "
+      "run are not checked",
       directory.string(), manifest_file);
   if (is_cut(directory / "states.csv"))
     why += ". The last line of states.csv has no line end: its state is ignored";

@@ -122,7 +122,7 @@ LimitSeries::LimitSeries(const Friction& friction, double x0)
       x_{x0},
       e_{std::exp(-std::max(x0, 0.0) / force_)} {}
 
-/// Known part of E_k: all terms but -x_k E_0 / Nc, because x_k is not known yet.
+/// Part of E_k that does not depend on x_k: all terms except -x_k E_0 / Nc.
 double LimitSeries::known_exponential() const {
   const std::size_t k = x_.size();
   double sum = 0.0;
@@ -147,7 +147,8 @@ double LimitSeries::take(double x) {
 
 namespace {
 
-// Limit for Newton steps: the first steps advance x by at least v each, the last ones converge quadratically.
+// Limit of the number of Newton steps: each of the first steps increases x by at least v, the last steps converge
+// quadratically.
 constexpr int most_steps = 200;
 
 }  // namespace
@@ -166,7 +167,7 @@ std::optional<double> massless_slip_rate(const Friction& friction, double pull, 
     if (!(rest > saturation_tolerance)) return std::nullopt;
     return -v * std::log(rest);
   }
-  // The residual decreases and is convex in x, so Newton steps that start left of the root never pass the root.
+  // The residual decreases and is convex in x, so Newton's method that starts below the root never exceeds the root.
   double x = 0.0;
   for (int i = 0; i < most_steps; ++i) {
     const double fading = (fast - slow) * std::exp(-x / v) * pressed;

@@ -90,9 +90,9 @@ Eigen::VectorXd impose_velocities(const Delassus& d, const std::vector<FixedVelo
 
 namespace {
 
-/// Fraction of the largest force; a larger noise is suspicious. Noise is 64 times 4 to 8 eps of the terms, times the
-/// condition number, so the check starts at condition numbers of about 1e10. Chosen value: it only selects cases; the
-/// singular value decides.
+/// Ratio of noise to the largest force above which the forces may not be unique. Noise is 64 times 4 to 8 eps of the terms,
+/// times the condition number, so the check begins at condition numbers of about 1e10. Chosen value: it only selects cases for
+/// forces_are_unique().
 constexpr double suspicious = 1e-3;
 
 bool holds(const Contact& contact, const ContactState& state) {
@@ -100,8 +100,8 @@ bool holds(const Contact& contact, const ContactState& state) {
   return contact.sticks_rigidly() && state.state == State::stick;
 }
 
-/// Matrix A of forces_are_unique(): rows of W for normals of closed contacts and tangents of sticking contacts; the column of
-/// a slipping contact's normal includes its friction.
+/// Matrix A of forces_are_unique(): rows and columns of W for normals of closed contacts and tangents of sticking contacts. The
+/// column for the normal of a slipping contact includes the effect of its friction.
 Eigen::MatrixXd constrained_block(const Model& model, const contact::ContactStates& states,
                                   const std::vector<std::size_t>& contacts, const Delassus& d) {
   std::vector<Eigen::Index> rows;
@@ -158,7 +158,7 @@ bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStat
       contacts.push_back(c);
       free[c] = {State::open, 0.0};
     }
-  if (contacts.size() < 2) return true;  // rows of a single contact are independent
+  if (contacts.size() < 2) return true;  // the rows of a single contact are linearly independent
   const motion::StateSystemPtr system = systems.system_of(free);
   if (!system) return true;
   Delassus d = delassus(model, *system, contacts);
@@ -178,8 +178,8 @@ namespace {
 
 using Kind = CoulombItem::Kind;
 
-/// Forces that may change without an effect on the responses: their rows, item by item, and the admissible set of the forces
-/// of each item.
+/// Forces of items at rest, among which friction and compression may be shared in different ways: rows of these forces, and
+/// the admissible set of each item's forces.
 struct Shares {
   std::vector<Eigen::Index> rows;
   std::vector<base::ConvexSet> sets;
@@ -230,7 +230,7 @@ void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may
                      CoulombSolution& solution) {
   const Shares shares = shares_of(problem, may_share, solution);
   if (shares.rows.size() < 2 || shares.resting.empty()) return;
-  const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // no response
+  const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // W f = 0
   if (open.cols() == 0) return;
   const Eigen::VectorXd given = solution.force(shares.rows);
   const Eigen::MatrixXd kept = base::orthogonal_complement(open).transpose();

@@ -8,7 +8,7 @@
 namespace signorini::decide {
 namespace {
 
-/// Derivative of order k and its noise, for any guard and for the QuickForm of a linear guard.
+/// Derivative of order k, and noise of this derivative, for any guard and for the QuickForm of a linear guard.
 double derivative(const GuardForm& guard, const MotionJet& jet, std::size_t k) {
   return guard.derivative(jet.motion.data(), k);
 }
@@ -33,7 +33,7 @@ double zero_of(const GuardForm& guard, const MotionJet& jet, const Instant& inst
   return zero_of(guard, jet, instant.noise_factor, instant.resolution, k);
 }
 
-/// True if derivatives of orders below `orders` determine the sign of the guard.
+/// True if derivatives of the guard of orders `first` to `orders` - 1 determine its sign. blur: factor on the noise.
 template <class F>
 bool decided_by_orders(const F& guard, const MotionJet& jet, std::size_t first, std::size_t orders,
                        bool triggered, double blur, double resolution) {
@@ -41,7 +41,7 @@ bool decided_by_orders(const F& guard, const MotionJet& jet, std::size_t first, 
     const double d = derivative(guard, jet, k);
     if (!(std::abs(d) > zero_of(guard, jet, blur, resolution, k)) || (triggered && k == 1 && d > 0.0))
       continue;
-    // If a guard fails in value, the other orders are computed as well, because next_state() and crossing() use them.
+    // If a guard is negative in value, all derivatives are needed, because next_state() and crossing() use them.
     return !(d < 0.0 && orders == 1);
   }
   return false;
@@ -55,8 +55,8 @@ std::optional<FailedGuard> failure_of(const Contact& contact, std::size_t c, con
   std::optional<FailedGuard> soonest;
   for (const GuardForm& guard : all) {
     if (guard.kind == Guard::none) continue;
-    // A guard located by the integrator is zero even if rounding makes the last value positive. Since it was decreasing, a
-    // positive rate is zero within the integrator's errors.
+    // A guard located by the engine is zero even if rounding makes its value positive. Since the guard was decreasing, a
+    // positive rate is treated as zero: it is an error of the integration.
     const bool triggered = before && instant.has_triggered(c, guard.kind);
     Known guard_known = known.of(guard.kind);
     if (triggered && guard.value(jet.motion[0]) > 0.0)
@@ -68,12 +68,13 @@ std::optional<FailedGuard> failure_of(const Contact& contact, std::size_t c, con
       sign = sign_of_guard(guard, jet, instant, guard_known);
     }
     // The guard with the lowest failing order decides: a friction limit that is exceeded now comes before a compression that
-    // ends later. In a tie, separation (the first guard) decides, because with N = 0 the friction limit is zero, too.
+    // ends later. If orders are equal, separation (the first guard) decides, because with N = 0 the friction limit is zero,
+    // too.
     if (sign.sign >= 0 || (soonest && sign.order >= soonest->sign.order)) continue;
     soonest = FailedGuard{c, guard.kind, guard, sign};
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
-  // In a vertical lift-off, friction limit and compression become zero together: this is one event, a separation.
+  // If a contact opens without slip, friction limit and compression become zero together: this is one event, a separation.
   if (contact::is_friction_limit(soonest->guard)) {
     const GuardForm& separation = all[0];
     if (separation.kind == Guard::separation && starts_at_zero(separation, jet, instant) &&
@@ -135,13 +136,13 @@ const GuardsOfState& GuardCache::of(std::size_t c, const ContactState& state) {
 bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
                 const Instant& instant, const KnownGuards& known, double most_blur) {
   if (orders == MotionJet::orders) return true;
-  // The sign of a resting limit depends on the motion up to the instant, see resting_reference().
+  // The sign of a resting limit depends on the motion up to the instant (resting_reference()), which is not available here.
   if (instant.is_resting_limit(c, Guard::slip_plus) || instant.is_resting_limit(c, Guard::slip_minus))
     return false;
   const double blur = most_blur * instant.noise_factor, resolution = most_blur * instant.resolution;
   for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
-    // A located guard is zero, and a positive rate is treated as zero, as in failure_of().
+    // A guard located by the engine is zero, and its positive rate is treated as zero, as in failure_of().
     const bool triggered = instant.has_triggered(c, guard.kind);
     const std::size_t first = std::max<std::size_t>(triggered ? 1 : 0, known.of(guard.kind).zeros);
     if (!(guard.is_linear()

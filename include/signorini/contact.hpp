@@ -163,9 +163,9 @@ struct Contact {
     return has_friction() && !law->capabilities.normal_spring && !tangential_stiffness && !shear;
   }
   /// True if T is the force of a constraint while N is given: the contact constrains the tangent alone.
-  [[nodiscard]] bool holds_tangent_only() const { return normal_force_given() && sticks_rigidly(); }
+  [[nodiscard]] bool constrains_tangent_only() const { return normal_force_given() && sticks_rigidly(); }
   /// True if T is the force of a constraint in this state.
-  [[nodiscard]] bool holds_tangent(State state) const {
+  [[nodiscard]] bool constrains_tangent(State state) const {
     return kind_of(state) == State::stick && !tangential_stiffness && !shear;
   }
   /// Gap g at displacements u.

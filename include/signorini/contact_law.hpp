@@ -73,8 +73,8 @@ struct LawCapabilities {
 
 class ContactLaw {
  public:
-  static constexpr std::size_t most_guards = 3;
-  using Guards = std::array<GuardForm, most_guards>;
+  static constexpr std::size_t max_guards = 3;
+  using Guards = std::array<GuardForm, max_guards>;
   using VisitConstant = std::function<void(double&, const Unit&)>;
 
   explicit ContactLaw(const LawCapabilities& of) : capabilities(of) {}

@@ -239,7 +239,7 @@ struct Node {
   std::string name = {};
   double x = 0.0, y = 0.0;
   SourcePlace place = {};
-  bool of_mesh = false;  ///< node of a body's mesh without a name in the scene: no column of history.csv
+  bool is_mesh_node = false;  ///< node of a body's mesh without a name in the scene: no column of history.csv
 };
 
 enum class MassKind { consistent, lumped };
@@ -481,7 +481,7 @@ enum class OutputKind : unsigned char {
 /// Quantity of an output. Members have N, V, M and stress; bodies have xx, yy and xy; contacts have N, T, gap, slip and loss.
 enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress, xx, yy, xy };
 /// True if the quantity is a component of the stress at a node of a body.
-[[nodiscard]] constexpr bool is_of_body(OutputQuantity q) {
+[[nodiscard]] constexpr bool is_body_stress(OutputQuantity q) {
   return q == OutputQuantity::xx || q == OutputQuantity::yy || q == OutputQuantity::xy;
 }
 /// Extreme fibre of a section, left or right as seen from node to node along the member, or both.

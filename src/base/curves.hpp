@@ -59,7 +59,7 @@ class Downsampled {
     /// Target for the final number of rows. May be exceeded if the bins have reached their largest width, duration / 1250.
     std::size_t max_rows = 8000;
     /// True: bins become as wide as necessary, so that there are at most max_rows rows.
-    bool crowded = false;
+    bool limits_rows = false;
     /// True: of two rows with the same time, lines keep both.
     bool both_sides = false;
     /// Largest time between two successive rows that lines keep.
@@ -79,7 +79,7 @@ class Downsampled {
     }
     // Memory is reserved once, because a growing vector fragments memory; reserved pages that are never used cost nothing.
     if (rows_.capacity() == 0)
-      rows_.reserve(room(std::max(options_.max_rows, options_.crowded ? 0 : most_of_bins)) + 1);
+      rows_.reserve(room(std::max(options_.max_rows, options_.limits_rows ? 0 : max_rows_in_bins)) + 1);
     rows_.push_back(row);
     if (rows_.size() > limit_) downsample();
   }
@@ -110,8 +110,8 @@ class Downsampled {
 
  private:
   static constexpr double finest = 1.0 / 4096.0, coarsest = 1.0 / 1024.0;
-  static constexpr double first_bins = 10000.0, pixels = 1250.0;
-  static constexpr std::size_t most_of_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
+  static constexpr double initial_bin_count = 10000.0, pixels = 1250.0;
+  static constexpr std::size_t max_rows_in_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
 
   /// Number of rows at which downsampling begins, if it keeps `kept` rows. The margin of one eighth limits the memory, and each
   /// row is processed about nine times.
@@ -126,8 +126,8 @@ class Downsampled {
       remove_collinear();
     }
     if (width_ > 0.0) keep_extremes();
-    while (rows_.size() > enough && width_ < (options_.crowded ? duration_ : duration_ / pixels)) {
-      width_ = std::max(2.0 * width_, duration_ / first_bins);
+    while (rows_.size() > enough && width_ < (options_.limits_rows ? duration_ : duration_ / pixels)) {
+      width_ = std::max(2.0 * width_, duration_ / initial_bin_count);
       keep_extremes();
     }
     limit_ = room(std::max(enough, rows_.size()));

@@ -140,7 +140,7 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 }
 
 template <class Svd>
-static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double least, double size) {
+static Eigen::VectorXd truncated_solution(Svd svd, const Eigen::VectorXd& b, double least, double size) {
   const double greatest = svd.singularValues().size() > 0 ? svd.singularValues()[0] : 0.0;
   if (!(greatest > least * size)) return Eigen::VectorXd::Zero(svd.cols());
   svd.setThreshold(least * std::max(1.0, size / greatest));
@@ -150,10 +150,11 @@ static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double lea
 Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
                                   double size) {
   // Number of columns above which the divide-and-conquer method costs less than Jacobi rotations.
-  constexpr Eigen::Index fewest_divided = 48;
+  constexpr Eigen::Index min_divide_columns = 48;
   constexpr unsigned both = Eigen::ComputeThinU | Eigen::ComputeThinV;
-  return a.cols() < fewest_divided ? shortest_by(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)
-                                   : shortest_by(Eigen::BDCSVD<Eigen::MatrixXd>(a, both), b, least, size);
+  return a.cols() < min_divide_columns
+             ? truncated_solution(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)
+             : truncated_solution(Eigen::BDCSVD<Eigen::MatrixXd>(a, both), b, least, size);
 }
 
 Eigen::VectorXd combination_of_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {

@@ -24,8 +24,6 @@ std::string system_error_text(int error) {
   return error == 0 ? "" : ": " + std::generic_category().message(error);
 }
 
-namespace fs = std::filesystem;
-
 void check_output_directory(const fs::path& path, const ResultsKind& kind, bool replace) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);

@@ -14,8 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_steps = 100;    // limit of the number of Newton steps; usually a few suffice
-constexpr int most_halvings = 40;  // limit of the number of halvings of one step
+constexpr int most_steps = 100;        // limit of the number of Newton steps; usually a few suffice
+constexpr int max_step_halvings = 40;  // limit of the number of halvings of one step
 // Damping added to the curvature of the dual function. The curvature is at most 1, and 0 where x is in a corner of a set.
 // Damping is proportional to the residual, so that convergence is faster than linear, and at least the rounding error of the
 // curvature.
@@ -102,7 +102,7 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
     if (!(slope > 0.0)) return best;
     double part = 1.0;
     for (int halving = 0;; ++halving, part *= 0.5) {
-      if (halving == most_halvings) return best;
+      if (halving == max_step_halvings) return best;
       const VectorXd tried = y + part * way;
       const VectorXd there = a.transpose() * tried;
       Projection next = projected(sets, there);

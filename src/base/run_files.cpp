@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_there(const fs::path& path) {
+bool file_exists(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
 }
@@ -79,14 +79,15 @@ void check_file(const fs::path& directory, const Manifest& manifest, std::string
   const fs::path path = directory / file;
   const ManifestEntry* expected = manifest.find(file);
   if (expected == nullptr) {
-    if (!is_there(path)) return;
+    if (!file_exists(path)) return;
     throw FileError(
         path.string(),
         fmt::format("found a file that {} does not list: the file does not belong to this "
                     "run, or is incomplete. Delete the file, or delete {} if the change was intended",
                     manifest_file, (directory / manifest_file).string()));
   }
-  if (!is_there(path)) refuse(directory, file, fmt::format("not found, expected {} bytes", expected->size));
+  if (!file_exists(path))
+    refuse(directory, file, fmt::format("not found, expected {} bytes", expected->size));
   std::error_code error;
   if (const std::uintmax_t size = fs::file_size(path, error); !error && size != expected->size)
     refuse(directory, file, fmt::format("found {} bytes, expected {}", size, expected->size));
@@ -110,7 +111,7 @@ void Manifest::remove(std::string_view file) {
 
 void Manifest::add(const fs::path& directory, std::string_view file) {
   remove(file);
-  if (!is_there(directory / file)) return;
+  if (!file_exists(directory / file)) return;
   const auto rank = [](std::string_view name) {
     return std::find(result_files.begin(), result_files.end(), name) - result_files.begin();
   };
@@ -134,7 +135,7 @@ Manifest manifest_of(const fs::path& directory, const std::string& outcome) {
 
 std::optional<Manifest> read_manifest(const fs::path& directory) {
   const fs::path path = directory / manifest_file;
-  if (!is_there(path)) return std::nullopt;
+  if (!file_exists(path)) return std::nullopt;
   std::ifstream stream = opened(path);
   try {
     const Json json = parse_json(stream);
@@ -178,7 +179,7 @@ void check_run_files(const fs::path& directory, const std::vector<std::string_vi
 }
 
 std::string unchecked_reason(const fs::path& directory) {
-  if (is_there(directory / manifest_file)) return "";
+  if (file_exists(directory / manifest_file)) return "";
   std::string why = fmt::format(
       "{}: {} is missing: the run may not have finished, or is of an earlier version; the files of the "
       "run are not checked",

@@ -169,7 +169,7 @@ class FrictionTangent {
     const std::size_t k = e_.size() - 1;
     double sum = 0.0;
     for (std::size_t j = 1; j <= k; ++j) sum += (static_ - kinetic_) * e_[j] * moved(k - j);
-    for (std::size_t j = 0; j <= k; ++j) sum += by_p_[j] * applied(k - j);
+    for (std::size_t j = 0; j <= k; ++j) sum += friction_rates_[j] * applied(k - j);
     return s_ * sum;
   }
 
@@ -179,7 +179,7 @@ class FrictionTangent {
   double static_, kinetic_, velocity_ = 1.0;           // fs, fk, v_s
   double by_static_, by_kinetic_, by_velocity_ = 0.0;  // derivatives of fs, fk, v_s with respect to p
   int s_;
-  std::vector<double> exponent_, e_, y_, by_p_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
+  std::vector<double> exponent_, e_, y_, friction_rates_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
 };
 
 // Slip rate of a massless sliding point whose friction rises with the slip rate.

@@ -37,7 +37,7 @@ namespace signorini::contact {
 
 /// Energy dissipated by the dashpot of a contact in state `inside` while the gap changes from gap_from to gap_to; 0 in any
 /// other state.
-[[nodiscard]] double inside_loss(const Contact& contact, State state, double gap_from, double gap_to);
+[[nodiscard]] double dashpot_loss_inside(const Contact& contact, State state, double gap_from, double gap_to);
 
 /// True if the sliding point jumps whenever its force jumps: the shear element has no dashpot, or the body at the sliding point
 /// also moves instantaneously.

@@ -33,7 +33,7 @@ bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion
          f.form.value(before) > retry_noise_factor * f.form.rounding(&before, &noise, 0);
 }
 
-std::vector<std::size_t> every_contact(const Model& model) {
+std::vector<std::size_t> indices_of_all_contacts(const Model& model) {
   std::vector<std::size_t> all(model.contacts.size());
   std::iota(all.begin(), all.end(), 0U);
   return all;
@@ -41,7 +41,7 @@ std::vector<std::size_t> every_contact(const Model& model) {
 
 /// Refusal for contact states whose equations have no unique solution: constraint rows of contacts are linearly dependent, or
 /// the matrix of the structure is singular.
-Refusal no_system(const Model& model, const contact::ContactStates& states) {
+Refusal unsolvable_refusal(const Model& model, const contact::ContactStates& states) {
   std::vector<std::size_t> held;
   for (std::size_t c = 0; c < states.size(); ++c)
     if (!states[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
@@ -49,7 +49,7 @@ Refusal no_system(const Model& model, const contact::ContactStates& states) {
   if (!held.empty()) {
     Refusal why = dependent_rows(held);
     for (const std::size_t c : held)
-      if (const std::string alone = holds_no_mass(model, model.contacts[c]); !alone.empty()) {
+      if (const std::string alone = massless_stick_error(model, model.contacts[c]); !alone.empty()) {
         why.reason += ": " + alone;
         break;
       }
@@ -80,7 +80,7 @@ ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_ro
     : model_(systems.model()),
       systems_(systems),
       jets_(systems),
-      all_contacts_(every_contact(model_)),
+      all_contacts_(indices_of_all_contacts(model_)),
       max_rounds_(max_rounds),
       rigid_solver_(systems, jets_, capture_velocity),
       guards_(model_),
@@ -109,8 +109,8 @@ bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::Conta
   motion::JetMaker::StopCriterion enough;
   if (decide_separately_ && !solver_state.impact_result.sliders)
     enough = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
-      return decided_by(guards_.of(c, states[c]), c, jet, orders, instant,
-                        solver_state.impact_result.known[c], retry_noise_factor);
+      return signs_are_decided(guards_.of(c, states[c]), c, jet, orders, instant,
+                               solver_state.impact_result.known[c], retry_noise_factor);
     };
   std::optional<motion::LocalDerivatives::LocalJet> near;
   if (local_derivatives_) {
@@ -152,14 +152,14 @@ std::vector<motion::BodySlide> ContactStateSolver::slides(const motion::Forcing&
 Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& solver_state) {
   Instant& instant = solver_state.instant;
   Decision& d = solver_state.decision;
-  if (!evaluate(before, instant.states, solver_state)) return no_system(model_, instant.states);
+  if (!evaluate(before, instant.states, solver_state)) return unsolvable_refusal(model_, instant.states);
   d.before.reserve(solver_state.jets.size());
   solver_state.noise_before.reserve(solver_state.jets.size());
   for (const MotionJet& jet : solver_state.jets) {
     d.before.push_back(jet.motion[0]);
     solver_state.noise_before.push_back(jet.noise[0]);
   }
-  if (!instant.resting_limits.empty()) solver_state.so_far = solver_state.jets;
+  if (!instant.resting_limits.empty()) solver_state.motion_up_to_instant = solver_state.jets;
   d.slides_before = slides(before, d);
   // Removes the drift of the integration from u and v: a rigidly sticking contact moves with its surface, and a touching
   // rigid contact has no gap. The drift must not influence the decision.
@@ -172,7 +172,7 @@ Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& so
   apply_forcing_jump(model_, instant, before, solver_state.after, d.before, solver_state.states);
   do {  // ends, because each round makes one more contact stick
     if (!evaluate(solver_state.after, solver_state.states, solver_state))
-      return no_system(model_, solver_state.states);
+      return unsolvable_refusal(model_, solver_state.states);
   } while (resolve_slip_reversal(model_, d.before, solver_state.jets, solver_state.states));
   return {};
 }
@@ -187,7 +187,7 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
 void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   solver_state.failed =
       find_failed_guards(model_, solver_state.jets, solver_state.states, solver_state.instant, before,
-                         solver_state.impact_result.known, solver_state.so_far,
+                         solver_state.impact_result.known, solver_state.motion_up_to_instant,
                          solver_state.open ? *solver_state.open : all_contacts_);
   std::erase_if(solver_state.failed, [&](const FailedGuard& f) {
     if (f.guard == Guard::sliding && held_by_others(f.contact, solver_state)) return true;
@@ -209,7 +209,7 @@ void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
 /// If the contact of f stops slipping at the end of the instantaneous motion of massless parts, a new motion of these parts
 /// starts at the stop, so that the contact sticks at this position. Done at most once per contact, because the path changes.
 void ContactStateSolver::restart_path_at_stop(const FailedGuard& f, SolverState& solver_state) const {
-  std::vector<std::size_t>& before = solver_state.slid_contacts;
+  std::vector<std::size_t>& before = solver_state.stopped_on_path;
   if (!stops_on_path(model_.contacts[f.contact], f, solver_state.states[f.contact].state,
                      {solver_state.instant.u, solver_state.decision.u},
                      solver_state.jets[f.contact].noise[0].ut) ||
@@ -233,7 +233,7 @@ std::vector<Block> selected(const std::vector<Block>& blocks, const std::vector<
 
 /// Sets the next states of the contacts that are decided separately. Returns the blocks of contacts that must be decided
 /// together.
-std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
+std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& solver_state) const {
   ImpactResult& found = solver_state.impact_result;
   std::vector<bool> jointly(blocks_.all.size(), false);
   std::vector<std::size_t> turning;
@@ -281,7 +281,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
       found.stays[c] = true;
     // The contact was decided as sticking at its static limit, and now exceeds this limit.
     if (slips && found.decided[c])
-      (held_by_others(c, solver_state) ? found.bears_limit : found.kinetic)[c] = true;
+      (held_by_others(c, solver_state) ? found.stays_at_limit : found.kinetic)[c] = true;
     if (f.guard == Guard::sliding && found.decided[c] &&
         starts_at_zero(f.form, solver_state.jets[c], solver_state.instant))
       found.rests[c] = true;
@@ -322,9 +322,9 @@ void ContactStateSolver::record_closed_gaps(SolverState& solver_state) const {
 }
 
 /// Proposes the next states from the guards that fail in the states tried last.
-Refusal ContactStateSolver::propose(SolverState& solver_state) {
+Refusal ContactStateSolver::propose_states(SolverState& solver_state) {
   Decision& d = solver_state.decision;
-  const std::vector<Block> jointly = react(solver_state);
+  const std::vector<Block> jointly = decide_separate_contacts(solver_state);
   solver_state.impact_result.hit = false;
   if (!jointly.empty()) {
     Refusal why =
@@ -349,17 +349,17 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
 
 /// Proposes the next states and computes the motion in these states. A slider that stops together with sticking contacts need
 /// not stick: if the constraint rows are linearly dependent, the slider and these contacts are decided together.
-Refusal ContactStateSolver::try_next(SolverState& solver_state) {
+Refusal ContactStateSolver::try_next_states(SolverState& solver_state) {
   const contact::ContactStates last = solver_state.states;
-  if (Refusal why = propose(solver_state)) return why;
+  if (Refusal why = propose_states(solver_state)) return why;
   if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
   if (!solver_state.impact_result.hit && !std::exchange(solver_state.impact_result.sliders, true)) {
     solver_state.tried_states.pop_back();
     solver_state.states = last;
     // The motion is computed again, because a joint decision of several sliders needs all its derivatives.
     if (!evaluate(solver_state.after, solver_state.states, solver_state))
-      return no_system(model_, solver_state.states);
-    if (Refusal why = propose(solver_state)) return why;
+      return unsolvable_refusal(model_, solver_state.states);
+    if (Refusal why = propose_states(solver_state)) return why;
     if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
   }
   Refusal why = dependent_rows(contacts_of(solver_state.failed));
@@ -385,7 +385,7 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
               fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
                           max_rounds_, names_of(model_, solver_state.failed)),
               contacts_of(solver_state.failed)};
-    if (Refusal why = try_next(solver_state)) return why;
+    if (Refusal why = try_next_states(solver_state)) return why;
     check_guards(solver_state, false);
   }
   return {};
@@ -393,8 +393,8 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
 
 /// True if the contact sticks at its friction limit from this instant on, and all known derivatives of the guard are zero, so
 /// that the time of slip is unknown.
-bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::size_t c,
-                                        const GuardStart& guard) {
+bool ContactStateSolver::sticks_at_limit(const SolverState& solver_state, std::size_t c,
+                                         const GuardStart& guard) {
   const bool limit = contact::is_friction_limit(guard.kind);
   const bool asked = solver_state.instant.start || solver_state.instant.jump ||
                      solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
@@ -405,8 +405,8 @@ bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::si
 /// True if the contact stops exactly at its static limit (up to rounding), and kinetic friction is lower. Above the limit the
 /// contact would slip at once, by much more than rounding. Not applied at the start of a run, where the friction force is at
 /// most at the limit.
-bool ContactStateSolver::meets_static_limit(const SolverState& solver_state, std::size_t c,
-                                            const GuardStart& guard) const {
+bool ContactStateSolver::stops_at_static_limit(const SolverState& solver_state, std::size_t c,
+                                               const GuardStart& guard) const {
   const bool asked = solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
   return model_.contacts[c].friction.has_static_drop() && contact::is_friction_limit(guard.kind) && asked &&
          !solver_state.instant.start && guard.at_zero && guard.leading_order > 0 &&
@@ -425,10 +425,10 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
   Decision& d = solver_state.decision;
   const MotionJet& jet = solver_state.jets[c];
   const Known known = solver_state.impact_result.known[c].of(guard.kind);
-  const MotionJet* base = solver_state.so_far.empty()
+  const MotionJet* base = solver_state.motion_up_to_instant.empty()
                               ? nullptr
                               : resting_reference(model_.contacts[c], c, solver_state.states[c], guard,
-                                                  solver_state.so_far[c], solver_state.instant);
+                                                  solver_state.motion_up_to_instant[c], solver_state.instant);
   const Sign sign = sign_of_guard(guard, jet, solver_state.instant, known, base);
   start.at_zero =
       known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard, jet, solver_state.instant));
@@ -437,10 +437,10 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
     for (std::size_t k = 0; k < start.derivative_noise.size(); ++k)
       start.derivative_noise[k] =
           solver_state.instant.noise_factor * guard.rounding(jet.motion.data(), jet.noise.data(), k + 2);
-  const bool rests = rests_at_limit(solver_state, c, start);
+  const bool rests = sticks_at_limit(solver_state, c, start);
   d.undecided = d.undecided || rests;
   const double value = guard.value(jet.motion[0]);
-  if (rests || (known.zeros == 0 && meets_static_limit(solver_state, c, start)))
+  if (rests || (known.zeros == 0 && stops_at_static_limit(solver_state, c, start)))
     d.at_limit.push_back({c, value, start.noise});
   // The decision treated this value as zero, so the engine must treat it as rounding, too.
   if (start.at_zero && (start.leading_order < 0 || base != nullptr))
@@ -498,7 +498,7 @@ void ContactStateSolver::record_released(const SolverState& solver_state, Decisi
 
 /// Refusal for a slipping contact whose slip rate is zero with all derivatives because sticking contacts constrain it. In stick
 /// its constraint row would be linearly dependent on theirs, so its force is not unique and need not be at the friction limit.
-Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const {
+Refusal ContactStateSolver::refuse_undetermined_slip(const SolverState& solver_state) const {
   const Decision& d = solver_state.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
     const GuardStart& guard = d.guards[slot];
@@ -527,7 +527,7 @@ ContactStateSolver::Attempt ContactStateSolver::attempt(const Instant& instant, 
   solver_state.decision.refusal = iterate(before, solver_state);
   if (!solver_state.decision.refusal) {
     finish(solver_state);
-    solver_state.decision.refusal = held_at_rest(solver_state);
+    solver_state.decision.refusal = refuse_undetermined_slip(solver_state);
     solver_state.decision.consistent = !solver_state.decision.refusal;
   }
   scratch_ = std::move(solver_state.jets);
@@ -574,7 +574,7 @@ Decision ContactStateSolver::adopt(const Instant& instant, const contact::Contac
   d.jumped.assign(states.size(), false);
   contact::ContactStates taken = states;
   if (!evaluate(forcing, taken, solver_state)) {
-    d.refusal = no_system(model_, states);
+    d.refusal = unsolvable_refusal(model_, states);
     return std::move(d);
   }
   d.consistent = true;

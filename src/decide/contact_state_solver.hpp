@@ -54,23 +54,23 @@ class ContactStateSolver {
   [[nodiscard]] Refusal begin(const motion::Forcing& before, SolverState& solver_state);
   void check_guards(SolverState& solver_state, bool before);
   void restart_path_at_stop(const FailedGuard& f, SolverState& solver_state) const;
-  [[nodiscard]] std::vector<Block> react(SolverState& solver_state) const;
+  [[nodiscard]] std::vector<Block> decide_separate_contacts(SolverState& solver_state) const;
   void stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const;
   void record_closed_gaps(SolverState& solver_state) const;
-  [[nodiscard]] Refusal propose(SolverState& solver_state);
-  [[nodiscard]] Refusal try_next(SolverState& solver_state);
+  [[nodiscard]] Refusal propose_states(SolverState& solver_state);
+  [[nodiscard]] Refusal try_next_states(SolverState& solver_state);
   [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& solver_state) const;
   [[nodiscard]] Refusal iterate(const motion::Forcing& before, SolverState& solver_state);
-  [[nodiscard]] static bool rests_at_limit(const SolverState& solver_state, std::size_t c,
-                                           const GuardStart& guard);
-  [[nodiscard]] bool meets_static_limit(const SolverState& solver_state, std::size_t c,
-                                        const GuardStart& guard) const;
+  [[nodiscard]] static bool sticks_at_limit(const SolverState& solver_state, std::size_t c,
+                                            const GuardStart& guard);
+  [[nodiscard]] bool stops_at_static_limit(const SolverState& solver_state, std::size_t c,
+                                           const GuardStart& guard) const;
   [[nodiscard]] static bool has_clear_guards(const SolverState& solver_state, std::size_t c);
   void check_guard_start(SolverState& solver_state, std::size_t contact, const GuardForm& guard,
                          GuardStart& start) const;
   void finish(SolverState& solver_state);
   void record_released(const SolverState& solver_state, Decision& decision) const;
-  [[nodiscard]] Refusal held_at_rest(const SolverState& solver_state) const;
+  [[nodiscard]] Refusal refuse_undetermined_slip(const SolverState& solver_state) const;
   [[nodiscard]] std::vector<motion::BodySlide> slides(const motion::Forcing& forcing,
                                                       const Decision& decision) const;
 

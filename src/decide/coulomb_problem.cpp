@@ -57,7 +57,7 @@ Scaled scaled(const CoulombProblem& p) {
 constexpr int max_covering_vectors = 12;
 
 /// Covering vector d number `way`: all ones for 0; otherwise irregular numbers from 1 to 2 (multiples of the golden section).
-VectorXd cover_of(Index size, int way) {
+VectorXd covering_vector(Index size, int way) {
   VectorXd d = VectorXd::Ones(size);
   for (Index i = 0; way > 0 && i < size; ++i) {
     const double turns = 0.6180339887498949 * static_cast<double>((i + 1) * way);
@@ -68,8 +68,8 @@ VectorXd cover_of(Index size, int way) {
 
 /// Solves the problem by Lemke's method. The scaled forces are F z; w contains responses, or distances of forces from their
 /// friction cones. way: number of the covering vector. Returns the scaled forces; nullopt: no solution was found.
-std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const std::vector<bool>& kinetic,
-                                 int way) {
+std::optional<VectorXd> solve_by_lemke(const CoulombProblem& p, const Scaled& s,
+                                       const std::vector<bool>& kinetic, int way) {
   Index size = 0;
   for (const CoulombItem& item : p.items)
     size += item.kind == Kind::frictional ? 4 : item.kind == Kind::pressed ? 3 : 1;
@@ -77,7 +77,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   MatrixXd F = MatrixXd::Zero(n, size);  // forces per unit of each variable
   MatrixXd G = MatrixXd::Zero(size, n);  // w = G response + H z + h
   MatrixXd H = MatrixXd::Zero(size, size);
-  VectorXd h = VectorXd::Zero(size), given = VectorXd::Zero(n);
+  VectorXd h = VectorXd::Zero(size);
   Index at = 0;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
@@ -122,7 +122,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   const VectorXd q = G * s.b + h;
   const double size_of_q = q.cwiseAbs().maxCoeff();
   if (!(size_of_q > 0.0)) return VectorXd::Zero(n);
-  const auto z = base::solve_lcp(M, q / size_of_q, cover_of(size, way));
+  const auto z = base::solve_lcp(M, q / size_of_q, covering_vector(size, way));
   if (!z) return std::nullopt;
   return VectorXd(F * *z * size_of_q);
 }
@@ -335,7 +335,7 @@ std::optional<CoulombSolution> solve(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   std::vector<bool> kinetic(p.items.size(), false);
   for (int way = 0; way < max_covering_vectors;) {  // ends, because each round marks an item or changes `way`
-    const auto x = by_lemke(p, s, kinetic, way);
+    const auto x = solve_by_lemke(p, s, kinetic, way);
     if (!x || !fulfils(p, s, *x, kinetic)) {
       // With few contacts all combinations of states are tried instead, which shows whether a solution exists.
       way = p.items.size() > max_enumerated ? way + 1 : max_covering_vectors;

@@ -68,11 +68,11 @@ Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
 /// If exactly one contact of the block fails, lets massless parts leave this contact (massless_jump.hpp). False: several
 /// contacts fail, or the parts cannot leave the contact, or have already left it.
 bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
-  std::vector<std::size_t> circling;
+  std::vector<std::size_t> repeating;
   for (const FailedGuard& f : solver_state.failed)
-    if (blocks_.of[f.contact] == block) circling.push_back(f.contact);
-  if (circling.size() != 1) return false;
-  const std::size_t c = circling.front();
+    if (blocks_.of[f.contact] == block) repeating.push_back(f.contact);
+  if (repeating.size() != 1) return false;
+  const std::size_t c = repeating.front();
   std::vector<std::size_t>& before = solver_state.decision.released;
   if (std::find(before.begin(), before.end(), c) != before.end()) return false;
   auto u = released(systems_, jets_, solver_state.after, solver_state.instant, solver_state.states, c);
@@ -98,12 +98,12 @@ Refusal CycleFallback::next_step(SolverState& solver_state) {
     solver_state.impact_result.sliders = true;
     return {};
   }
-  std::vector<std::size_t> circling;
+  std::vector<std::size_t> repeating;
   for (const FailedGuard& f : solver_state.failed)
-    if (circling.empty() ||
-        std::find(circling.begin(), circling.end(), blocks_.of[f.contact]) == circling.end())
-      circling.push_back(blocks_.of[f.contact]);
-  for (const std::size_t block : circling)
+    if (repeating.empty() ||
+        std::find(repeating.begin(), repeating.end(), blocks_.of[f.contact]) == repeating.end())
+      repeating.push_back(blocks_.of[f.contact]);
+  for (const std::size_t block : repeating)
     if (Refusal why = enumerate(block, solver_state))
       if (!release(block, solver_state)) return why;
   return {};

@@ -72,7 +72,7 @@ struct Decision {
   std::vector<double> departures;    ///< see ImpactResult::departures
   double impact_loss = 0.0;          ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;  ///< work of moving surfaces in the impacts
-  bool impact_gains = false;         ///< true: an impact gained energy (Newton's law with friction)
+  bool impact_gains_energy = false;  ///< true: an impact gained energy (Newton's law with friction)
   /// True if rounding errors did not allow a unique decision: the states with the smallest violation were taken, or a contact
   /// stays at rest at its friction limit.
   bool undecided = false;

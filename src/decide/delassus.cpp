@@ -119,8 +119,8 @@ Eigen::MatrixXd constrained_block(const Model& model, const contact::ContactStat
 }
 
 /// Adds the entries s Z (D Y)' of linear/redundant_rows.hpp, which make the forces of several feet of one body unique.
-void add_shares(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
-                const std::vector<std::size_t>& contacts, Delassus& d) {
+void add_sharing_entries(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
+                         const std::vector<std::size_t>& contacts, Delassus& d) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
     const auto at = std::find(contacts.begin(), contacts.end(), layout.contact_of(row));
     if (at == contacts.end()) return std::nullopt;
@@ -163,7 +163,7 @@ bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStat
   if (!system) return true;
   Delassus d = delassus(model, *system, contacts);
   if (const motion::StateSystemPtr held = systems.system_of(states))
-    add_shares(model.layout, held->factorised().shared, contacts, d);
+    add_sharing_entries(model.layout, held->factorised().shared, contacts, d);
   Eigen::MatrixXd a = constrained_block(model, states, contacts, d);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
@@ -186,7 +186,7 @@ struct Shares {
   std::vector<std::size_t> resting;  ///< items that may stick
 };
 
-Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, const CoulombSolution& s) {
+Shares resting_forces(const CoulombProblem& p, const std::vector<bool>& may_share, const CoulombSolution& s) {
   Shares shares;
   const Eigen::VectorXd size = p.W.cwiseAbs() * s.force.cwiseAbs() + p.b.cwiseAbs();
   const auto rests = [&](Eigen::Index row) {
@@ -228,7 +228,7 @@ Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, co
 
 void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may_share,
                      CoulombSolution& solution) {
-  const Shares shares = shares_of(problem, may_share, solution);
+  const Shares shares = resting_forces(problem, may_share, solution);
   if (shares.rows.size() < 2 || shares.resting.empty()) return;
   const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // W f = 0
   if (open.cols() == 0) return;

@@ -16,13 +16,13 @@ namespace {
 using Kind = CoulombItem::Kind;
 
 // Limit of the number of contacts for which all solutions are compared.
-constexpr std::size_t most_compared = 5;
+constexpr std::size_t max_compared_contacts = 5;
 
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
 /// Sets the entries for the normals of items at their friction limit to zero: the normal of such an item is already a
 /// constraint, so its entries in W contain only rounding errors.
-void hold_normals(CoulombProblem& p) {
+void clear_limit_normals(CoulombProblem& p) {
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     if (p.items[i].kind != Kind::limit) continue;
     const Eigen::Index n = p.normal(i);
@@ -42,8 +42,8 @@ void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& g
 
 /// Decides a contact at its friction limit: it sticks because its force returns into the friction cone, or slips, or stays
 /// undecided.
-Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t i, ContactState& state,
-                    KnownGuards& guards) {
+Verdict decide_at_limit(const CoulombSignificance& r, std::size_t order, std::size_t i, ContactState& state,
+                        KnownGuards& guards) {
   const int sign = r.item(i).sign;
   const Eigen::Index t = r.tangent(i);
   if (sign * r.force(t) > r.force_tolerance(t)) {
@@ -57,7 +57,7 @@ Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t
 }
 
 /// Decides about stick or slip of a contact that has a compressive force and does not slip at lower orders.
-Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::size_t i,
+Verdict decide_friction(const CoulombSignificance& r, std::size_t order, std::size_t i,
                         Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index t = r.tangent(i);
@@ -68,7 +68,7 @@ Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::si
     return Verdict::decided;
   }
   const bool two = item.static_friction != item.kinetic_friction;
-  if ((two && !participant.bears_limit) || std::abs(r.force(t)) <= r.force_tolerance(t))
+  if ((two && !participant.stays_at_limit) || std::abs(r.force(t)) <= r.force_tolerance(t))
     return Verdict::decided;
   // The contact is at its friction limit. If static and kinetic coefficient are equal, the next derivative decides. Otherwise
   // the contact sticks until the guard of the static limit fails; it then stays at that limit if other contacts prevent slip.
@@ -78,7 +78,7 @@ Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::si
 }
 
 /// Decides one contact. If its normal force is not zero, its normal response is treated as zero; it may contain rounding.
-Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
+Verdict decide_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
                        Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index n = r.normal(i), t = r.tangent(i);
@@ -102,7 +102,7 @@ Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::siz
     state.state = contact::slip_state(item.sign);
     return Verdict::decided;
   }
-  return settle_friction(r, order, i, participant, state, guards);
+  return decide_friction(r, order, i, participant, state, guards);
 }
 
 /// Participants that are closed in `states`, so that their rows are constraints.
@@ -123,8 +123,8 @@ Refusal dependent_rows(std::vector<std::size_t> contacts) {
           std::move(contacts), std::numeric_limits<double>::infinity()};
 }
 
-std::string holds_no_mass(const Model& model, const Contact& contact) {
-  if (!contact.holds_tangent_only()) return {};
+std::string massless_stick_error(const Model& model, const Contact& contact) {
+  if (!contact.constrains_tangent_only()) return {};
   const auto moves_mass = [&](const auto& term) {
     return term.second != 0.0 && !model.dofs[static_cast<std::size_t>(term.first)].massless;
   };
@@ -245,13 +245,13 @@ Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolutio
                                    [](const CoulombItem& item) { return item.kind == Kind::pressed; });
   if (problem.b.isZero(0.0) && !pressed) return {};
   problem.W = delassus(model_, *level.system, level.contacts).W;
-  hold_normals(problem);
+  clear_limit_normals(problem);
   solution = solve(problem);
   if (!solution) return refusal(level, all_solutions(problem));
   std::vector<bool> may_share;
   for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
   min_norm_forces(problem, may_share, *solution);
-  if (level.entries.size() > most_compared || !may_be_nonunique(problem)) return {};
+  if (level.entries.size() > max_compared_contacts || !may_be_nonunique(problem)) return {};
   // If a force lies between kinetic and static friction, the contact could stick or slip. The friction law makes it stick, so
   // this is not Painleve's paradox.
   CoulombProblem settled = problem;
@@ -274,8 +274,8 @@ bool DerivativeLevels::apply_solution(const Level& level, const CoulombSolution&
     ContactState& state = states[entry.participant.contact];
     KnownGuards& guards = known[entry.participant.contact];
     const Verdict verdict = level.problem.items[i].kind == Kind::limit
-                                ? leave_limit(reading, level.order, i, state, guards)
-                                : settle_contact(reading, level.order, i, entry.participant, state, guards);
+                                ? decide_at_limit(reading, level.order, i, state, guards)
+                                : decide_contact(reading, level.order, i, entry.participant, state, guards);
     if (verdict == Verdict::open) continue;
     entry.status = verdict == Verdict::limit ? Status::limit : Status::decided;
     decides = true;

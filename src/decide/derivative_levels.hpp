@@ -30,9 +30,9 @@ struct Participant {
   bool slipping = false;  ///< true: the slip rate is not zero; the contact slides in direction `sign`
   int sign = 0;
   double sliding_friction = 0.0;  ///< coefficient of friction at the contact's slip rate
-  bool kinetic = false;      ///< true: slip begins at this instant, so the static coefficient does not apply
-  bool bears_limit = false;  ///< true: the static limit is exceeded, but other contacts prevent slip
-  std::size_t block = 0;     ///< number of the block; contacts of different blocks are not coupled
+  bool kinetic = false;  ///< true: slip begins at this instant, so the static coefficient does not apply
+  bool stays_at_limit = false;  ///< true: the static limit is exceeded, but other contacts prevent slip
+  std::size_t block = 0;        ///< number of the block; contacts of different blocks are not coupled
 };
 
 class DerivativeLevels {
@@ -81,6 +81,6 @@ class DerivativeLevels {
 /// Refusal for sticking contacts whose forces are not unique because their constraint rows are linearly dependent.
 [[nodiscard]] Refusal dependent_rows(std::vector<std::size_t> contacts = {});
 /// Message if the force of a rigidly sticking contact is not unique, because its tangent moves no mass; otherwise empty.
-[[nodiscard]] std::string holds_no_mass(const Model& model, const Contact& contact);
+[[nodiscard]] std::string massless_stick_error(const Model& model, const Contact& contact);
 
 }  // namespace signorini::decide

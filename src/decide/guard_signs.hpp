@@ -105,16 +105,17 @@ struct Sign {
   double excess = 0.0;  // that derivative's magnitude / limit up to which it is treated as zero
 };
 
-/// Returns `so_far`, the motion of the contact up to the instant, if the guard is a friction limit in Instant::resting_limits
+/// Returns `motion_up_to_instant`, the motion of the contact up to the instant, if the guard is a friction limit in Instant::resting_limits
 /// and is still zero; otherwise nullptr. The guard of the slip rate is treated like the friction limit in the direction of
 /// slip, because p' = -(fs |N| - T)' / kt.
 [[nodiscard]] const MotionJet* resting_reference(const Contact& contact, std::size_t c,
                                                  const ContactState& state, const GuardForm& guard,
-                                                 const MotionJet& so_far, const Instant& instant);
+                                                 const MotionJet& motion_up_to_instant,
+                                                 const Instant& instant);
 /// Sign of the first derivative of the form, from order `first` on, that is not zero within its rounding error. base: a motion
 /// for which the form is exactly zero; its computed derivatives are subtracted, to remove accumulated rounding errors.
-[[nodiscard]] Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant,
-                              std::size_t first, const MotionJet* base = nullptr);
+[[nodiscard]] Sign leading_sign(const GuardForm& form, const MotionJet& jet, const Instant& instant,
+                                std::size_t first, const MotionJet* base = nullptr);
 /// True if the form's value is zero within its rounding error and the resolution of time.
 [[nodiscard]] bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant);
 /// Smallest factor on the rounding errors of the form's derivatives for which the form is lexicographically nonnegative; 0: the
@@ -129,10 +130,10 @@ struct Sign {
 using GuardsOfState = ContactLaw::Guards;
 
 /// True if derivatives of orders below `orders` determine the signs of all guards of contact c, even if noise and resolution
-/// are `most_blur` times as large. Only for contacts that are decided separately. known: known signs of the guards.
-[[nodiscard]] bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
-                              std::size_t orders, const Instant& instant, const KnownGuards& known,
-                              double most_blur);
+/// are `max_noise_factor` times as large. Only for contacts that are decided separately. known: known signs of the guards.
+[[nodiscard]] bool signs_are_decided(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
+                                     std::size_t orders, const Instant& instant, const KnownGuards& known,
+                                     double max_noise_factor);
 
 /// Guards of every contact. Copies share the guards of contacts whose states do not change.
 using GuardForms = base::CopyOnWriteVector<GuardsOfState>;
@@ -163,11 +164,11 @@ struct FailedGuard {
 };
 
 /// Returns, for each contact with a failing guard, the guard that fails first. before: true if `states` are the states before
-/// the instant, so that the guards located by the engine are zero. known: one entry per contact. so_far: motion up to the
+/// the instant, so that the guards located by the engine are zero. known: one entry per contact. motion_up_to_instant: motion up to the
 /// instant, one entry per contact; empty if there are no resting limits. asked: contacts to examine, ascending.
 [[nodiscard]] std::vector<FailedGuard> find_failed_guards(
     const Model& model, const std::vector<MotionJet>& jets, const contact::ContactStates& states,
     const Instant& instant, bool before, const std::vector<KnownGuards>& known,
-    const std::vector<MotionJet>& so_far, const std::vector<std::size_t>& asked);
+    const std::vector<MotionJet>& motion_up_to_instant, const std::vector<std::size_t>& asked);
 
 }  // namespace signorini::decide

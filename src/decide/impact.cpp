@@ -18,7 +18,7 @@ namespace {
 
 // Energy gains below this fraction of the largest energy term are rounding errors of velocities and impulses. Real gains by
 // Newton's law are larger. Chosen value.
-constexpr double no_gain = 1e-9;
+constexpr double negligible_gain = 1e-9;
 
 /// The states in which all contacts that take impulses or can stick rigidly are open. The system of equations in these states
 /// gives the effect of a single impulse, without reactions at other contacts.
@@ -160,7 +160,7 @@ void ImpactSolver::balance(const motion::Forcing& forcing, double t, const conta
     greatest = std::max({greatest, std::abs(n * hit.before[normal_place(hit.d.layout, i)]),
                          std::abs(k * hit.before[tangent_place(hit.d.layout, i)])});
   }
-  impact.gains = impact.loss < -no_gain * greatest;
+  impact.gains = impact.loss < -negligible_gain * greatest;
 }
 
 Impact ImpactSolver::solve(const motion::Forcing& forcing, double t, const contact::ContactStates& states,

@@ -89,8 +89,8 @@ RigidContactSolver::RigidContactSolver(motion::StateSystems& systems, motion::Je
 
 /// Slip rate (t.v minus surface velocity) up to which the contact is at rest: rounding error plus Instant::rest_speed. At the
 /// start, the rounding error of the given velocities is included.
-double RigidContactSolver::rounding_of_slide(std::size_t c, const motion::Forcing& forcing,
-                                             const Instant& instant) const {
+double RigidContactSolver::slip_rate_tolerance(std::size_t c, const motion::Forcing& forcing,
+                                               const Instant& instant) const {
   const double given = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
   return given + rounding_of(model_.contacts[c].tangent, instant.v) +
          rounding::many_operations * std::abs(forcing.surface(c, instant.t, 1)) +
@@ -125,7 +125,8 @@ RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const
 
 /// True if a dashpot makes the compressive force of a contact increase by a jump, -cn n . (v+ - v-) > 0. Velocities that do not
 /// jump contain rounding errors relative to the jumps of all velocities.
-bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
+bool RigidContactSolver::compression_jumps_up(std::size_t c, const Vector& before,
+                                              const Vector& after) const {
   const Contact& contact = model_.contacts[c];
   if (!(contact.normal_damping > 0.0)) return false;
   // In a beam the effect of an impact decays by a factor of 0.3 per node. An effect below the rounding error of an elimination
@@ -139,23 +140,23 @@ bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, con
 /// Changes states according to the velocities after an impact. Rigidly sticking sliders slip if their slip rate is not zero.
 /// If a dashpot makes |N| jump up, T is continuous and below its new limit, so the contact sticks. If |N| jumps down, T
 /// follows its limit. If N does not jump, slip continues until the guard of slip fails.
-void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& before,
-                                         const motion::Forcing& after, const Block& block,
-                                         const std::vector<ContactMotion>& motion,
-                                         contact::ContactStates& states) const {
+void RigidContactSolver::update_states_after_impact(const Instant& instant, const Vector& before,
+                                                    const motion::Forcing& after, const Block& block,
+                                                    const std::vector<ContactMotion>& motion,
+                                                    contact::ContactStates& states) const {
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (contact.tangential_stiffness && slip_sign(states[c].state) != 0 &&
-        presses_harder(c, before, instant.v))
+        compression_jumps_up(c, before, instant.v))
       states[c] = {State::stick, contact::slip_of(contact, motion[c])};
-    if (!contact.holds_tangent_only() || states[c].is_open()) continue;
+    if (!contact.constrains_tangent_only() || states[c].is_open()) continue;
     const double vt = contact::along_surface(contact, instant.v, after.surface(c, instant.t, 1));
-    // A sticking contact is at rest up to rounding errors relative to all velocity jumps, as in presses_harder().
+    // A sticking contact is at rest up to rounding errors relative to all velocity jumps, as in compression_jumps_up().
     const double of_jump =
         slip_sign(states[c].state) == 0
             ? rounding::elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
             : 0.0;
-    if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant))
+    if (std::abs(vt) > of_jump + slip_rate_tolerance(c, after, instant))
       states[c].state = contact::slip_state(vt);
   }
 }
@@ -196,7 +197,7 @@ bool RigidContactSolver::update_slip_directions(const Instant& instant, const mo
     const double vt = contact::along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     participant.sign = vt > 0.0 ? 1 : -1;
     participant.sliding_friction = contact::sliding_friction(contact, std::abs(vt));
-    if (std::abs(vt) > rounding_of_slide(c, forcing, instant)) continue;
+    if (std::abs(vt) > slip_rate_tolerance(c, forcing, instant)) continue;
     participant.slipping = false;
     rests = true;
   }
@@ -208,8 +209,8 @@ bool RigidContactSolver::update_slip_directions(const Instant& instant, const mo
 /// dv has changed g, and da has changed g'. Through the stiffness of the structure, du has changed g by du min(1, (w s)^2/2)
 /// and g' by du w min(1, w s); w: highest frequency. For stiff structures and long times this bound is too large, so it is
 /// limited: velocities that differ by more than sqrt_eps of their scale are different.
-RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double da,
-                                                           const Instant& instant) const {
+RigidContactSolver::AccumulatedRounding RigidContactSolver::accumulated_rounding(
+    std::size_t c, double da, const Instant& instant) const {
   if (instant.last_touch.empty()) return {};
   const double t = instant.t, s = t - instant.last_touch[c], w = model_.omega_max, du = 0.5 * t * t * da;
   const double angle = std::min(1.0, w * s);
@@ -242,7 +243,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
     const bool open = states[c].is_open();
-    const Carried carried = carried_by(c, noise.an, instant);
+    const AccumulatedRounding carried = accumulated_rounding(c, noise.an, instant);
     const double known = rounding_of_gap(c, noise.gap, instant) + given;
     // A contact that closes faster than min_flight_speed() is hit even if accumulated rounding errors are larger.
     const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), min_flight_speed(c));
@@ -335,7 +336,7 @@ Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing
   }
   decision.impact_loss += result.loss;
   decision.impact_surface_work += result.surface_work;
-  decision.impact_gains = decision.impact_gains || result.gains;
+  decision.impact_gains_energy = decision.impact_gains_energy || result.gains;
   if (decision.impulses.empty()) decision.impulses.resize(states.size());
   const int impact_number =
       decision.single_impacts.empty() ? 1 : decision.single_impacts.back().impact_number + 1;
@@ -350,14 +351,14 @@ Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing
     sum.sticks = result.impulses[c].sticks;
     sum.rebound = result.impulses[c].rebound;
   }
-  follow_velocity(instant, before, forcing, block, decision.before, states);
+  update_states_after_impact(instant, before, forcing, block, decision.before, states);
   return {};
 }
 
 /// Adds the touching contacts that do not leave to found.participants. free: motion with all touching contacts open.
-void RigidContactSolver::add_staying(const Instant& instant, const motion::Forcing& forcing,
-                                     const TouchingContacts& met, const std::vector<MotionJet>& free,
-                                     const Decision& decision, ImpactResult& found) const {
+void RigidContactSolver::add_staying_contacts(const Instant& instant, const motion::Forcing& forcing,
+                                              const TouchingContacts& met, const std::vector<MotionJet>& free,
+                                              const Decision& decision, ImpactResult& found) const {
   for (const std::size_t c : met.contacts) {
     const Contact& contact = model_.contacts[c];
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
@@ -375,7 +376,7 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
     }
     found.stays[c] = true;
     const double zero =
-        noise.vt + rounding_of_slide(c, forcing, instant) + instant.resolution * std::abs(m.at);
+        noise.vt + slip_rate_tolerance(c, forcing, instant) + instant.resolution * std::abs(m.at);
     const bool rests = struck.sticks || found.rests[c] ||
                        (!met.hit && instant.has_triggered(c, Guard::sliding)) || std::abs(m.vt) <= zero;
     Participant participant{c};
@@ -383,7 +384,7 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
     participant.sign = m.vt > 0.0 ? 1 : -1;
     participant.sliding_friction = contact::sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
     participant.kinetic = found.kinetic[c];
-    participant.bears_limit = found.bears_limit[c];
+    participant.stays_at_limit = found.stays_at_limit[c];
     found.participants.push_back(participant);
   }
 }
@@ -426,7 +427,7 @@ std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, con
       const double held_too = systems_.held_by_others(c, held, forcing, instant.t)
                                   ? min_flight_speed(c) + rounding::many_operations * model_.scales.velocity
                                   : 0.0;
-      return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);
+      return std::abs(vt) <= std::max(slip_rate_tolerance(c, forcing, instant), held_too);
     };
     for (int round = 0; round < 2;
          ++round)  // second round: contacts stopped in the first round may hold others
@@ -449,16 +450,16 @@ void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forci
   const std::vector<std::size_t> together = sharing(instant, forcing, states, decision);
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
-    if (!contact.holds_tangent_only()) continue;
+    if (!contact.constrains_tangent_only()) continue;
     const bool shares = std::find(together.begin(), together.end(), c) != together.end();
     const double vt = contact::along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
-    const bool stopped =
-        met.hit && slip_sign(states[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
+    const bool stopped = met.hit && slip_sign(states[c].state) != 0 &&
+                         std::abs(vt) <= slip_rate_tolerance(c, forcing, instant);
     if (!stopped && !shares && !(found.sliders && decision.visited[c])) continue;
     Participant participant{c};
     participant.sliding_friction = contact::sliding_friction(contact, 0.0);
     participant.kinetic = found.kinetic[c];
-    participant.bears_limit = found.bears_limit[c];
+    participant.stays_at_limit = found.stays_at_limit[c];
     if (shares) found.known[c].sliding.zeros = 1;
     found.known[c] = found.known[c].of_motion();
     found.participants.push_back(participant);
@@ -467,8 +468,9 @@ void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forci
 
 /// Adds all rigidly sticking sliders to the participants, because consistent states may exist only if they slip. False: no
 /// slider was added.
-bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,
-                                      ImpactResult& found) const {
+bool RigidContactSolver::add_sticking_sliders(const std::vector<Block>& blocks,
+                                              const contact::ContactStates& states,
+                                              ImpactResult& found) const {
   std::vector<Participant> all;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::copy_if(found.participants.begin(), found.participants.end(), std::back_inserter(all),
@@ -477,11 +479,11 @@ bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const co
       const Contact& contact = model_.contacts[c];
       const bool takes_part = std::any_of(
           all.begin(), all.end(), [&](const Participant& participant) { return participant.contact == c; });
-      if (!contact.holds_tangent_only() || states[c].state != State::stick || takes_part) continue;
+      if (!contact.constrains_tangent_only() || states[c].state != State::stick || takes_part) continue;
       Participant participant{c};
       participant.sliding_friction = contact::sliding_friction(contact, 0.0);
       participant.kinetic = found.kinetic[c];
-      participant.bears_limit = found.bears_limit[c];
+      participant.stays_at_limit = found.stays_at_limit[c];
       participant.block = b;
       all.push_back(participant);
     }
@@ -502,7 +504,7 @@ Refusal RigidContactSolver::solve_levels(const Instant& instant, const motion::F
   const bool painleve = refusal.kind == Refusal::Kind::paradox || refusal.kind == Refusal::Kind::ambiguous;
   const bool dependent =
       refusal ? refusal.kind == Refusal::Kind::dependent : systems_.system_of(states) == nullptr;
-  if (!(painleve || dependent) || !add_sticking(blocks, held, found)) return refusal;
+  if (!(painleve || dependent) || !add_sticking_sliders(blocks, held, found)) return refusal;
   states = held;
   found.known = known;
   for (const Participant& participant : found.participants)
@@ -549,7 +551,7 @@ Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forc
   const Eigen::VectorXd captured = found.capture_impulses;
   std::size_t placed = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
-    add_staying(instant, forcing, all[b], free, decision, found);
+    add_staying_contacts(instant, forcing, all[b], free, decision, found);
     stop_constrained_participants(instant, forcing, states, found);
     // The loop ends, because in each round at least one more contact comes to rest.
     while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))

@@ -27,7 +27,7 @@ struct ImpactResult {
   explicit ImpactResult(std::size_t n)
       : decided(n, false),
         kinetic(n, false),
-        bears_limit(n, false),
+        stays_at_limit(n, false),
         stays(n, false),
         rests(n, false),
         departures(n, std::numeric_limits<double>::quiet_NaN()),
@@ -39,7 +39,7 @@ struct ImpactResult {
   double max_rest_speed = 0.0;        ///< largest g' that was treated as rest; length/time
   std::vector<bool> decided;          ///< true: the contact was decided together with other contacts
   std::vector<bool> kinetic;          ///< true: slip has begun, so the static coefficient does not apply
-  std::vector<bool> bears_limit;      ///< true: at the static limit, but other contacts prevent slip
+  std::vector<bool> stays_at_limit;   ///< true: at the static limit, but other contacts prevent slip
   std::vector<bool> stays, rests;     ///< true: g' (stays) or ut' (rests) is treated as zero
   /// Ratio of g' to the speed below which the contact stays closed; NaN: not computed.
   std::vector<double> departures;
@@ -74,13 +74,14 @@ class RigidContactSolver {
     bool unresolved = false;           // true: a flight is lower than the rounding error of the gap
   };
   /// Rounding errors of g and g' accumulated since the contact's last touch.
-  struct Carried {
+  struct AccumulatedRounding {
     double gap = 0.0, rate = 0.0;
   };
   /// Speed below which a rebound of the contact is treated as rest.
   [[nodiscard]] double min_flight_speed(std::size_t contact) const;
   [[nodiscard]] double rounding_of_gap(std::size_t contact, double of_data, const Instant& instant) const;
-  [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
+  [[nodiscard]] AccumulatedRounding accumulated_rounding(std::size_t contact, double da,
+                                                         const Instant& instant) const;
   [[nodiscard]] TouchingContacts find_touching(const Instant& instant, const std::vector<MotionJet>& jets,
                                                const std::vector<FailedGuard>& failed, const Block& block,
                                                const contact::ContactStates& states) const;
@@ -93,8 +94,9 @@ class RigidContactSolver {
   [[nodiscard]] Refusal apply_impacts(Instant& instant, const motion::Forcing& forcing,
                                       const TouchingContacts& met, const Block& block, ImpactResult& found,
                                       Decision& decision, contact::ContactStates& states);
-  void add_staying(const Instant& instant, const motion::Forcing& forcing, const TouchingContacts& met,
-                   const std::vector<MotionJet>& free, const Decision& decision, ImpactResult& found) const;
+  void add_staying_contacts(const Instant& instant, const motion::Forcing& forcing,
+                            const TouchingContacts& met, const std::vector<MotionJet>& free,
+                            const Decision& decision, ImpactResult& found) const;
   void stop_constrained_participants(const Instant& instant, const motion::Forcing& forcing,
                                      const contact::ContactStates& states, ImpactResult& found) const;
   [[nodiscard]] std::vector<std::size_t> sharing(const Instant& instant, const motion::Forcing& forcing,
@@ -103,19 +105,20 @@ class RigidContactSolver {
   void add_sliders(const Instant& instant, const motion::Forcing& forcing, const TouchingContacts& met,
                    const Block& block, const contact::ContactStates& states, const Decision& decision,
                    ImpactResult& found) const;
-  [[nodiscard]] bool presses_harder(std::size_t contact, const Vector& before, const Vector& after) const;
-  void follow_velocity(const Instant& instant, const Vector& before, const motion::Forcing& after,
-                       const Block& block, const std::vector<ContactMotion>& motion,
-                       contact::ContactStates& states) const;
+  [[nodiscard]] bool compression_jumps_up(std::size_t contact, const Vector& before,
+                                          const Vector& after) const;
+  void update_states_after_impact(const Instant& instant, const Vector& before, const motion::Forcing& after,
+                                  const Block& block, const std::vector<ContactMotion>& motion,
+                                  contact::ContactStates& states) const;
   [[nodiscard]] bool set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
                                             const motion::StateSystem& free, const TouchingContacts& met,
                                             ImpactResult& found) const;
   [[nodiscard]] bool update_slip_directions(const Instant& instant, const motion::Forcing& forcing,
                                             const TouchingContacts& met, ImpactResult& found) const;
-  [[nodiscard]] double rounding_of_slide(std::size_t contact, const motion::Forcing& forcing,
-                                         const Instant& instant) const;
-  [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,
-                                  ImpactResult& found) const;
+  [[nodiscard]] double slip_rate_tolerance(std::size_t contact, const motion::Forcing& forcing,
+                                           const Instant& instant) const;
+  [[nodiscard]] bool add_sticking_sliders(const std::vector<Block>& blocks,
+                                          const contact::ContactStates& states, ImpactResult& found) const;
   [[nodiscard]] Refusal solve_levels(const Instant& instant, const motion::Forcing& forcing,
                                      const std::vector<Block>& blocks, const contact::ContactStates& old,
                                      ImpactResult& found, contact::ContactStates& states);

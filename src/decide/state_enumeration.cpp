@@ -30,8 +30,8 @@ void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t cod
 
 /// True if the combinations differ only in contacts whose force is between kinetic and static friction. Such a contact could
 /// stick or slip; the friction law makes it stick.
-bool differ_by_law(const Model& model, const contact::ContactStates& one,
-                   const contact::ContactStates& other) {
+bool differ_by_static_friction(const Model& model, const contact::ContactStates& one,
+                               const contact::ContactStates& other) {
   for (std::size_t c = 0; c < one.size(); ++c) {
     if (one[c] == other[c]) continue;
     const Contact& contact = model.contacts[c];
@@ -145,7 +145,7 @@ std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combinat
   // If all consistent combinations have the same accelerations, the first one is the result.
   for (std::size_t i = 1; i < holding.size() && best->alternative.empty(); ++i)
     if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
-        !differ_by_law(model_, holding[0].first, holding[i].first))
+        !differ_by_static_friction(model_, holding[0].first, holding[i].first))
       best->alternative = holding[i].first;
   if (!best) return best;
   std::vector<std::size_t> contacts;

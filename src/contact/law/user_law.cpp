@@ -44,7 +44,7 @@ class UserLaw final : public ContactLaw {
 
   [[nodiscard]] Guards guards(const Contact& /*contact*/, const ContactState& state) const override {
     constexpr std::array kinds = {Guard::user_1, Guard::user_2, Guard::user_3};
-    static_assert(kinds.size() == most_guards);
+    static_assert(kinds.size() == max_guards);
     Guards result;
     const UserLawState& in = at(state.state);
     for (std::size_t i = 0; i < in.guards.size(); ++i)
@@ -163,9 +163,9 @@ std::string validation_error(const UserLawState& state, std::size_t states) {
   const auto refuse = [&](const std::string& what) {
     return fmt::format("state '{}': {}", state.name, what);
   };
-  if (state.guards.size() > ContactLaw::most_guards)
+  if (state.guards.size() > ContactLaw::max_guards)
     return refuse(
-        fmt::format("found {} guards, expected at most {}", state.guards.size(), ContactLaw::most_guards));
+        fmt::format("found {} guards, expected at most {}", state.guards.size(), ContactLaw::max_guards));
   if (is_user_law_state(state.kind) || state.kind == State::inside)
     return refuse("expected the kind open, closed, stick or slip");
   std::vector<Form> forms = {state.normal.form, state.tangent.form};

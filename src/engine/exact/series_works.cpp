@@ -140,7 +140,7 @@ void SeriesWorkIntegrals::add(const contact::ContactStates& states, const motion
       const auto gap = [&](double t) {
         return contacts[c].value(motion::ContactSeries::gap, (t - series.t) / series.scale);
       };
-      works.damping += contact::inside_loss(contact, state.state, gap(from), gap(to));
+      works.damping += contact::dashpot_loss_inside(contact, state.state, gap(from), gap(to));
     }
     if (state.is_open()) continue;
     if (!contact.normal_force_given()) {

@@ -365,8 +365,8 @@ void IdaEngine::integrate(double from, double to, motion::WorkIntegrals& works) 
   bdf_.evaluate(to, last);
   for (std::size_t k = 0; k < states.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    works.damping +=
-        contact::inside_loss(contact, states[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
+    works.damping += contact::dashpot_loss_inside(contact, states[k].state, contact.gap_at(first.u),
+                                                  contact.gap_at(last.u));
   }
 }
 

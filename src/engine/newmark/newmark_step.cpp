@@ -364,7 +364,7 @@ void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::Co
               factor);
     if (state == State::inside)
       works.damping +=
-          factor * contact::inside_loss(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
+          factor * contact::dashpot_loss_inside(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
   }
 }
 

@@ -63,7 +63,7 @@ class StepGuards {
     bool needs_accelerations = false;  // the rate of at least one guard depends on accelerations
     double gap = 0.0, surface = 0.0;   // initial gap; displacement of the surface
     double normal_gap = 0.0, tangent_N = 0.0, tangent_ut = 0.0;
-    std::array<LinearGuard, ContactLaw::most_guards> guards{};
+    std::array<LinearGuard, ContactLaw::max_guards> guards{};
   };
   struct Term {
     std::size_t dof;

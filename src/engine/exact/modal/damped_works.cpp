@@ -166,8 +166,8 @@ void DampedWorkIntegrals::add_contact(std::size_t c, const Stretch& s, motion::W
   const ContactState& state = motion_.decision().states[c];
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   if (state.state == State::inside)
-    works.damping += contact::inside_loss(contact, state.state, motion_.value(own.gap, s.from),
-                                          motion_.value(own.gap, s.to));
+    works.damping += contact::dashpot_loss_inside(contact, state.state, motion_.value(own.gap, s.from),
+                                                  motion_.value(own.gap, s.to));
   const ContactProducts& pairings = contacts_[c];
   if (pairings.applied_normal_force)
     works.applied_normal_force[c] -= integral(*pairings.applied_normal_force, s);

@@ -98,6 +98,8 @@ class FrictionSeries {
   [[nodiscard]] double max_rate() const;
   /// Known part of the row at level k; must be called for k = 0, 1, 2, ... in this order.
   [[nodiscard]] double known(int k, const Series& series);
+  /// contact::FrictionRecursion::reach() at a body that slips with friction by slip rate; else x.
+  [[nodiscard]] double reach(std::size_t degree, double x) const;
 
  private:
   void begin_by_force(const Form& normal, const Series& series);
@@ -151,6 +153,8 @@ class Taylor {
   /// The system of the last series: that of its contact state, with friction at its slip rates.
   [[nodiscard]] const StateSystemPtr& system() const { return system_; }
   [[nodiscard]] bool massless() const { return massless_; }
+  /// The greatest place <= x up to which friction follows the slip rate of the last series, cut after `degree`.
+  [[nodiscard]] double friction_reach(std::size_t degree, double x) const;
   /// Sums of the magnitudes of the terms of each equation, level k of the last perturbed series in column k.
   /// Rows: the n degrees of freedom, then the rows of all contacts.
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }

@@ -71,8 +71,8 @@ class TangentSeries {
   [[nodiscard]] const ForcingRatesSeries& forcing() const { return forcing_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] long solves() const { return solves_; }
-  /// Error of the last expand(): rounding of its terms and omitted terms at x, relative to the tangent at the
-  /// beginning.
+  /// Error of the last expand(): rounding of its terms, omitted terms at x, and friction at slip rates that its
+  /// series do not follow; relative to the tangent at the beginning.
   [[nodiscard]] double error() const { return error_; }
 
  private:
@@ -83,6 +83,8 @@ class TangentSeries {
   void add_rows(int k);
   void add_friction(int k);
   [[nodiscard]] double size_of(const Eigen::Ref<const Vector>& x) const;
+  [[nodiscard]] std::pair<double, double> slip_rate(std::size_t contact, int k) const;
+  [[nodiscard]] double friction_error(double x, double size);
   [[nodiscard]] int late() const { return massless_ ? 2 : 0; }
 
   const Model& model_;

@@ -237,14 +237,14 @@ double ExactEngine::expand(double scale) {
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
     // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
     if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
-        converges(sizes_, series.forcing, 1.0))
+        converges(sizes_, series.forcing, 1.0) && taylor_.friction_reach(degree_, 1.0) == 1.0)
       break;
     if (level == max_levels) break;
   }
   counters.solves += series.levels + 1;
   double x = std::min(1.0, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * scale));
   while (x > std::numeric_limits<double>::min() && !converges(sizes_, series.forcing, x)) x *= 0.9;
-  return x;
+  return taylor_.friction_reach(degree_, x);
 }
 
 /// Bound on the remainder of a form's polynomial on [0, x]; rest: that of the displacements, in norm_.

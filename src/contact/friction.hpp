@@ -10,10 +10,10 @@
 //   k E_k = sum_j j g_j E_(k-j),   f_k = (fs - fk) E_k,   T_k + s f_0 N_k = -s sum_(j = 1..k) f_j N_(k-j)
 // Hence f_0 is a matrix entry, and the right-hand side is known before N_k and T_k are solved for.
 //
-// E changes within the time v_s / |s p''|, far from the beginning of a series it may be any size although E_0
-// underflows: a slip that ends at zero rate begins at many v_s. With G(r) = sum_(j >= 1) |g_j| r^j,
+// E changes within the time v_s / |p''|. Most slips end at zero rate and are faster than many v_s before. There E_0
+// underflows, and no coefficient E_k shows that E reaches 1 at the end. With G(r) = sum_(j >= 1) |g_j| r^j,
 //   sum_(k > K) |E_k| x^k <= E_0 exp(G(r)) (x/r)^(K+1)     for every r >= x
-// bounds the terms after E_K. For r = x it bounds E itself.
+// bounds the terms after E_K; for r = x it bounds E itself. The logarithm of E_0 does not underflow.
 //
 // The derivatives of these equations with respect to a parameter p are
 //   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'

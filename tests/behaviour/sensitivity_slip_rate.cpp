@@ -1,5 +1,5 @@
-// Derivatives of runs whose friction depends on the slip rate, against differences of the runs: slips that begin and end
-// fast, so that the coefficient changes within a small part of a slip.
+// Derivatives of runs whose friction depends on the slip rate, against differences of the runs. Slips end fast, so that
+// the coefficient changes within a small part of a slip.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -91,7 +91,7 @@ acceleration = { type = "harmonic", omega = 6.0, amplitude = 8.0 }
 const std::string two_bearings = R"(schema = 1
 units = { force = "kN", mass = "kg", length = "mm", time = "ms" }
 [run]
-t_end = 3000.0
+t_end = 1500.0
 engine = "ida"
 rtol = 1e-12
 output_dt = 250.0
@@ -349,7 +349,7 @@ TEST_CASE("a block on a bearing whose normal force varies") {
 }
 
 TEST_CASE("a block on a rigid plate under Stribeck's friction") {
-  for (const char* constant : {"stribeck_velocity", "kinetic", "static"})
+  for (const char* constant : {"stribeck_velocity", "kinetic"})
     check_differences(plate, std::string("contacts.c.friction.") + constant, 5e-3);
   check_differences(plate, "masses.1.mass", 1e-3);
 }

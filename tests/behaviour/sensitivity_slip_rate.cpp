@@ -11,10 +11,9 @@
 #include "behaviour/one_mass.hpp"
 #include "behaviour/orbit_runs.hpp"
 #include "behaviour/rates.hpp"
+#include "signorini/fit.hpp"
 
-using namespace signorini;
-using namespace signorini::tests;
-
+namespace signorini::tests::slip_rate_tangents {
 namespace {
 
 /// A mass that passes zero slip rate at 280 m/s^2: Stribeck's friction changes within 7e-5 s.
@@ -220,7 +219,7 @@ friction = { static = 0.32, kinetic = 0.12, stribeck_velocity = 0.013 }
 /// Numbers of a run in one list: by quantity, then by event or row.
 using Numbers = std::vector<std::vector<double>>;
 
-Numbers values_of(const Result& run) {
+Numbers values_in(const Result& run) {
   Numbers all(2);
   for (const Event& e : run.events) {
     all[0].push_back(e.t);
@@ -236,7 +235,7 @@ Numbers values_of(const Result& run) {
   return all;
 }
 
-Numbers rates_of(const Sensitivities& s) {
+Numbers rates_in(const Sensitivities& s) {
   Numbers all(2);
   for (std::size_t i = 0; i < s.events.size(); ++i) {
     all[0].push_back(s.event_rates[i][0].t);
@@ -271,10 +270,10 @@ void check_differences(const std::string& text, const std::string& path, double 
     const Result run = simulate(build_model(scene), scene.run);
     events = run.events.size();
     REQUIRE(events == s.events.size());
-    runs.push_back(values_of(run));
+    runs.push_back(values_in(run));
   }
   CHECK(s.stretches.taken == 0);  // the followed motion is never off the engine's
-  const Numbers found = rates_of(s);
+  const Numbers found = rates_in(s);
   REQUIRE(found.size() == runs[0].size());
   // Times, forces, displacements, velocities
   std::array<double, 4> greatest_of{}, value_of{};
@@ -335,6 +334,24 @@ TEST_CASE("a slab on bearings whose friction rises with the slip rate") {
   check_differences(slab, "masses.1.mass", 1e-3);
 }
 
+TEST_CASE("a fit finds the bearings' friction again from rows of a run") {
+  const Sensitivities truth = rates_of(slab, {});
+  const SceneReader wrong = [](const std::vector<Override>& changes) {
+    std::vector<Override> all{{"contacts.b.friction.velocity", "0.026"},
+                              {"contacts.b.friction.fast", "0.093"}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return reader_of_text(slab)(all);
+  };
+  Measurements data;
+  for (std::size_t i = 1; i < truth.times.size(); ++i)
+    data.rows.push_back({0, "", truth.columns[0], truth.times[i], truth.values[i][0], 1.0});
+  const Fit found = fit(wrong, {"contacts.b.friction.velocity", "contacts.b.friction.fast"}, data);
+  CAPTURE(found.reason);
+  CHECK(found.converged);
+  CHECK(std::abs(found.keys[0].value - 0.02) < 1e-7);
+  CHECK(std::abs(found.keys[1].value - 0.1) < 1e-8);
+}
+
 TEST_CASE("two masses at odd angles on bearings of different velocities") {
   for (const char* path : {"contacts.left.friction.velocity", "contacts.right.friction.velocity",
                            "contacts.right.friction.fast"})
@@ -380,3 +397,5 @@ TEST_CASE("multipliers of an orbit that reverses fast are those of differences o
 }
 
 TEST_SUITE_END();
+
+}  // namespace signorini::tests::slip_rate_tangents

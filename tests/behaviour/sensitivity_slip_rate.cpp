@@ -322,6 +322,27 @@ std::string turned(double angle) {
 
 TEST_SUITE_BEGIN("behaviour/sensitivity_slip_rate");
 
+TEST_CASE("a block stops on Stribeck's friction: the time by v_s in closed form, from 30 to 3e5 v_s") {
+  // t = (m/N) int_0^v0 dx / (fk + (fs - fk) exp(-x/v_s)),   dt/dv_s = m/(N fk) ln(fk/fs) up to exp(-v0/v_s)
+  const double expected = 1.3 / (17.0 * 0.12) * std::log(0.12 / 0.32);
+  for (const double v : {0.1, 0.03, 1e-3, 1e-4, 1e-5})
+    for (const int s : {1, -1}) {
+      CAPTURE(v);
+      CAPTURE(s);
+      const Sensitivities found = rates_of(
+          matrix_scene(
+              fmt::format("t_end = 2.5\nengine = \"ida\"\nrtol = 1e-10\ninitial = {{ u = [0.0], v = [{}] }}",
+                          3 * s),
+              "mass = [[1.3]]\nstiffness = [[0.0]]",
+              fmt::format("law = \"slider\"\ntangent = {{ d0 = 1.0 }}\nnormal_force = 17.0\n"
+                          "friction = {{ static = 0.32, kinetic = 0.12, stribeck_velocity = {} }}",
+                          v)),
+          {"contacts.c.friction.stribeck_velocity"});
+      REQUIRE(!found.events.empty());
+      CHECK(found.event_rates[0][0].t == doctest::Approx(expected).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("a mass that reverses fast under Stribeck's friction") {
   check_differences(fast_reversals, "contacts.c.friction.stribeck_velocity", 0.02);
   check_differences(fast_reversals, "contacts.c.friction.kinetic", 0.01);

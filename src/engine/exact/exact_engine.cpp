@@ -445,7 +445,11 @@ void ExactEngine::begin_series(double scale) {
   paced_ = paced_ && x == 1.0;
   max_next_step_ = (paced_ ? much_longer : longer) * scale * x;
   reach_time_ = t_ + scale * x;
-  if (reach_time_ > segment_.end || segment_.end - reach_time_ < 0.01 * scale * x) reach_time_ = segment_.end;
+  // A short rest is part of the step, unless friction changes there.
+  const double all = (segment_.end - t_) / scale;
+  if (reach_time_ > segment_.end ||
+      (segment_.end - reach_time_ < 0.01 * scale * x && taylor_.friction_reach(degree_, all) == all))
+    reach_time_ = segment_.end;
   begin_x_ = 0.0;
   reach_ = (reach_time_ - t_) / scale;
   motion_.set_complete(degree_);

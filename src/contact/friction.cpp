@@ -74,6 +74,28 @@ void FrictionRecursion::extend(double rate) {
   varying_.push_back(next_exponential_coefficient(exponent_, varying_));
 }
 
+double FrictionRecursion::reach(std::size_t degree, double x) const {
+  // r (limit / (E_0 exp(G(r))))^(1/(K + 1)) is greatest where r G'(r) = K + 1; for E_0 = 1 and a linear exponent at
+  // r = e x limit^(-1/(K + 1)).
+  constexpr double closer = 0.8;
+  const double limit = std::log(0.25 * rounding::eps), terms = static_cast<double>(degree + 1);
+  const double farthest = std::exp(1.0 - limit / terms);
+  const std::size_t known = std::min(exponent_.size(), degree + 2);
+  double best = 0.0;
+  for (double r = farthest * x; r > best; r *= closer) {
+    double sum = 0.0, slope = 0.0, power = r;  // G(r), r G'(r)
+    for (std::size_t j = 1; j < known; ++j, power *= r) {
+      sum += std::abs(exponent_[j]) * power;
+      slope += static_cast<double>(j) * std::abs(exponent_[j]) * power;
+    }
+    const double margin = limit - exponent_[0] - sum;
+    best = std::max(best, margin >= 0.0 ? r : r * std::exp(margin / terms));
+    if (best >= x) return x;
+    if (slope <= closer * terms) break;
+  }
+  return best;
+}
+
 FrictionTangent::FrictionTangent(const Friction& friction, const Friction& by, int s)
     : static_(friction.static_),
       kinetic_(friction.kinetic),
@@ -93,6 +115,14 @@ void FrictionTangent::extend(double rate, double moved_rate) {
   for (std::size_t j = 0; j <= k; ++j) product += e_[j] * y_[k - j];
   friction_rates_.push_back((k == 0 ? by_kinetic_ : 0.0) + (by_static_ - by_kinetic_) * e_[k] +
                             (static_ - kinetic_) * product);
+}
+
+double FrictionTangent::residual(double rate, double moved_rate, double N, double N_p, double T_p) const {
+  const double x = s_ * rate, e = std::exp(-x / velocity_);
+  const double f = kinetic_ + (static_ - kinetic_) * e;
+  const double f_p = by_kinetic_ + (by_static_ - by_kinetic_) * e +
+                     (static_ - kinetic_) * e * (x * by_velocity_ / velocity_ - s_ * moved_rate) / velocity_;
+  return T_p + s_ * (f * N_p + f_p * N);
 }
 
 double friction_limit(const Friction& f, double x) {

@@ -10,6 +10,11 @@
 //   k E_k = sum_j j g_j E_(k-j),   f_k = (fs - fk) E_k,   T_k + s f_0 N_k = -s sum_(j = 1..k) f_j N_(k-j)
 // Hence f_0 is a matrix entry, and the right-hand side is known before the equations are solved for N_k and T_k.
 //
+// E changes within the time v_s / |p''|. Most slips end at zero rate and are faster than many v_s before. There E_0
+// underflows, and no coefficient E_k shows that E reaches 1 at the end. With G(r) = sum_(j >= 1) |g_j| r^j,
+//   sum_(k > K) |E_k| x^k <= E_0 exp(G(r)) (x/r)^(K+1)     for every r >= x
+// bounds the terms after E_K; for r = x it bounds E itself. The logarithm of E_0 does not underflow.
+//
 // The derivatives of these equations with respect to a parameter p are
 //   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'
 //
@@ -137,6 +142,8 @@ class FrictionRecursion {
   }
   /// Sets coefficient k of ut' after without_rate().
   void take_rate(double rate);
+  /// The greatest place <= x up to which the terms after E_degree sum to less than a quarter of eps.
+  [[nodiscard]] double reach(std::size_t degree, double x) const;
 
  private:
   template <class Pressing>
@@ -172,6 +179,9 @@ class FrictionTangent {
     for (std::size_t j = 0; j <= k; ++j) sum += friction_rates_[j] * applied(k - j);
     return s_ * sum;
   }
+  /// T_p + s f N_p + s f_p N at a place of the series, with E from its definition: zero where the series converge.
+  /// rate, moved_rate: ut' and its derivative there.
+  [[nodiscard]] double residual(double rate, double moved_rate, double N, double N_p, double T_p) const;
 
  private:
   void extend(double rate, double moved_rate);

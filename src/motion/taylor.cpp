@@ -117,6 +117,10 @@ double FrictionSeries::known(int k, const Series& series) {
   return friction_.without_rate(applied);
 }
 
+double FrictionSeries::reach(std::size_t degree, double x) const {
+  return constant_ || limit_ || contact_->sliding_point() ? x : friction_.reach(degree, x);
+}
+
 double DataPerturbation::fraction(std::size_t i) {
   std::uint64_t mixed = (static_cast<std::uint64_t>(i) + 1) * 0x9e3779b97f4a7c15u;  // splitmix64
   mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -160,6 +164,11 @@ void Taylor::start_friction(const Forcing& forcing, Series& series) {
     for (const auto& [dof, factor] : model_.contacts[friction.contact()].tangent.terms)
       series.u(dof, 0) += factor * friction.jump();  // zero if the point has mass
   if (StateSystemPtr at = system_with_friction()) system_ = std::move(at);
+}
+
+double Taylor::friction_reach(std::size_t degree, double x) const {
+  for (const FrictionSeries& friction : friction_) x = friction.reach(degree, x);
+  return x;
 }
 
 StateSystemPtr Taylor::system_with_friction() const {

@@ -97,6 +97,8 @@ class FrictionSeries {
   [[nodiscard]] double max_rate() const;
   /// Known part of the row at level k; must be called for k = 0, 1, 2, ... in this order.
   [[nodiscard]] double known(int k, const Series& series);
+  /// contact::FrictionRecursion::reach() at a body that slips with friction by slip rate; else x.
+  [[nodiscard]] double reach(std::size_t degree, double x) const;
 
  private:
   void begin_load_dependent(const Form& normal, const Series& series);
@@ -149,6 +151,8 @@ class Taylor {
   /// System of the last series: that of its contact state, with friction at the slip rates of the series.
   [[nodiscard]] const StateSystemPtr& system() const { return system_; }
   [[nodiscard]] bool massless() const { return massless_; }
+  /// Largest place <= x up to which the friction of the last series, cut after `degree`, is accurate at its slip rates.
+  [[nodiscard]] double friction_reach(std::size_t degree, double x) const;
   /// Sums of the magnitudes of the terms of each equation in the last perturbed series; column k: level k. Rows: the n
   /// degrees of freedom, then the rows of all contacts.
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }

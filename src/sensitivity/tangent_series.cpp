@@ -158,7 +158,12 @@ double TangentSeries::size_of(const Eigen::Ref<const Vector>& x) const {
 bool TangentSeries::expand(const motion::StateSystem& system, const motion::Series& motion,
                            const ForcingRates& forcing, const Tangent& start, double x, int levels) {
   begin(system, motion, forcing, start);
-  for (int k = 0; k <= std::min(levels, motion.levels); ++k) level(k);
+  // Friction by slip rate needs all levels of the slip rate, and velocities to their own digits: an omitted term of w
+  // is greater in w' by its degree over the angle of the part.
+  for (int k = 0; k <= (friction_.empty() ? std::min(levels, motion.levels) : motion.levels); ++k) level(k);
+  const double angle = friction_.empty()
+                           ? 1.0
+                           : std::min(1.0, x * scale_ * model_.scales.velocity / model_.scales.displacement);
   double first = 0.0, greatest = 0.0, power = 1.0, rounded = 0.0, last = 0.0;
   int checked = 0;
   for (;; level(levels_ + 1)) {
@@ -171,12 +176,13 @@ bool TangentSeries::expand(const motion::StateSystem& system, const motion::Seri
       rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
     last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
-    if (last <= truncation_error * std::max(first, greatest) + zero_limit_) break;
+    if (last <= angle * (truncation_error * std::max(first, greatest) + zero_limit_)) break;
     if (levels_ == max_tangent_levels) return false;
   }
   // In velocities an omitted term is multiplied by its degree.
   const double size = first > 0.0 ? first : greatest;
-  error_ = size > 0.0 ? (rounding::eps * rounded + static_cast<double>(levels_) * last) / size : 0.0;
+  error_ = size > 0.0 ? (rounding::eps * rounded + static_cast<double>(levels_) * last / angle) / size : 0.0;
+  if (!friction_.empty() && size > 0.0) error_ += friction_error(x, size);
   if (greatest <= max_cancelling * (first + zero_limit_)) return true;
   return greatest <= max_cancelling * size_of(at(x).u);  // the tangent may start from zero
 }
@@ -261,20 +267,53 @@ void TangentSeries::add_rows(int k) {
   }
 }
 
-/// Adds friction that depends on the slip rate. Terms of the motion beyond its levels are zero.
-void TangentSeries::add_friction(int k) {
+/// Coefficient k of the slip rate of contact c, and of its derivative. Terms of the motion beyond its levels are zero.
+std::pair<double, double> TangentSeries::slip_rate(std::size_t c, int k) const {
   const double to_velocity = (k + 1) / scale_;
-  for (auto& [contact, friction] : friction_) {
-    const std::size_t c = contact, level = static_cast<std::size_t>(k);
-    const ContactRates& rates = derivative_.contacts[c];
-    double rate = 0.0, slip = model_.contacts[c].tangent.dot(u_.col(k + 1));
-    if (k <= motion_->levels) {
-      rate = motion::ut_coefficient(model_.contacts[c], c, *motion_, level + 1);
-      slip += rates.tangent.dot(motion_->u.col(k + 1)) - forcing_.surface[c * forcing_.count + level + 1];
+  const std::size_t order = static_cast<std::size_t>(k) + 1;
+  double rate = 0.0, moved = model_.contacts[c].tangent.dot(u_.col(k + 1));
+  if (k <= motion_->levels) {
+    rate = motion::ut_coefficient(model_.contacts[c], c, *motion_, order);
+    moved += derivative_.contacts[c].tangent.dot(motion_->u.col(k + 1)) -
+             forcing_.surface[c * forcing_.count + order];
+  }
+  return {to_velocity * rate, to_velocity * moved};
+}
+
+/// Change of the velocities up to x by the friction at x that the series do not follow, relative to the tangent, whose
+/// displacements have this size. E is computed there from the slip rate.
+double TangentSeries::friction_error(double x, double size) {
+  std::fill(x_.begin(), x_.end(), 0.0);
+  for (const auto& [c, friction] : friction_) {
+    const auto n = static_cast<Eigen::Index>(model_.layout.normal(c)),
+               t = static_cast<Eigen::Index>(model_.layout.tangent(c));
+    double rate = 0.0, moved = 0.0, N = 0.0, N_p = 0.0, T_p = 0.0;
+    for (int k = levels_; k >= 0; --k) {
+      const auto slip = slip_rate(c, k);
+      rate = rate * x + slip.first;
+      moved = moved * x + slip.second;
+      N = N * x + (k <= motion_->levels ? motion_->forces(n, k) : 0.0);
+      N_p = N_p * x + forces_(n, k);
+      T_p = T_p * x + forces_(t, k);
     }
-    const auto row = static_cast<Eigen::Index>(model_.layout.normal(c));
-    x_[system_->unknowns().tangent(c)] -= friction.next(
-        to_velocity * rate, to_velocity * slip,
+    x_[system_->unknowns().tangent(c)] = friction.residual(rate, moved, N, N_p, T_p);
+  }
+  system_->solve(x_.data(), work_.data());
+  double change = 0.0;
+  for (std::size_t i = 0; i < scales_.size(); ++i)
+    if (system_->kinds()[i] == linear::DofKind::massive)
+      change = std::max(change, scales_[i] * std::abs(x_[i]) * x * scale_);
+  const double rate = model_.scales.velocity / model_.scales.displacement;
+  return change / std::max(rate * size, size_of(u_.col(1)) / scale_);
+}
+
+/// Friction that depends on the slip rate.
+void TangentSeries::add_friction(int k) {
+  for (auto& [contact, friction] : friction_) {
+    const auto [rate, moved_rate] = slip_rate(contact, k);
+    const auto row = static_cast<Eigen::Index>(model_.layout.normal(contact));
+    x_[system_->unknowns().tangent(contact)] -= friction.next(
+        rate, moved_rate,
         [&](std::size_t i) {
           const auto at = static_cast<Eigen::Index>(i);
           return at > motion_->levels ? 0.0 : motion_->forces(row, at);

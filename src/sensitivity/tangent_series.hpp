@@ -68,8 +68,8 @@ class TangentSeries {
   [[nodiscard]] const ForcingRatesSeries& forcing() const { return forcing_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] long solves() const { return solves_; }
-  /// Error of the last expand(): rounding errors of the terms and omitted terms at x, relative to the tangent at the
-  /// beginning.
+  /// Error of the last expand(): rounding errors of the terms, omitted terms at x, and friction at slip rates that the series
+  /// do not represent; relative to the tangent at the beginning.
   [[nodiscard]] double error() const { return error_; }
 
  private:
@@ -80,6 +80,8 @@ class TangentSeries {
   void add_rows(int k);
   void add_friction(int k);
   [[nodiscard]] double size_of(const Eigen::Ref<const Vector>& x) const;
+  [[nodiscard]] std::pair<double, double> slip_rate(std::size_t contact, int k) const;
+  [[nodiscard]] double friction_error(double x, double size);
   /// Number of the last levels for which the coefficients of massless degrees of freedom are not yet known.
   [[nodiscard]] int late() const { return massless_ ? 2 : 0; }
 

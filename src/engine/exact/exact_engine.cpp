@@ -244,14 +244,14 @@ double ExactEngine::expand(double scale) {
     // For k > degree_ + 1, |u_(k+1)| <= |u_k|/2. So the remainder is small if the two terms after degree_ are small.
     if (degree_ >= forcing_polynomial_degree_ &&
         growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
-        converges(sizes_, series.forcing, 1.0))
+        converges(sizes_, series.forcing, 1.0) && taylor_.friction_reach(degree_, 1.0) == 1.0)
       break;
     if (level == max_levels) break;
   }
   counters.solves += series.levels + 1;
   double x = std::min(1.0, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * scale));
   while (x > std::numeric_limits<double>::min() && !converges(sizes_, series.forcing, x)) x *= 0.9;
-  return x;
+  return taylor_.friction_reach(degree_, x);
 }
 
 /// Bound on the remainder of a form's polynomial on [0, x]. rest: bound on the remainder of the displacements, in the norm
@@ -456,7 +456,10 @@ void ExactEngine::begin_series(double scale) {
   limited_by_events_ = limited_by_events_ && x == 1.0;
   max_next_step_ = (limited_by_events_ ? much_longer : longer) * scale * x;
   valid_end_time_ = t_ + scale * x;
-  if (valid_end_time_ > segment_.end || segment_.end - valid_end_time_ < 0.01 * scale * x)
+  // A short remainder of the segment becomes part of the step, unless friction that depends on the slip rate changes there.
+  const double all = (segment_.end - t_) / scale;
+  if (valid_end_time_ > segment_.end ||
+      (segment_.end - valid_end_time_ < 0.01 * scale * x && taylor_.friction_reach(degree_, all) == all))
     valid_end_time_ = segment_.end;
   begin_x_ = 0.0;
   reach_ = (valid_end_time_ - t_) / scale;

@@ -125,4 +125,35 @@ TEST_CASE("where the rate is an unknown of its level the recursion takes it afte
   }
 }
 
+TEST_CASE("a series follows friction as far as its omitted terms are below rounding, also where it begins far from it") {
+  // slip that slows down, x = x0 - a t, so E = exp(-x0/v + a t/v)
+  constexpr double v = 0.7, a = 3.0;
+  for (const double x0 : {0.0, 2.0, 9.0, 30.0, 700.0})  // E_0 from 1 to zero by underflow
+    for (const double slowing : {a, -a})
+      for (const std::size_t degree : {12, 30}) {
+        CAPTURE(x0);
+        CAPTURE(slowing);
+        CAPTURE(degree);
+        contact::FrictionRecursion friction;
+        friction.begin(stribeck(), 1, x0);
+        for (std::size_t k = 1; k <= degree; ++k)
+          (void)friction.next(k == 1 ? -slowing : 0.0, [](std::size_t) { return 0.0; });
+        // Terms after E_degree, by the rest of the exponential series.
+        const auto rest = [&](double t) {
+          const double z = std::abs(slowing) * t / v;
+          double sum = 0.0, term = -x0 / v;  // logarithm
+          for (std::size_t k = 1; k < 4000; ++k) {
+            term += std::log(z / static_cast<double>(k));
+            if (k > degree) sum += std::exp(term);
+          }
+          return sum;
+        };
+        const double whole = 1e3, reach = friction.reach(degree, whole);
+        CHECK(reach < whole);
+        CHECK(rest(reach) <= 0.25 * 2.3e-16);
+        CHECK(rest(1.5 * reach) > 0.25 * 2.3e-16);  // not needlessly short
+        CHECK(friction.reach(degree, 0.5 * reach) == 0.5 * reach);
+      }
+}
+
 TEST_SUITE_END();

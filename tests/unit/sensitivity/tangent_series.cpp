@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "behaviour/one_mass.hpp"
 #include "signorini/sensitivity.hpp"
 
 using namespace signorini;
@@ -70,4 +71,41 @@ TEST_CASE("ten parameters beside each other are ten parameters one by one") {
       CHECK(std::abs(all.value_rates[p].back()[c] - x) <= 1e-9 * std::abs(x) + 1e-15);
     }
   }
+}
+
+TEST_CASE("the error of a tangent contains the friction that its series do not follow") {
+  // A mass slows down from 300 Stribeck velocities: E = exp(-x/v) is zero to its series, and not near the end.
+  const Model model = build_model(parse_scene(
+      tests::matrix_scene("t_end = 20.0\nengine = \"ida\"\ninitial = { u = [0.0], v = [3.0] }",
+                          "mass = [[1.0]]\nstiffness = [[0.0]]",
+                          "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\n"
+                          "friction = { static = 0.5, kinetic = 0.2, stribeck_velocity = 0.01 }"),
+      "test.toml"));
+  const linear::SystemMatrices structure(model);
+  motion::StateSystems systems(model, structure);
+  const motion::Forcing forcing(model, 0.0, motion::Side::after);
+  contact::ContactStates states(1);
+  states[0].state = State::slip_plus;
+  motion::Taylor taylor(systems);
+  motion::Series series;
+  constexpr double end = 14.99;
+  taylor.expand(systems.system_of(states), forcing, 0.0, model.u0, model.v0, 30, end, series);
+  sensitivity::ModelDerivative by_velocity;
+  by_velocity.mass = by_velocity.damping = by_velocity.stiffness = SparseMatrix(1, 1);
+  by_velocity.contacts.resize(1);
+  by_velocity.u0 = Vector::Zero(1);
+  by_velocity.v0 = Vector::Ones(1);
+  sensitivity::TangentSeries tangent(model, structure, by_velocity, 1.0);
+  const sensitivity::ForcingRates rates(model, by_velocity, 0.0, motion::Side::after);
+  const sensitivity::Tangent start{by_velocity.u0, by_velocity.v0, {0.0}};
+  REQUIRE(tangent.expand(*taylor.system(), series, rates, start, 0.5, 12));
+  CHECK(tangent.error() < 1e-12);
+  REQUIRE(tangent.expand(*taylor.system(), series, rates, start, 1.0, 12));
+  CHECK(tangent.error() > 0.1);
+  // Over a part that is as long as friction needs the error is rounding again.
+  const double reach = taylor.friction_reach(30, 1.0);
+  CHECK(reach > 0.7);
+  CHECK(reach < 0.95);
+  REQUIRE(tangent.expand(*taylor.system(), series, rates, start, reach, 12));
+  CHECK(tangent.error() < 1e-12);
 }

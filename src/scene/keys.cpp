@@ -555,7 +555,7 @@ std::string describe_type(const Key& key) {
     case flag:
       return key.type == flag ? "true or false" : "\"auto\", true or false";
     case KeyType::elements:
-      return "an integer >= 1, or an array of them, one for each piece";
+      return "an integer >= 1, or an array of such integers, one for each piece";
     case KeyType::initial:
       return "\"static\", \"frictional\" or a table";
     case fraction:
@@ -563,7 +563,7 @@ std::string describe_type(const Key& key) {
     case KeyType::place:
       return "the name of a node, or an array of two numbers [x, y]";
     case KeyType::against:
-      return "the name of a node, or an array of two";
+      return "the name of a node, or an array of two names";
     case KeyType::friction:
       return "a number >= 0 or a table such as { static, kinetic }";
     case KeyType::term:

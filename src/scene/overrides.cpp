@@ -76,7 +76,8 @@ class Change {
         segment += c;
         continue;
       }
-      if (segment.empty()) fail("expected path=value; the path is names separated by dots");
+      if (segment.empty())
+        fail("found an empty name in the path, expected path=value with names separated by dots");
       if (segments_.size() == most_parts) fail("found a path of more than 16 parts");
       segments_.push_back(segment);
       segment.clear();
@@ -196,8 +197,9 @@ class Change {
     const std::vector<std::size_t> chosen = chosen_by(which, array, names);
     if (chosen.empty()) {
       const std::string hint = base::suggestion(which, names);
+      if (array.empty()) fail(fmt::format("{} has no entries, so no \"{}\"", done, which));
       fail(fmt::format(
-          "{} has {}, none of them \"{}\"{}", done,
+          "{} has {}, but no \"{}\"{}", done,
           array.size() == 1 ? "1 entry" : std::to_string(array.size()) + " entries", which,
           hint.empty() ? fmt::format("; expected a name, a number from 1 to {}, or * for all", array.size())
                        : hint));

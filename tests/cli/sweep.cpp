@@ -201,7 +201,7 @@ TEST_CASE("cli sweep: what is wrong is told before anything is written") {
       {{"belt.toml", "--vary", "run.rtol"}, "expected path=start:stop:step"},
       {{"belt.toml", "--vary", "contacts.belt.friction=0:1:-1"}, "never reach 1"},
       {{"belt.toml", "--vary", "contacts.bult.friction=0:1:1"},
-       "--vary contacts.bult.friction=0: contacts has 1 entry, none of them \"bult\""},
+       "--vary contacts.bult.friction=0: contacts has 1 entry, but no \"bult\""},
       {{"belt.toml", "--vary", "run.rtoll=1,2"}, "did you mean \"rtol\"?"},
       {{"belt.toml", "--vary", "contacts.belt.friction=0.1-0.5"},
        "found \"0.1-0.5\", expected start:stop:step, such as 0.1:0.5:0.1"},

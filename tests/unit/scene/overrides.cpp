@@ -31,7 +31,7 @@ TEST_CASE("a part of gravity where the scene leaves it out: the other part is ze
       "run = { t_end = 1.0 }\nnodes = { b = [0.0, 1.0] }\nmasses = [{ node = \"b\", mass = 2.0 }]\n";
   CHECK(parse_scene(text, "test.toml", {{"gravity.2", "-9.81"}}).gravity == std::array{0.0, -9.81});
   CHECK_THROWS_WITH_AS((void)parse_scene(text, "test.toml", {{"gravity.3", "1"}}),
-                       doctest::Contains("gravity has 2 entries, none of them \"3\""), UsageError);
+                       doctest::Contains("gravity has 2 entries, but no \"3\""), UsageError);
 }
 
 TEST_CASE("overrides reach every kind of place") {
@@ -160,8 +160,8 @@ TEST_CASE("wrong overrides name themselves") {
   check_refused({"run.rtoll", "1e-3"}, "run.rtoll: unknown key; did you mean \"rtol\"?");
   check_refused({"runn.rtol", "1e-3"}, "--set runn.rtol=1e-3: unknown key; did you mean \"run\"?");
   check_refused({"contacts.frist.friction", "1"},
-                "contacts has 2 entries, none of them \"frist\"; did you mean \"first\"?");
-  check_refused({"contacts.3.friction", "1"}, "contacts has 2 entries, none of them \"3\"");
+                "contacts has 2 entries, but no \"frist\"; did you mean \"first\"?");
+  check_refused({"contacts.3.friction", "1"}, "contacts has 2 entries, but no \"3\"");
   check_refused({"masses.*.mass", "1"}, "masses");
   check_refused({"run.t_end.x", "1"}, "run.t_end is the number 1.2, not a table");
   check_refused({"run.t_end", "1e-1O"}, "found the string \"1e-1O\", expected a number > 0");

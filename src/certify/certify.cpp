@@ -225,7 +225,7 @@ std::string why_not(const Model& model, const RunSpec& run, const certify::Compa
   if (run::engine_row(plan.runs.front().run.engine).capabilities.closed_form_flow)
     seconds += static_cast<double>(report.counters.restarts) * run::seconds_of_event(model);
   return fmt::format(
-      "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "
+      "a companion run ({}) would take {} s (order of magnitude), but the run took only {:.2g} s; "
       "--certify starts one",
       plan.name, run::seconds_text(seconds), report.wall_time);
 }

@@ -238,8 +238,7 @@ std::string stiffness_rows(const Model& model, const check::CheckReport& report)
                number(s.stiffness), s.rest > 0.0 ? fmt::format("{:.4g}", s.rest) : "0",
                s.rest > 0.0 ? fmt::format("{:.3g}", s.stiffness / s.rest) : "only this contact resists"});
   }
-  return "contact stiffness, and the stiffness of the structure with all other contacts sticking at the same "
-         "place\n"
+  return "stiffness of each contact, and of the structure at the contact if all other contacts stick\n"
          "(ratio far above 1: the contact is nearly rigid; far below 1: it is soft):\n" +
          table.str() + more(report.stiffness.size()) + "\n";
 }
@@ -288,7 +287,8 @@ std::string reduction_lines(const Model& model) {
                                 : std::string(", none omitted\n");
   text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
   if (r.massive_shapes > 0)
-    text += fmt::format(", {} with mass up to {} {}", r.massive_shapes, number(r.highest_massive), per_time);
+    text += fmt::format(", {} with mass and frequencies up to {} {}", r.massive_shapes,
+                        number(r.highest_massive), per_time);
   text += fmt::format("; after jumps of loads the omitted modes would oscillate with an amplitude of {} {}\n",
                       number(r.ringing), model.units.length);
   const std::string give = unit(model.units.length + "/" + model.units.force);

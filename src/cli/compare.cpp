@@ -72,10 +72,11 @@ std::string sequence(const compare::ComparisonReport& report, std::size_t i) {
   const std::size_t pairs = alignment.pairs.size();
   std::string text =
       alignment.split
-          ? fmt::format("{} equal, then they differ at t = {:.9g}: {}; {} from this time on",
-                        base::count_text(pairs, "event"), alignment.split->t,
-                        compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
-                        base::count_text(alignment.split->unaligned, "event"))
+          ? fmt::format(
+                "{} in common, first difference at t = {:.9g}: {}; {} without counterpart from this time on",
+                base::count_text(pairs, "event"), alignment.split->t,
+                compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
+                base::count_text(alignment.split->unaligned, "event"))
           : fmt::format("the same, {}", base::count_text(pairs, "event")) + up_to(report, i);
   if (alignment.swapped > 0)
     text += fmt::format("; {} swapped with events of other contacts within their uncertainties",

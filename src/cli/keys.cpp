@@ -134,7 +134,9 @@ std::string key_list(const std::vector<std::string>& words) {
     }
     if (any) text += rows.str();
   }
-  if (text == heading) throw UsageError("no key matches " + base::join_quoted(words));
+  if (text == heading)
+    throw UsageError((words.size() == 1 ? "no key matches " : "no key matches all of ") +
+                     base::join_quoted(words));
   return text;
 }
 

@@ -260,7 +260,7 @@ std::string text_of(const Scene& scene, const Model& model, const Orbit& orbit, 
       orbit.amplitude, model.units.length, orbit.steps.size() - 1);
   text += stability_line(orbit);
   if (!orbit.multipliers.empty() && !orbit.reason.empty()) text += orbit.reason + "\n";
-  for (const std::string& family : orbit.families) text += "one of a family of orbits: " + family + "\n";
+  for (const std::string& family : orbit.families) text += "this orbit is one of a family: " + family + "\n";
   text += cycle_line(model, orbit);
   return text + "results: " + path.string() + "/ (orbit.json, and a run of one period)\n";
 }

@@ -39,7 +39,7 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
     throw UsageError(fmt::format("--seed: found {}, expected 0 to {}", options.seed, greatest_seed));
   const double steps = options.duration / options.dt;
   if (std::abs(steps - std::round(steps)) > 1e-6 * steps || steps < 100.0 || steps > 100000.0)
-    throw UsageError(fmt::format("--duration {}: expected a whole number of steps --dt {}, 100 to 100000",
+    throw UsageError(fmt::format("--duration {}: expected a multiple of --dt {}, from 100 to 100000 steps",
                                  base::format_number(options.duration), base::format_number(options.dt)));
   quake::QuakeSpec spec;
   spec.pga = options.pga;

@@ -296,12 +296,12 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
     table.row({key.path, number(key.start), std::isfinite(key.value) ? fmt::format("{:.9g}", key.value) : "-",
                std::isfinite(key.sigma) ? number(key.sigma) : "-"});
   return table.str() +
-         fmt::format("\n{} numbers, {} steps, {} runs: {}; {} {}\n", measured.rows.size(), fit.iterations,
-                     fit.runs, fit.reason, measured.has_sigma ? "chi squared" : "sum of squares",
-                     number(fit.chi_squared)) +
+         fmt::format("\n{} measured numbers, {} steps, {} runs: {}; {} {}\n", measured.rows.size(),
+                     fit.iterations, fit.runs, fit.reason,
+                     measured.has_sigma ? "chi squared" : "sum of squares", number(fit.chi_squared)) +
          (std::isfinite(fit.probability)
               ? fmt::format(
-                    "{} degrees of freedom; a value this large has by chance a probability of {:.2g}\n",
+                    "{} degrees of freedom; the probability of such a large value by chance is {:.2g}\n",
                     fit.freedom, fit.probability)
               : "");
 }

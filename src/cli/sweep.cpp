@@ -95,8 +95,11 @@ void specify_carry(const SweepOptions& options, sweep::SweepSpec& spec) {
     if (given) throw UsageError(fmt::format("--carry: cannot be combined with {}: {}", option, why));
   };
   refuse(!options.samples.empty(), "--sample", "drawn values have no order");
-  refuse(options.share.has_value(), "--share", "a row needs the row before it");
-  refuse(options.keep, "--keep", "the initial state of a run is in no file");
+  refuse(options.share.has_value(), "--share",
+         "each run starts from the final state of the run before, which may belong to another share");
+  refuse(
+      options.keep, "--keep",
+      "each run starts from the final state of the run before, and no file of the kept run has this state");
   spec.carry = {true, options.back};
   if (!options.back) return;
   const int group = spec.vary.back().group;
@@ -361,9 +364,10 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   SweepTasks tasks(directory, common, options.keep);
   const std::size_t kept = directory.rows().size();
   if (kept > 0 && options.keep && !options.quiet)
-    print_note("--keep: existing rows stay without directories of runs; --force computes them again");
+    print_note(
+        "--keep: rows that were already computed get no directories; --force computes these rows again");
   if (kept > 0 && !options.quiet)
-    print_note(fmt::format("{} of {} already computed, {} to go", base::count_text(kept, "row"),
+    print_note(fmt::format("{} of {} already computed, {} left", base::count_text(kept, "row"),
                            directory.spec().carry.on ? directory.points().size() : kept + tasks.rows(),
                            tasks.rows()));
   if (!run_rows(directory, tasks, options)) {
@@ -422,7 +426,8 @@ SweepOptions with_engine(SweepOptions options) {
   for (const std::string& varied : options.varied)
     if (varied.starts_with("run.engine="))
       throw UsageError(
-          fmt::format("--engine {}: has no effect, --vary {} sets it in every run", options.engine, varied));
+          fmt::format("--engine {}: has no effect, because --vary {} sets the engine of every run",
+                      options.engine, varied));
   const Override engine = engine_override(options.engine, "--engine");
   options.settings.push_back(engine.path + "=" + engine.value);
   return options;

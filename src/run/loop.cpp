@@ -267,8 +267,11 @@ RunEnd Loop::end() {
   engine::StepperReport engine = engine_->report();
   rescale(model_, engine);
   hooks_.listeners.end(current_point(), engine);
-  const auto stored = [&](const Vector& u) { return 0.5 * structure_.magnitude(structure_.k, u.data()); };
-  const double rounding = rounding::many_operations * std::max(stored(model_.u0), stored(state_.point.u));
+  const auto elastic_magnitude = [&](const Vector& u) {
+    return 0.5 * structure_.magnitude(structure_.k, u.data());
+  };
+  const double rounding =
+      rounding::many_operations * std::max(elastic_magnitude(model_.u0), elastic_magnitude(state_.point.u));
   return {std::move(report_), rounding, !record_.law_violated().empty()};
 }
 

@@ -287,7 +287,7 @@ std::string count_matching_tables(const toml::table& root, const std::string& pa
   std::size_t met = 0, stops = 0;
   const std::string kind = path.substr(0, path.find('.'));
   for (const std::string& place : places_of(root, path)) ++(place.starts_with(kind + ".") ? met : stops);
-  std::string text = fmt::format("{} of [[{}]]", tables_in(root, kind) > 0 ? met : 0, kind);
+  std::string text = fmt::format("matches {} of [[{}]]", tables_in(root, kind) > 0 ? met : 0, kind);
   if (!path.starts_with(all_contacts) || tables_in(root, "stops") == 0) return text;
   text += fmt::format(", {} of [[stops]]", stops);
   if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)

@@ -113,16 +113,17 @@ TEST_CASE("contacts.* are those of [[stops]], too") {
 
 TEST_CASE("a path with * says how many tables it met") {
   const toml::table root = toml::parse(guided("tangential_stiffness = 1e3\n"));
-  CHECK(scene::count_matching_tables(root, "contacts.*.friction") == "3 of [[contacts]], 2 of [[stops]]");
-  CHECK(scene::count_matching_tables(root, "stops.*.friction") == "2 of [[stops]]");
+  CHECK(scene::count_matching_tables(root, "contacts.*.friction") ==
+        "matches 3 of [[contacts]], 2 of [[stops]]");
+  CHECK(scene::count_matching_tables(root, "stops.*.friction") == "matches 2 of [[stops]]");
   CHECK(scene::count_matching_tables(root, "masses.*.mass") == "3 of [[masses]]");
   CHECK(scene::count_matching_tables(root, "contacts.under-a.friction").empty());
   CHECK(scene::count_matching_tables(root, "contacts.*.tangent") ==
-        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
+        "matches 3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   // A guide without a tangential stiffness stays without friction, and is told.
   const std::string smooth = guided("");
   CHECK(scene::count_matching_tables(toml::parse(smooth), "contacts.*.friction") ==
-        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
+        "matches 3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   const Scene scene = parse_scene(smooth, "test.toml", {{"contacts.*.friction", "0.7"}});
   CHECK(scene.contacts[0].friction.static_ == 0.7);
   CHECK_FALSE(scene.contacts[3].friction.any());

@@ -233,7 +233,7 @@ bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<cont
   now.t = s.t;
   if (!recorder_.progress(s.t)) return stop("interrupted", Outcome::Kind::interrupted);
   auto stands = stall_detector_.count(s.t, s.resolution, concerned(now, adopted));
-  if (stands) *stands += "; last: " + decide::names_of(model_, now.triggered);
+  if (stands) *stands += "; last events: " + decide::names_of(model_, now.triggered);
   std::optional<motion::Forcing> before;
   stretch_.same_forcing = !change.any;
   if (change.any) before = std::exchange(s.forcing, motion::Forcing(model_, s.t, motion::Side::after));

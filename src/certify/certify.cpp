@@ -134,11 +134,12 @@ class CompanionTask {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
     } else if (tracker_.too_long) {
-      track.stop = "the companion takes far longer than expected; --certify lets it continue";
+      track.stop =
+          "the companion took far longer than expected and was stopped; --certify lets it run to the end";
     } else if (report_.outcome.kind == Outcome::Kind::stopped) {
       track.stop = "the companion stopped: " + report_.outcome.reason;
     } else if (report_.outcome.kind == Outcome::Kind::interrupted) {
-      track.stop = "the companion was stopped with the run";
+      track.stop = "the companion was interrupted together with the run";
     }
     return track;
   }

@@ -151,7 +151,7 @@ void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
 std::string swap_text(const Sensitivities& s) {
   std::string text;
   for (const SequenceChange& swap : smallest_sequence_changes(s))
-    text += fmt::format("{0}: to first order events {1} and {2} coincide if {0} = {3} (change {4}{5})\n",
+    text += fmt::format("{0}: events {1} and {2} coincide, to first order, if {0} = {3} (change {4}{5})\n",
                         s.parameters[swap.parameter].path, swap.first + 1, swap.second + 1,
                         number(s.parameters[swap.parameter].value + swap.change),
                         swap.change > 0.0 ? "+" : "", number(swap.change));
@@ -165,8 +165,8 @@ std::string summary_of(const Sensitivities& s, const sensitivity_study::Sigmas& 
   std::string text = first_events(s) + table.str() + "\n" + swap_text(s);
   for (const Parameter& parameter : s.parameters)
     if (!parameter.reason.empty())
-      text += fmt::format("{}: derivatives known until t = {}: {}\n", parameter.path, number(parameter.until),
-                          parameter.reason);
+      text += fmt::format("{}: derivatives are known until t = {}; then: {}\n", parameter.path,
+                          number(parameter.until), parameter.reason);
   if (sigmas.empty()) return text;
   const sensitivity_study::Spread spreads = sensitivity_study::spread(s, sigmas);
   Table figures({"x", "contact", "value", "sigma", "unit"}, {false, false, true, true, false});

@@ -165,8 +165,8 @@ std::string summary_of(const Sensitivities& s, const sensitivity_study::Sigmas& 
   std::string text = first_events(s) + table.str() + "\n" + swap_text(s);
   for (const Parameter& parameter : s.parameters)
     if (!parameter.reason.empty())
-      text += fmt::format("{}: derivatives are known until t = {}; then: {}\n", parameter.path,
-                          number(parameter.until), parameter.reason);
+      text += fmt::format("{}: derivatives end at t = {}: {}\n", parameter.path, number(parameter.until),
+                          parameter.reason);
   if (sigmas.empty()) return text;
   const sensitivity_study::Spread spreads = sensitivity_study::spread(s, sigmas);
   Table figures({"x", "contact", "value", "sigma", "unit"}, {false, false, true, true, false});
@@ -257,7 +257,7 @@ void add_sensitivity(Program& program) {
   add_scene(*command, *options);
   add_keyed_options(
       *command, *options,
-      "key of the scene with respect to which to differentiate: contacts.*.friction, loads.1.amplitude",
+      "key of the scene for derivatives with respect to its value: contacts.*.friction, loads.1.amplitude",
       "earlier sensitivities", "-sensitivity", "sensitivity.json");
   command->add_flag("--no-plots", options->no_plots, "do not write pictures or gnuplot scripts");
   command->add_flag("--losses", options->losses,
@@ -353,8 +353,8 @@ void add_fit(Program& program) {
   add_scene(*command, *options);
   command
       ->add_option("DATA", options->data,
-                   "CSV with t and event_index (optional with it: contact, event) or columns of history.csv, "
-                   "or both; optional: sigma")
+                   "CSV with t and event_index (optionally also contact and event), or with t and columns of "
+                   "history.csv, or with both; optional: sigma")
       ->required();
   add_keyed_options(*command, *options, "a key of the scene to find", "an earlier fit", "-fit", "fit.json");
   command->callback([&program, options] { program.action = [options] { return run_fit(*options); }; });

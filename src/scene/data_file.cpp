@@ -157,8 +157,8 @@ class TableReader {
       if (line == 3 && !table_.unit && !layout_.unit_given)
         fail(fmt::format(
             "found \"{}\", and no unit of acceleration in the first three lines; expected for example "
-            "\"ACCELERATION IN UNITS OF G\" (G, CM/S/S, M/S/S, MM/S/S or GAL), because records of "
-            "velocity or displacement cannot be used",
+            "\"ACCELERATION IN UNITS OF G\" (G, CM/S/S, M/S/S, MM/S/S or GAL); records of velocity or "
+            "displacement cannot be used",
             base::excerpt(line_)));
     }
     std::vector<double> numbers;
@@ -170,9 +170,8 @@ class TableReader {
                        numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
     if (!contains_word(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
       fail(
-          "found no valid NPTS and DT in the fourth line of the PEER file, expected for example \"NPTS= "
-          "5372, "
-          "DT= .0050\"");
+          "found no valid NPTS and DT in the fourth line of the PEER file, expected for example "
+          "\"NPTS= 5372, DT= .0050\"");
     points_ = static_cast<std::size_t>(numbers[0]);
     layout_.time_step = numbers[1] * layout_.second;
     heading_allowed_ = false;

@@ -117,7 +117,7 @@ class Reader {
       fail(symmetric_ ? "found a symmetric matrix, expected a general matrix with one column"
                       : fmt::format("found {} columns, expected one", columns));
     if (!vector_ && rows != columns)
-      fail(fmt::format("found {} x {} entries, expected a square matrix", rows, columns));
+      fail(fmt::format("found a matrix of {} x {}, expected a square matrix", rows, columns));
     matrix_.size = static_cast<int>(rows);
     if (coordinate_) {
       count_ = index(2, 0, std::min(most_entries, rows * columns), "a number of entries");

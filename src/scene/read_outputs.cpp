@@ -133,9 +133,10 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
     output.terms.push_back(read_term(terms, entry, scene));
     const OutputTerm &first = output.terms.front(), &term = output.terms.back();
     if (!same_unit(unit_of_term(first, scene.outputs), unit_of_term(term, scene.outputs)))
-      terms.fail(entry.name, fmt::format("terms {} and {} have different units; give a factor its unit: {{ "
-                                         "factor = ..., unit = \"...\" }}",
-                                         described(term, scene), described(first, scene)));
+      terms.fail(entry.name,
+                 fmt::format("terms {} and {} have different units; give one of the factors a unit: {{ "
+                             "factor = ..., unit = \"...\" }}",
+                             described(term, scene), described(first, scene)));
   }
   if (output.terms.empty()) table.fail("terms", "found no output, expected { name = factor }");
   table.record("terms", terms.record().inline_table());

@@ -117,9 +117,10 @@ void read_release(Table& table, Member& member) {
   if (!member.release.empty() && member.type == MemberType::bar)
     table.fail("release", "has no meaning for a bar, which is hinged at both ends");
   if (!member.release.empty() && member.nodes.front() == member.nodes.back())
-    table.fail("release", fmt::format("found \"{}\", which is the member's first and last node: expected a "
-                                      "member with two ends",
-                                      member.nodes.front()));
+    table.fail("release",
+               fmt::format("found \"{}\", which is the first and the last node of the member; expected a "
+                           "member with two different ends",
+                           member.nodes.front()));
   if (member.release.size() == 2 && member.release[0] == member.release[1])
     table.fail("release", "found \"" + member.release[0] + "\" twice, expected each end once");
 }

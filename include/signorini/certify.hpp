@@ -7,12 +7,12 @@
 //   D_k = greatest |t - t'| over the events k-4 to k
 //   t_error_k = c D_k + l t_uncertainty_k + 2 eps t_k
 //
-// Events are paired contact by contact, in their order. The sequence is certain until
+// Events are paired contact by contact, in their order. The certain part of the sequence ends as soon as one of these occurs:
 //
-//   an event has no partner, or its partner differs in contact, from or to
-//   c |change of t - t'|, from one event of a contact to the next, exceeds half the time between them
-//     (an error that both events share does not change their order)
-// the companion run has stopped
+//   an event has no partner, or the contact, `from` or `to` of the partner is different
+//   c |change of t - t'|, from one event of a contact to the next, exceeds half the time between these two events
+//     (an error that is equal for both events does not change their order)
+//   the companion run stops
 //
 // If two events of different contacts lie closer than their errors, their order is uncertain. Such pairs are counted
 // (Certificate::unordered) but do not end the certificate. validation/certified measures how often the bounds are correct.
@@ -35,9 +35,9 @@ namespace signorini {
 /// Error bounds of the values in history.csv; empty if the run recorded no rows.
 struct HistoryErrors {
   std::vector<double> t;  ///< times of the rows that run and companion have in common
-  /// Number of columns: those of the model; with CertifyOptions::forces also N and T of each contact, then the outputs.
+  /// Number of columns: the columns of the model; with CertifyOptions::forces also N and T of each contact, then the outputs.
   std::size_t width = 0;
-  /// bounds[row, column], row by row; infinite from `Certificate::until` on. Units: those of the columns.
+  /// bounds[row, column], row by row; infinite from `Certificate::until` on. Unit: the unit of the column.
   std::vector<double> bounds;
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return bounds[row * width + column]; }
 };
@@ -66,9 +66,10 @@ struct Certificate {
   std::vector<std::optional<Peak>> peaks;
   std::vector<std::vector<std::optional<Landing>>> landings;  ///< error bounds of Report::landings
   std::optional<Truncation> reduction;                        ///< present only for a reduced model
-  double wall_time = 0.0;                                     ///< wall time of all companion runs together, s
-  double wait = 0.0;  ///< time from the end of the run to the end of its companion runs, s
+  double wall_time = 0.0;  ///< sum of the wall times of all companion runs, s
+  double wait = 0.0;       ///< wall time from the end of the run to the end of its last companion run, s
 
+  /// True if the row of events.csv is certain, that is, if its error bound is not NaN.
   [[nodiscard]] bool certain(std::size_t row) const { return t_errors[row] == t_errors[row]; }
   /// Number of certain rows of events.csv.
   [[nodiscard]] std::size_t certain_events() const;
@@ -87,8 +88,8 @@ struct CertifyOptions {
   bool forces = false;  ///< true: also computes bounds of N, T and outputs at the output times
 };
 
-/// simulate() together with a companion run if settings.certify asks for one; the companion changes no bit of the run.
-/// Errors: SceneError if the engine of the run or of the requested companion refuses the scene.
+/// simulate() together with a companion run if settings.certify asks for one; the companion run does not change the results of
+/// the run. Errors: SceneError if the engine of the run or of the requested companion refuses the scene.
 [[nodiscard]] CertifiedReport simulate_certified(const Model& model, const RunSpec& settings,
                                                  Recorder& recorder, const CertifyOptions& options = {});
 

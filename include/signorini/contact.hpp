@@ -14,7 +14,7 @@
 // surface. If a rigid contact closes with g' < 0, an impact is computed (decide/impact.hpp). With Stribeck friction fk
 // depends on the slip rate (contact/friction.hpp).
 //
-// With a shear element (kt and ct side by side) p is an unknown:
+// With a shear element (kt and ct in parallel) p is an unknown:
 //   ct (ut' - p') + kt (ut - p) = T,   and p' = 0 in stick
 // A slider has no gap and the normal row N = -normal_force(t); without kt its row in stick is ut'' = 0.
 // A user law may replace all rows and guards: user_contact_law.hpp. The interface of all laws: contact_law.hpp.
@@ -47,7 +47,7 @@ struct Combination {
     for (const auto& [index, factor] : terms) sum += factor * u[index];
     return sum;
   }
-  /// Sum of the magnitudes of the terms of dot(), to which the rounding error of dot() is relative.
+  /// Sum of the magnitudes of the terms of dot(); the rounding error of dot() is proportional to this sum.
   template <class V>
   [[nodiscard]] double magnitude(const V& u) const {
     double sum = 0.0;
@@ -61,7 +61,7 @@ struct Combination {
   }
 };
 
-/// A spring and a dashpot side by side between the body and its sliding point:
+/// A spring and a dashpot in parallel between the body and its sliding point:
 ///
 ///   T = stiffness (ut - p) + damping (ut' - p')
 ///
@@ -85,11 +85,11 @@ struct Contact {
   double normal_damping = 0.0;                    ///< dashpot parallel to the normal spring
   Friction friction;
   double restitution = 0.0;  ///< rigid: Newton's coefficient
-  /// rigid: a rebound with a departure speed below this velocity comes to rest; absent: the engine's default
+  /// rigid: the contact stays closed after a rebound with a departure speed below this velocity; absent: the engine's default
   std::optional<double> capture_velocity;
-  History normal_force;    ///< slider: the given compression, >= 0
-  History surface_motion;  ///< integral of the surface velocity from t = 0
-  double initial_shear = 0.0;
+  History normal_force;        ///< slider: the given compressive force, >= 0
+  History surface_motion;      ///< integral of the surface velocity from t = 0
+  double initial_shear = 0.0;  ///< force T of the tangential spring at t = 0
   /// Sign of the slip at t = 0; needed because T below the static limit does not determine the sign.
   int initial_slip = 0;
   std::size_t initial_law_state = 0;                   ///< user law: initial state
@@ -107,7 +107,7 @@ struct Contact {
   [[nodiscard]] std::optional<double> normal_spring() const {
     return law->capabilities.normal_spring ? std::optional(normal_stiffness) : std::nullopt;
   }
-  /// N <= 0 of the normal spring if the contact rests at displacements u; nullopt: u does not determine N.
+  /// Force N <= 0 of the normal spring at displacements u and zero velocity; nullopt: u does not determine N.
   template <class U>
   [[nodiscard]] std::optional<double> resting_force(const U& u) const {
     return law->capabilities.normal_spring ? std::optional(normal_stiffness * std::min(0.0, gap_at(u)))
@@ -163,9 +163,9 @@ struct Contact {
     return has_friction() && !law->capabilities.normal_spring && !tangential_stiffness && !shear;
   }
   /// True if T is the force of a constraint while N is given: the contact constrains the tangent alone.
-  [[nodiscard]] bool holds_tangent_only() const { return normal_force_given() && sticks_rigidly(); }
+  [[nodiscard]] bool constrains_tangent_only() const { return normal_force_given() && sticks_rigidly(); }
   /// True if T is the force of a constraint in this state.
-  [[nodiscard]] bool holds_tangent(State state) const {
+  [[nodiscard]] bool constrains_tangent(State state) const {
     return kind_of(state) == State::stick && !tangential_stiffness && !shear;
   }
   /// Gap g at displacements u.
@@ -180,7 +180,7 @@ struct Contact {
 /// State and memory of one contact. They change only at events.
 struct ContactState {
   State state = State::open;
-  /// Memory p; meaningful in stick with tangential stiffness. With a user law: the memory of that law.
+  /// Memory p: the anchor of the tangential spring, used only in stick; with a user law, the memory of that law.
   double anchor = 0.0;
 
   [[nodiscard]] bool is_open() const { return signorini::is_open(state); }

@@ -37,7 +37,7 @@ enum class Guard : unsigned char;
 /// The laws that a scene can name; user laws are defined by data instead (user_contact_law.hpp).
 enum class Law { compliant, rigid, slider };
 
-/// How a law determines the forces, and which conditions check them.
+/// How a law determines the forces, and which conditions the forces satisfy.
 struct LawCapabilities {
   /// True: N = -normal_force(t) is given, independent of the motion, and there is no gap. False: N is an unknown, with g >= 0
   /// and N <= 0.
@@ -73,8 +73,8 @@ struct LawCapabilities {
 
 class ContactLaw {
  public:
-  static constexpr std::size_t most_guards = 3;
-  using Guards = std::array<GuardForm, most_guards>;
+  static constexpr std::size_t max_guards = 3;
+  using Guards = std::array<GuardForm, max_guards>;
   using VisitConstant = std::function<void(double&, const Unit&)>;
 
   explicit ContactLaw(const LawCapabilities& of) : capabilities(of) {}
@@ -96,15 +96,15 @@ class ContactLaw {
   [[nodiscard]] virtual Guards guards(const Contact& contact, const ContactState& state) const = 0;
   /// Slip rate p' as a form, in a state that slips in direction s.
   [[nodiscard]] virtual Form slip_rate(const Contact& contact, int s) const = 0;
-  /// State after the guard `failed` of state `now` has reached zero; jet: the motion in state `now`.
+  /// State after the guard `failed` of state `now` has reached zero. jet: motion in state `now`, with time derivatives.
   [[nodiscard]] virtual ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                                 const MotionJet& jet) const = 0;
-  /// States that may follow `now` if the guards do not decide; `before`: the motion just before the instant.
+  /// States that may follow `now` if guards do not determine the next state; `before`: the motion just before the instant.
   [[nodiscard]] virtual std::vector<ContactState> candidates(const Contact& contact, const ContactState& now,
                                                              const ContactMotion& before) const = 0;
 
   // Interface for energies and for the conditions of the law. Units and signs: src/contact/work.hpp and law.hpp.
-  /// Slip rate by which T is multiplied in the power of ContactWork::friction.
+  /// Factor of T in the power of ContactWork::friction: p' of a slipping contact, ut' for a user law, otherwise 0.
   [[nodiscard]] virtual double working_slip_rate(const Contact& contact, State state,
                                                  const ContactMotion& m) const = 0;
   [[nodiscard]] virtual ContactWork work(const Contact& contact, State state, double N, double T,
@@ -120,7 +120,7 @@ class ContactLaw {
   [[nodiscard]] virtual std::vector<State> user_law_states() const { return {}; }
   /// True if the law has a rule that sets p at events.
   [[nodiscard]] virtual bool has_memory() const { return false; }
-  /// Copy of the law after `visit` was called for each constant; nullptr: the law has no constants.
+  /// Copy of the law in which `visit` may change each constant; nullptr: the law has no constants.
   [[nodiscard]] virtual std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const;
   [[nodiscard]] virtual bool equals(const ContactLaw& other) const { return this == &other; }
 };
@@ -128,7 +128,7 @@ class ContactLaw {
 /// Shared pointer to the law of a contact; never null.
 class ContactLawPtr {
  public:
-  ContactLawPtr(Law law = Law::compliant);  // NOLINT(google-explicit-constructor): by name
+  ContactLawPtr(Law law = Law::compliant);  // NOLINT(google-explicit-constructor): converts a Law
   ContactLawPtr(std::shared_ptr<const ContactLaw> law)
       : law_(std::move(law)) {}  // NOLINT(google-explicit-constructor)
   /// Makes a user law.

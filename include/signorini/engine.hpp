@@ -21,12 +21,12 @@ enum class Accuracy { rounding, tolerance, step };
 struct EngineInfo {
   Engine engine = Engine::automatic;
   std::string_view name;   ///< name in scene files
-  std::string_view title;  ///< name of the method in full
+  std::string_view title;  ///< full name of the method
   Accuracy accuracy = Accuracy::rounding;
   std::string_view specific_keys;  ///< keys of [run], separated by blanks, that only this engine uses
 };
 
-/// Lists and reports use this order.
+/// All engines, in the order of lists and reports.
 inline constexpr std::array all_engines = {
     EngineInfo{Engine::exact, "exact", "Taylor series", Accuracy::rounding, ""},
     EngineInfo{Engine::ida, "ida", "BDF of SUNDIALS IDA", Accuracy::tolerance, "max_order"},

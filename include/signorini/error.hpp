@@ -22,7 +22,7 @@ enum class ExitCode : int {
   interrupted = 130
 };
 
-/// A place in a text file; line and column count from 1; 0 means unknown.
+/// A place in a text file; lines and columns are numbered from 1; 0: unknown.
 struct SourcePlace {
   /// Value of `line` for a place on the command line; `file` is then the text typed by the user (Override::shown_as).
   static constexpr int command_line = -1;

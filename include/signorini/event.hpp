@@ -1,10 +1,12 @@
 // event.hpp: an event, which is a change of a contact's state and a row of events.csv.
 //
-// x- values just before the instant x+ values just after all changes at the instant (`_after`)
+// Members without suffix are values just before the instant, members with the suffix `_after` are values just after all
+// changes at the instant.
 //
-// One table lists the event types, another the columns. All code that writes, reads, compares or documents events.csv uses
-// these tables. A new column needs a member, a row in the table, and a line in run/event_log.cpp that fills it. A new type
-// needs a row, a rule in run/event_log.cpp, and a colour in result/plot_parts.hpp.
+// all_event_types lists the event types, event_columns the columns of events.csv. All code that writes, reads, compares or
+// documents events.csv uses these tables. A new column needs a member, a row in event_columns, and a line in
+// run/event_log.cpp that fills the member. A new type needs a row in all_event_types, a rule in run/event_log.cpp, and a
+// colour in result/plot_parts.hpp.
 #pragma once
 
 #include <array>
@@ -44,7 +46,7 @@ inline constexpr std::array all_event_types = {
   return all_event_types[static_cast<std::size_t>(type)].name;
 }
 
-/// Number of events that change a state; jumps of loads are left out.
+/// Number of events that change a state; jumps of loads are not counted.
 [[nodiscard]] inline long count_state_changes(const std::map<std::string, long>& by_type) {
   long sum = 0;
   for (const auto& [type, count] : by_type) sum += type == to_string(EventType::time) ? 0 : count;
@@ -56,7 +58,7 @@ struct Event {
   double t = 0.0;
   int contact = -1;  ///< index into Model::contacts
   EventType type = EventType::time;
-  State from = State::open, to = State::open;  ///< a user law has its own states
+  State from = State::open, to = State::open;  ///< built-in states, or states of a user law
   std::optional<double> gap;                   ///< absent for sliders, which have no gap
   double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
   double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
@@ -66,8 +68,9 @@ struct Event {
   /// Error bound of t from the error delta of the guard at this instant: delta / |g'|, or a bound by higher derivatives if
   /// the guard grazes zero. Errors carried over from earlier events are not included.
   std::optional<double> t_uncertainty;
-  /// Only for a rigid contact that touched: departure speed / speed below which the contact stays closed (capture_velocity,
-  /// or a flight lower than rounding). Above 1 the contact rebounded. Not a column of events.csv.
+  /// Only for a rigid contact that touched: ratio of the departure speed to the speed below which the contact stays closed.
+  /// That speed is capture_velocity, or follows from the rounding error of the gap. A ratio above 1: the contact rebounded.
+  /// Not a column of events.csv.
   std::optional<double> departure;
 };
 
@@ -76,7 +79,7 @@ struct EventColumn {
                              EventType Event::*, State Event::*>;
   const char* name;
   const char* unit;  ///< in units of force, length, time; "" for a plain number
-  Field field;       ///< an int field is a contact, shown by its name
+  Field field;       ///< a field of type int is the index of a contact; the cell shows the contact's name
   const char* meaning;
   bool of_contact = true;  ///< true: the cell is empty in rows without a contact
 };

@@ -1,11 +1,12 @@
 // fit.hpp: least-squares fit of scene keys to measurements.
 //
-//   minimise  sum_i ( (x_i(p) - m_i) / sigma_i )^2 over p         x_i: a time of an event, or a column at a time
+//   minimise  sum_i ( (x_i(p) - m_i) / sigma_i )^2 over p         x_i: time of an event, or value of a column
 //   covariance = (J^T J)^-1,  J_ij = (dx_i/dp_j) / sigma_i        J: the exact derivatives (sensitivity.hpp)
 //
 // Method: Levenberg-Marquardt (GSL). If no sigma is given, the covariance is multiplied by chi^2 / (rows - keys).
-// Units: those of the scene. A fit is converged if three conditions are satisfied: the Newton step by J is zero within the
-// tolerance, at the result and on both sides of every key; J distinguishes all keys; the run explains the measurements.
+// Units: those of the scene. A fit is converged if three conditions are satisfied: the Newton step computed with J is zero
+// within the tolerance, at the result and on both sides of it along every key; J has full column rank; the residuals agree
+// with the standard deviations sigma.
 #pragma once
 
 #include <limits>
@@ -14,7 +15,7 @@
 
 namespace signorini {
 
-/// One measured number with its sigma.
+/// One measured number with its standard deviation sigma.
 struct Measurement {
   std::size_t event = 0;  ///< row of events.csv, from 1; 0: the value belongs to a column
   std::string contact;    ///< contact of the event; empty: not checked
@@ -34,7 +35,7 @@ struct Measurements {
 
 /// Reads a table with a column t and any of these columns: event_index, columns of history.csv or columns-1.csv, and sigma.
 /// sigma applies to every number of its row. With event_index, the columns contact and event are compared with that row of
-/// events.csv. Empty cells are skipped. Errors: FileError; Error with the line.
+/// events.csv. Empty cells are skipped. Errors: FileError; Error with the line number of invalid data.
 [[nodiscard]] Measurements read_measurements(const std::string& path);
 
 struct FittedKey {
@@ -50,7 +51,7 @@ struct Fit {
   std::vector<double> residuals;  ///< x_i - m_i at the result; NaN: the run has no such event or column value
   double chi_squared = 0.0;
   long freedom = 0;  ///< degrees of freedom: number of measurements minus number of determined keys
-  /// Probability of a chi^2 at least this large by chance. NaN: no sigma was given, or no degree of freedom is left.
+  /// Probability of a chi^2 at least this large by chance. NaN: no sigma was given, or there are no degrees of freedom.
   double probability = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0, runs = 0;
   bool converged = false;
@@ -59,8 +60,8 @@ struct Fit {
 };
 
 /// `go_on` is called before every run; false stops the fit. Errors: those of sensitivities(); UsageError if there are fewer
-/// rows than keys, or a column is unknown. A measurement is refused if its event is absent or differs in the first run, or if
-/// its time is after the end: Error with the line of the file, UsageError if there is no file.
+/// rows than keys, or a column is unknown. A measurement is refused if the first run has no such event or a different one, or
+/// if the measurement's time is after the end of the run: Error with the line of the file, UsageError if there is no file.
 [[nodiscard]] Fit fit(const SceneReader& read, const std::vector<std::string>& paths,
                       const Measurements& measured, const std::function<bool()>& go_on = {});
 

@@ -1,7 +1,7 @@
 // force_layout.hpp: index of a contact's forces in the vector of all forces, and of its guards in that of all guards.
 //
-// forces N_1, T_1, N_2, T_2, ... the normal force of each contact, then its tangential forces
-//   guards   G_11, G_12, ...,  G_21, ...   the guards of each contact in turn, in the order of its law
+//   forces   N_1, T_1, N_2, T_2, ...       for each contact in turn: the normal force, then the tangential forces
+//   guards   G_11, G_12, ...,  G_21, ...   for each contact in turn: the guards, in the order of the contact's law
 //
 // Residual rows of contacts have the order of the forces. The law of a contact defines its number of tangents and of guards
 // (LawCapabilities); only ForceLayout computes indices from these numbers. A `place` is the index of a force, a `slot` the
@@ -68,7 +68,7 @@ class ForceLayout {
   [[nodiscard]] std::size_t tangent(std::size_t contact, std::size_t i = 0) const {
     return starts_[contact].place + 1 + i;
   }
-  /// Contact to which a place belongs.
+  /// Contact to which the force at a place belongs.
   [[nodiscard]] std::size_t contact_of(std::size_t place) const { return table_->contact_of_place[place]; }
   [[nodiscard]] bool is_normal(std::size_t place) const { return place == normal(contact_of(place)); }
   /// False for an unused place after the tangents of a contact.

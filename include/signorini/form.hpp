@@ -3,9 +3,9 @@
 //   value = c + a_N N + a_T T + a_g g + a_ut ut + a_vn g' + a_vt ut' + a_an g'' + a_at ut''
 //             + a_q q + a_q' q' + a_F F + a_F' F'        q = normal_force(t), F = f(|N|) |N|
 //
-// Residual rows (value = 0) and guards (value > 0) are such forms. So an engine reads a contact law as data, and the time
-// derivatives of rows and guards follow from those of the motion. F is the limit of the friction force if the coefficient
-// depends on N. F is the only term that is not linear in the motion; it is computed with the motion of the contact
+// Residual rows (value = 0) and guards (value > 0) are such forms. So a contact law is data for an engine, and the time
+// derivatives of rows and guards follow from the derivatives of the motion. F is the limit of the friction force if the
+// coefficient depends on N. F is the only term that is not linear in the motion; it is computed with the motion of the contact
 // (contact/friction.hpp).
 #pragma once
 
@@ -29,8 +29,9 @@ enum class State : unsigned char {
 };
 
 inline constexpr std::size_t max_user_law_states = 31;
-/// State i of a user law (user_contact_law.hpp), 0 <= i < max_user_law_states. `kind` is the built-in state that replaces it
-/// where only built-in states are known, for example in files. The result differs from every built-in state.
+/// State i of a user law (user_contact_law.hpp), 0 <= i < max_user_law_states. `kind` is the built-in state that
+/// replaces the user state where only built-in states are known, for example in files. The result differs from every
+/// built-in state.
 [[nodiscard]] constexpr State user_law_state(std::size_t i, State kind) {
   return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));
 }

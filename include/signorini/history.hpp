@@ -5,7 +5,7 @@
 //
 // Every load history, compression and surface velocity is such a function. It is right-continuous, and smooth between its
 // breakpoints. A Piece continues smoothly beyond both of its ends, so that an integrator may evaluate a piece at the
-// breakpoint where it ends. A user-defined F must do the same.
+// breakpoint where the piece ends. A user-defined F must also be smooth beyond both ends of its piece.
 //
 //   History({1.0}, {Piece::of(smooth([](auto t) { return 3.0 * sin(t * t); })), Piece{}})     smooth.hpp
 //
@@ -24,7 +24,7 @@ namespace signorini {
 /// order is then decided by rounding. The function must be pure: the same t always gives the same result.
 using Function = std::function<double(double t, int order)>;
 
-/// One smooth piece of a history. Units: those of f; times in the scene's unit of time.
+/// One smooth piece of a history. Values have the unit of f; times are in the scene's unit of time.
 struct Piece {
   double origin = 0.0;               ///< t0
   std::vector<double> coefficients;  ///< c_j, ascending powers of (t - t0)
@@ -73,7 +73,7 @@ class History {
   [[nodiscard]] double value(double t) const { return piece(t).value(t); }
   /// All breakpoints, in ascending order.
   [[nodiscard]] std::vector<Breakpoint> breakpoints() const;
-  /// The history offset + factor * f.
+  /// The history t -> offset + factor * f(t).
   [[nodiscard]] History scaled(double factor, double offset = 0.0) const;
   /// F(t) = integral of f from 0 to t, continuous. Errors: std::invalid_argument if there are user-defined functions.
   [[nodiscard]] History integrated() const;
@@ -81,9 +81,10 @@ class History {
   [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
   /// The history t -> f(t - dt). Errors: std::invalid_argument if rounding merges starts; the same error in repeated().
   [[nodiscard]] History shifted(double dt) const;
-  /// The history that is equal to this one before t and to `next` from t on.
+  /// The history that is equal to f before t and to `next` from t on.
   [[nodiscard]] History then(double t, const History& next) const;
-  /// Repeats f on [from, from + period) `rounds` times in all; the history is unchanged before and after.
+  /// The history in which f on [from, from + period) occurs `rounds` times in succession; f is unchanged before `from` and from
+  /// from + rounds * period on.
   [[nodiscard]] History repeated(double from, double period, int rounds) const;
   /// True if the history has the same constant value in all pieces.
   [[nodiscard]] bool is_constant() const;

@@ -94,7 +94,7 @@ struct StageEnd {
 /// Result of the static start (initial = "static" or "frictional").
 struct StaticStart {
   std::vector<double> reactions;  ///< -N of each contact, >= 0
-  /// Motions without stiffness: "horizontal motion held at contact 'first'".
+  /// Motions without stiffness, and the contact that restrains each: "horizontal motion held at contact 'first'".
   std::vector<std::string> free_motions;
   bool frictional = false;
   std::vector<StageEvent> events;  ///< only frictional
@@ -138,8 +138,9 @@ struct DrawnContact {
   double nx = 0.0, ny = 0.0, tx = 0.0, ty = 0.0;
 };
 
-/// Share of the left-out modes in the static compliance of a form. This compliance is the displacement along the form under a
-/// unit force along the form, without rigid-body motions. The reduced model keeps the share without its inertia.
+/// Contribution of the left-out modes to the static compliance of a form. This compliance is the displacement along the form
+/// under a unit force along the form, without rigid-body motions. The reduced model includes this contribution, but not the
+/// inertia of these modes.
 struct ComplianceShare {
   std::string label;        ///< "normal of contact 'first'", "load 1"
   int contact = -1;         ///< index into Model::contacts; -1: a load
@@ -178,8 +179,9 @@ struct Reduction {
 
 /// Motions of nodes tied to a rigid body's centre: x_tied = rows x + given terms, where x is the motion of the structure.
 struct Ties {
-  std::vector<Dof> dofs;  ///< physical degrees of freedom: of the structure, of tied nodes, of sliding points
-  SparseMatrix rows;      ///< tied x structure
+  /// Physical degrees of freedom, in this order: structure, tied nodes, sliding points.
+  std::vector<Dof> dofs;
+  SparseMatrix rows;  ///< tied x structure
   /// Contribution of a moving support to one tied degree of freedom.
   struct Given {
     int tied = 0;
@@ -199,8 +201,9 @@ struct Ties {
 /// (model/compliance_split.hpp).
 struct LoadCorrection {
   std::size_t load = 0;  ///< index into Model::loads
-  Vector displacements;  ///< displacements of the structure, for a history of 1
-  Vector energies;       ///< one per entry of Model::load_corrections, for histories of 1
+  Vector displacements;  ///< correction of the structure's displacements, per unit of the load's history
+  /// One entry per entry of Model::load_corrections, per unit of both histories; see correction_energy().
+  Vector energies;
 };
 
 /// Result of run.geometric: Model::stiffness includes the geometric stiffness of the forces listed here.
@@ -240,11 +243,11 @@ struct Model {
   /// no run of the same structure, or that run recorded no contacts.
   std::vector<SavedState::FinalContact> saved_contacts;
   Scales scales;
-  double alpha = 0.0, beta = 0.0;  ///< factors of Rayleigh damping that are used
-  double omega1 = 0.0;     ///< lowest circular frequency with initially closed contacts closed; 0: none
+  double alpha = 0.0, beta = 0.0;  ///< factors of the Rayleigh damping alpha M + beta K in `damping`
+  double omega1 = 0.0;     ///< lowest circular frequency, with the initially closed contacts closed; 0: none
   double omega_max = 0.0;  ///< highest circular frequency with all contact springs acting
   std::optional<Reduction> reduction;
-  /// Valid but suspicious input, one sentence each; the first warnings of every run.
+  /// Warnings about valid but suspicious input, one sentence each; every run begins its list of warnings with them.
   std::vector<std::string> warnings;
   /// Set if massless motions needed separate degrees of freedom (model/massless.hpp): displacements of the first degrees of
   /// freedom = basis * u.

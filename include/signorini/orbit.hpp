@@ -63,28 +63,29 @@ struct Orbit {
   /// has one multiplier 1, along the motion.
   std::vector<std::complex<double>> multipliers;
   /// Error bound of a simple multiplier: the change from Phi at this state to Phi at the state one period later, plus errors
-  /// common to both. Common errors are rounding of Phi, steps of its tangents, and with `ida` 100 rtol, each times the
-  /// largest entry of Phi. Rounding of the phase omega T in modes, which rotates a multiplier along the circle, is not
+  /// common to both matrices. Common errors are rounding of Phi, steps of its tangents, and with `ida` 100 rtol, each times the
+  /// largest entry of Phi. Rounding of the phase omega T in modes, which rotates a multiplier along the unit circle, is not
   /// included.
   double multiplier_error = 0.0;
   /// nullopt: a multiplier lies on the unit circle within its error. For a conservative motion the error is replaced by its
   /// square root, because two equal multipliers separate by the square root of a perturbation.
   std::optional<bool> stable;
   OrbitLoss loss = OrbitLoss::none;
-  double max_multiplier = 0.0;  ///< largest magnitude, without the multipliers 1 of families and of time
+  /// Largest magnitude of the multipliers, without the multipliers 1 along families and along the motion.
+  double max_multiplier = 0.0;
   /// Conserved quantities, one name each. Each gives a multiplier 1 along a family of orbits; the search returns the orbit of
   /// the family nearest to its starting point.
   std::vector<std::string> families;
 
   /// Events of one period from `phase` on, beginning with the event at the orbit's time 0; jumps of loads are left out.
   std::vector<Event> sequence;
-  Energy cycle;          ///< changes over one period of dissipation, works and stored energy
+  Energy cycle;          ///< changes of dissipated energy, work and stored energy over one period
   double section = 0.0;  ///< time after `phase` at which Newton's method closed the orbit
   SavedState start;      ///< state at the orbit's time 0
 };
 
-/// Searches for a periodic motion. The search calls only `progress` of `recorder`, which may stop it. A failed search returns
-/// an Orbit with found = false and a `reason`. Errors are SceneError and UsageError:
+/// Searches for a periodic motion. The search calls only `progress` of `recorder`, which may stop the search. A failed search
+/// returns an Orbit with found = false and a `reason`. Errors are SceneError and UsageError:
 ///   a scene without a period and without a belt;  loads that do not repeat with `period`
 ///   a given energy in a driven or damped scene;  an engine or law without tangents (exact and ida have them)
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
@@ -102,7 +103,7 @@ struct BranchCheckpoint {
   std::size_t point_count = 0;              ///< number of Branch::points up to and including this checkpoint
 };
 
-/// Settings for a branch of orbits over a key of the scene.
+/// Settings for a branch of orbits, along which one key of the scene varies.
 struct BranchOptions {
   OrbitOptions orbit = {};
   /// Path of the scene key; "energy": the energy of conservative motions (OrbitOptions::energy).
@@ -115,7 +116,7 @@ struct BranchOptions {
   /// Number of successive switches to side branches: at a flip to the branch of twice the period, and at branch points. 0:
   /// only the first branch is computed.
   int switches = 0;
-  /// Resumes at this checkpoint, whose point is not repeated.
+  /// Checkpoint at which the branch resumes; the point of the checkpoint is not repeated.
   std::optional<BranchCheckpoint> resume_from = {};
   /// Called after each point of the first branch. The argument is a function that makes the checkpoint of the point, at the
   /// cost of a run of one period; an interrupted branch can be resumed from the checkpoint.
@@ -151,7 +152,7 @@ struct BranchPoint {
 struct SideBranch {
   int number = 2, from = 1;  ///< numbers as in BranchPoint::branch
   std::string kind;          ///< "flip", "branch point"
-  double parameter = 0.0;    ///< parameter value at which it leaves branch `from`
+  double parameter = 0.0;    ///< parameter value at which this branch leaves the branch `from`
   std::string end;           ///< reason why the side branch ends, one sentence
   /// True: the branch reached an end of the range, or a branch of twice the period returned to an orbit of the simple period.
   bool complete = false;
@@ -161,16 +162,17 @@ struct Branch {
   std::vector<BranchPoint> points;
   std::vector<std::string> sequences;  ///< by number, from 1: "stop contact, stop separation"
   std::string end;                     ///< reason why the first branch ends, one sentence
-  /// True: the branch reached `to`, or returned to `from` after a fold without a gap (`end` then gives the value beyond which
-  /// no orbit exists). False: the branch ended on the way, returned after a gap, or was interrupted.
+  /// True: the branch reached `to`, or returned to `from` after a fold (`end` then gives the value beyond which no orbit
+  /// exists). False: the branch ended before, was interrupted, or returned after a gap between two pieces of the branch.
   bool complete = false;
   bool interrupted = false;
-  std::optional<BranchCheckpoint> last;  ///< last checkpoint of the first branch, if it has a point
-  std::vector<SideBranch> sides;         ///< in the order in which they were followed
+  /// Last checkpoint of the first branch; absent: the branch has no point.
+  std::optional<BranchCheckpoint> last;
+  std::vector<SideBranch> sides;  ///< in the order in which they were followed
 };
 
-/// Pseudo-arclength continuation, beginning with the orbit that find_orbit finds at `from`. `seen` is called for every point;
-/// `recorder` is used as in find_orbit. Errors: those of find_orbit; UsageError for a key that is not a number.
+/// Pseudo-arclength continuation, beginning with the orbit that find_orbit finds at `from`. `seen` is called after every
+/// computed point; `recorder` is used as in find_orbit. Errors: those of find_orbit; UsageError for a key that is not a number.
 [[nodiscard]] Branch continue_branch(const SceneReader& read, const BranchOptions& options,
                                      Recorder* recorder = nullptr,
                                      const std::function<void(const BranchPoint&)>& seen = {});

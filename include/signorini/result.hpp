@@ -26,7 +26,7 @@ struct ContactSample {
   double memory = 0.0;  ///< p of a user law
 };
 
-/// Energies at one instant; dissipations and works since t = 0. Unit: force * length.
+/// Energies at one instant; dissipated energy and work are sums since t = 0. Unit: force * length.
 struct Energy {
   double kinetic = 0.0, elastic = 0.0, contact = 0.0;
   double damping = 0.0, friction = 0.0, impact = 0.0;  ///< dissipated
@@ -35,7 +35,7 @@ struct Energy {
   [[nodiscard]] double balance() const { return stored() + damping + friction + impact - loads - surface; }
 };
 
-/// Names of the energies in files; `balance` is computed from the others.
+/// Names of the energies in files. `balance`, Energy::balance(), has no member.
 struct EnergyColumn {
   const char* name;
   double Energy::*value;
@@ -91,14 +91,15 @@ struct InstantImpact {
 struct InstantRow {
   double t = 0.0;
   double resolution = 0.0;  ///< two times closer than this are treated as one instant
-  /// Violation, in units of its rounding error, by states that were accepted although rounding left them undecided.
+  /// Largest violation of a guard, as a multiple of its rounding error, in states that were accepted although rounding left
+  /// the decision open.
   double tolerated_violation = 0.0;
   /// Engine `exact`: condition number of the mode shapes, by which rounding errors of modal sums are multiplied.
   double eigenvector_condition = 1.0;
   bool start = false;       ///< true: the instant is the start of the run
-  bool breakpoint = false;  ///< true: the forcing is not smooth here
+  bool breakpoint = false;  ///< true: the forcing is not smooth at this instant
   bool load_jumps = false;
-  /// True: a guard is zero here. False: the instant is the end of a step in which a change of state was detected.
+  /// True: a guard is zero at this instant. False: the instant is the end of a step in which a change of state was detected.
   bool located = true;
   InstantSide before, after;
   std::vector<InstantImpact> impacts;
@@ -131,7 +132,7 @@ class Recorder {
   [[nodiscard]] virtual bool wants_motion() const { return false; }
   /// Called at the end of a run, once per contact, with the contact's motion for a picture (run/motion_record.hpp).
   virtual void motion(int /*contact*/, const std::vector<MotionRow>& /*rows*/) {}
-  /// Called once at the end of a run, with the other curves for a picture (run/curve_record.hpp).
+  /// Called once at the end of a run, with displacements and energies over time for a picture (run/curve_record.hpp).
   virtual void curves(const Curves& /*curves*/) {}
   /// Called with the model's outputs at output times and on both sides of every instant, so t never decreases.
   virtual void response(double /*t*/, const std::vector<double>& /*values*/) {}
@@ -139,7 +140,7 @@ class Recorder {
   [[nodiscard]] virtual bool wants_instants() const { return false; }
   /// Called after the events of an instant; the first call is for the start of the run.
   virtual void instant(const InstantRow& /*instant*/) {}
-  /// True if `steer` is used. A steered run takes the same steps, but computes one sample for each of them.
+  /// True if `steer` is used. A steered run takes the same steps, but computes a sample after each step.
   [[nodiscard]] virtual bool steers() const { return false; }
   /// Called with the current state at the start, at the end of every engine step, and after every event and breakpoint. A
   /// change by `run` acts from then on, like a jump of a load. Return false to end the run.

@@ -81,7 +81,7 @@ struct Direction {
   std::vector<std::pair<std::string, double>> against = {};
 };
 
-/// newmark: locates an event in time. root: repeats the step until the guard is zero at its end; linear: only once.
+/// newmark: method that locates an event. root: repeats the step until the guard is zero at its end; linear: repeats it once.
 enum class Refine { root, linear };
 /// newmark: doubling searches for a step size such that doubling it changes the result by less than the tolerance.
 enum class StepControl { fixed, doubling };
@@ -114,11 +114,11 @@ struct RunSpec {
   Flow flow = Flow::automatic;
   Certify certify = Certify::automatic;
   Companion companion = Companion::automatic;
-  /// ida, no key: height of low flights, in multiples of the tolerance. A finer companion run keeps the absolute height.
+  /// ida; not a scene key: height of low flights in multiples of the tolerance; a finer companion run keeps the same height.
   double flight_tolerances = 1.0;
   double relaxation = 1.0;   ///< friction-iteration: relaxation factor of a bound, in (0, 1]
   int max_iterations = 100;  ///< friction-iteration: limit for iterations in each step
-  bool geometric = false;    ///< true: static forces have a geometric stiffness (Prestress)
+  bool geometric = false;    ///< true: adds the geometric stiffness of the static forces (Prestress)
   SourcePlace place = {};
   SourcePlace geometric_place = {};
 
@@ -208,10 +208,10 @@ struct DampingSpec {
   SourcePlace place;
 };
 
-/// A trial run with one cutoff, during the search for the cutoff that meets a tolerance.
+/// A trial run with one cutoff, in the search for a cutoff that satisfies a tolerance.
 struct CutoffTrial {
   double cutoff_omega = 0.0;  ///< in rad per unit of time
-  int modes = 0;              ///< kept
+  int modes = 0;              ///< number of kept modes
   /// Contribution of the left-out modes to the response, relative to the response (study/reduction).
   double missed = 0.0;
   /// Largest difference of displacements from the next trial, relative; 0: there is no next trial.
@@ -239,7 +239,7 @@ struct Node {
   std::string name = {};
   double x = 0.0, y = 0.0;
   SourcePlace place = {};
-  bool of_mesh = false;  ///< node of a body's mesh without a name in the scene: no column of history.csv
+  bool is_mesh_node = false;  ///< node of a body's mesh without a name in the scene: no column of history.csv
 };
 
 enum class MassKind { consistent, lumped };
@@ -270,7 +270,7 @@ struct Member {
 /// A plane continuum body. Its nodes are in Scene::nodes, named NAME.NUMBER or by a point of the body.
 struct BodySpec {
   std::string name = {};
-  PlaneMesh mesh = {};  ///< nodes: none, the indices refer to Scene::nodes
+  PlaneMesh mesh = {};  ///< mesh.nodes is empty; indices of nodes refer to Scene::nodes
   std::size_t first_node = 0, node_count = 0;
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
   bool plane_strain = false;  ///< true: plane strain; false: plane stress
@@ -296,7 +296,7 @@ struct SurfaceSpec {
 /// A node of a seam; there is one contact in Scene::contacts for each node, in the same order.
 struct SeamNode {
   int node = 0;                            ///< index into Scene::nodes, or Scene::surface_nodes
-  std::array<double, 2> at{0.0, 0.0};      ///< place of the node
+  std::array<double, 2> at{0.0, 0.0};      ///< position of the node
   double length = 0.0;                     ///< arc length attributed to the node
   std::array<double, 2> normal{0.0, 0.0};  ///< direction in which the contact opens; the tangent is (ny, -nx)
 };
@@ -356,7 +356,7 @@ struct Support {
 
 /// Coefficients of friction of a contact, or the default of a scene.
 struct Friction {
-  double static_ = 0.0;  ///< |T| <= static |N| in stick
+  double static_ = 0.0;  ///< |T| <= static_ |N| in stick
   /// |T| = kinetic |N| in slip. Friction that rises with the slip rate: the limit for fast slip, at least static_.
   double kinetic = 0.0;
   /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) in slip
@@ -392,8 +392,8 @@ inline constexpr std::array friction_constants = {
     FrictionConstant{"velocity", &Friction::velocity, {0, 1, -1}},
     FrictionConstant{"force", &Friction::force, {1, 0, 0}}};
 
-/// A curved surface under a varying normal force: |N| ut / radius drives the body back. The constant part nominal_force ut /
-/// radius is in K (contact/curved_surface.hpp).
+/// A curved surface under a varying normal force: the restoring force is |N| ut / radius. Its constant part, with
+/// nominal_force in place of |N|, is in K (contact/curved_surface.hpp).
 struct CurvedSurface {
   double radius = 0.0, nominal_force = 0.0;
 };
@@ -409,11 +409,11 @@ struct ContactSpec {
   double normal_damping = 0.0;      ///< dashpot parallel to the normal spring, >= 0
   double tangential_damping = 0.0;  ///< dashpot parallel to the tangential spring, >= 0
   Friction friction = {};
-  HistorySpec normal_force = HistorySpec::zero();      ///< slider: compression, >= 0
+  HistorySpec normal_force = HistorySpec::zero();      ///< slider: compressive force, >= 0
   HistorySpec surface_velocity = HistorySpec::zero();  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
   double restitution = 0.0;  ///< rigid: Newton's coefficient, 0 to 1
-  /// rigid: a rebound slower than this velocity comes to rest; absent: the limit follows from the tolerances
+  /// rigid: the contact stays closed after a rebound slower than this velocity; absent: the limit follows from the tolerances
   std::optional<double> capture_velocity = {};
   SourcePlace place = {};
   /// Surface of a friction pendulum. Its stiffness nominal_force / radius is an entry of Scene::springs.
@@ -481,7 +481,7 @@ enum class OutputKind : unsigned char {
 /// Quantity of an output. Members have N, V, M and stress; bodies have xx, yy and xy; contacts have N, T, gap, slip and loss.
 enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress, xx, yy, xy };
 /// True if the quantity is a component of the stress at a node of a body.
-[[nodiscard]] constexpr bool is_of_body(OutputQuantity q) {
+[[nodiscard]] constexpr bool is_body_stress(OutputQuantity q) {
   return q == OutputQuantity::xx || q == OutputQuantity::yy || q == OutputQuantity::xy;
 }
 /// Extreme fibre of a section, left or right as seen from node to node along the member, or both.
@@ -489,8 +489,8 @@ enum class Fibre : unsigned char { both, left, right };
 
 struct OutputKindName {
   OutputKind kind;
-  const char* name;     ///< as in scene files
-  const char* meaning;  ///< for the documentation
+  const char* name;     ///< name in scene files
+  const char* meaning;  ///< text for the documentation
 };
 inline constexpr std::array all_output_kinds = {
     OutputKindName{OutputKind::displacement, "displacement", "of a node along a direction"},
@@ -535,7 +535,7 @@ struct OutputSpec {
   std::vector<OutputTerm> terms;  ///< the output is the sum of these terms
   SourcePlace place;
   Fibre fibre = Fibre::both;                   ///< fibre of a stress
-  std::optional<double> intensification = {};  ///< factor on bending stresses; absent: that of the bend, or 1
+  std::optional<double> intensification = {};  ///< bending stress factor; absent: factor of the bend, or 1
 };
 
 /// Triplets (row, column, value); of symmetric matrices both triangles are stored.
@@ -593,7 +593,7 @@ struct Override {
 /// Reads, checks and completes a scene. Errors: SceneError (with place and key); FileError; UsageError for an invalid
 /// override.
 [[nodiscard]] Scene read_scene(const std::string& path, const std::vector<Override>& overrides = {});
-/// Same for a scene in memory. `file` is used in messages, and matrix files are searched in its directory.
+/// Reads a scene from a text in memory. `file` is used in messages, and matrix files are searched in its directory.
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::string& file,
                                 const std::vector<Override>& overrides = {});
 

@@ -55,7 +55,7 @@ struct EventRates {
 
 struct EventRateColumn {
   const char* name;
-  const char* of;  ///< column of events.csv whose derivative it is
+  const char* of;  ///< column of events.csv whose derivative has this name
   double EventRates::*value;
 };
 inline constexpr std::array event_rate_columns = {
@@ -73,7 +73,7 @@ inline constexpr std::array event_rate_columns = {
     EventRateColumn{"dimpulse_t_dp", "impulse_t", &EventRates::impulse_t},
 };
 
-/// A scalar result of a contact: a peak with its time, or the value left at the end. With `losses` also a scalar result of
+/// A scalar result of a contact: a peak with its time, or a value at the end of the run. With `losses` also a scalar result of
 /// the whole run.
 struct Response {
   /// "peak N", "peak T", "peak normal", "peak tangential", "rest tangential", "rest slip", "lost by friction"; for the
@@ -97,7 +97,7 @@ struct MovingLanding {
 
 /// Options for further derivatives and for another method.
 struct SensitivityOptions {
-  /// Also computes derivatives of works, losses, energies at output times, and landings. The tangent motion is then computed
+  /// Also computes derivatives of work, losses, energies at output times, and landings. The tangent motion is then computed
   /// by Taylor series everywhere, at the cost of about one run by series for each parameter.
   bool losses = false;
   /// Engine `newmark`: computes derivatives of the discrete solution, including its steps, not of the exact motion. Available
@@ -105,12 +105,12 @@ struct SensitivityOptions {
   bool discrete = false;
 };
 
-/// Number of motions between two instants whose derivatives were computed in modes and by series. For `followed` of these the
-/// motion itself was recomputed, with the engine's sequence of guards, because engines without series (`ida`, `newmark`) do
-/// not provide it.
+/// Number of motions between two instants whose derivatives were computed in modes and by series. `followed`: number of these
+/// motions that were computed again by series, with the engine's sequence of guards, because the engines `ida` and `newmark`
+/// do not provide a series.
 struct Stretches {
   long modes = 0, series = 0, followed = 0;
-  long taken = 0;           ///< instants at which the recomputed motion restarted from the engine's state
+  long taken = 0;  ///< number of instants at which the recomputed motion restarted from the engine's state
   double correction = 0.0;  ///< largest difference between a recomputed event time and the engine's
 };
 
@@ -142,12 +142,12 @@ struct SequenceChange {
 };
 
 /// The smallest change of each parameter, upwards and downwards, at which two neighbouring events coincide. There is no entry
-/// if no events coincide, or if the key cannot have that value.
+/// if no events coincide, or if the key is invalid at that change.
 [[nodiscard]] std::vector<SequenceChange> smallest_sequence_changes(const Sensitivities& s);
 
-/// Derivatives of a run with respect to the keys at these paths. `recorder` receives the run's rows, and must not steer.
-/// Errors: SceneError, also if the engine refuses the scene; UsageError if options exclude each other, if a key is not a
-/// number, or if the model does not depend smoothly on a key.
+/// Derivatives of a run with respect to the keys at these paths. `recorder` receives the rows of the run; Recorder::steers()
+/// must be false. Errors: SceneError, also if the engine refuses the scene; UsageError if options exclude each other, if a key
+/// is not a number, or if the model does not depend smoothly on a key.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                                           Recorder* recorder = nullptr,
                                           const SensitivityOptions& options = {});

@@ -16,7 +16,7 @@
 //     engine.start(x+, states+, end)                   no guard reaches zero at t itself: states+ is valid there
 //     repeat:
 //       (t0, t1], triggered <- engine.advance()        t1: the first zero crossing of a guard, if any
-//       record output rows in [t0, t1), and rows for pictures; add works and extremes
+//       record output rows in [t0, t1), and rows for pictures; add work, update extremes
 //       t <- t1, x- <- x(t1) in states+
 //     until a guard was triggered at t, or t >= end
 //     x+, states+ <- decide(x-, states-, triggered, P-, P+)    all states at once, in as many rounds as needed
@@ -38,7 +38,7 @@ namespace signorini {
 /// in the Report then contains time, place and reason. Errors: SceneError if the engine refuses the scene.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder);
 
-/// Same as above, with all rows in the returned Result.
+/// Runs to settings.t_end and returns all rows in a Result.
 [[nodiscard]] Result simulate(const Model& model, const RunSpec& settings);
 
 /// Simulates a scene with the scene's run settings. Errors: also those of build_model().

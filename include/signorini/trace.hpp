@@ -1,6 +1,6 @@
 // trace.hpp: the rounds of a decision of contact states, and the reason why a decision fails.
 //
-//   a round: a contact state is tried at an instant; it is consistent if no guard becomes negative just after
+//   a round: a contact state is tried at an instant; it is consistent if no guard becomes negative just after the instant
 //
 // A guard fails if its first derivative that is nonzero within rounding is negative.
 #pragma once
@@ -24,13 +24,13 @@ struct NamedGuard {
   std::size_t contact = 0;
   std::string guard;
   int order = 0;        ///< order of the negative derivative; 0: the value itself
-  double excess = 1.0;  ///< ratio of that derivative to the size below which it counts as zero
+  double excess = 1.0;  ///< ratio of that derivative to the limit below which it is treated as zero
 };
 
 /// One contact state (of all contacts) that is tried at one instant.
 struct DecisionRound {
   double t = 0.0;
-  int number = 0;  ///< 0: contact states just before the instant, with the forcing just after
+  int number = 0;                     ///< number of the round; 0: states before, forcing after the instant
   std::vector<NamedGuard> triggered;  ///< guards that the engine found at zero
   std::vector<std::size_t> touching;  ///< rigid contacts with g = 0 that were decided together
   bool impact = false;                ///< velocities jumped before the contact state was tried
@@ -40,7 +40,7 @@ struct DecisionRound {
 
 using RoundListener = std::function<void(const DecisionRound&)>;
 
-/// Same as simulate() of signorini/simulate.hpp, with a listener that is called for every tried contact state.
+/// Same as simulate() of signorini/simulate.hpp; `listener` is called for every tried contact state.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               const RoundListener& listener);
 
@@ -57,7 +57,7 @@ struct Refusal {
     standstill  ///< events repeat without progress in time, although each instant has consistent states
   } kind = Kind::none;
   std::string reason;                 ///< one sentence
-  std::vector<std::size_t> contacts;  ///< contacts to which the refusal applies
+  std::vector<std::size_t> contacts;  ///< contacts named in the refusal
   /// Condition number of the Delassus matrix W (decide/delassus.hpp), scaled to a unit diagonal. NaN: unknown.
   double condition = std::numeric_limits<double>::quiet_NaN();
   /// Violation of the guards by the best combination of states, in units of its rounding error. NaN: unknown.

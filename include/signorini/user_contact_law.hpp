@@ -16,8 +16,8 @@
 //
 // The contact also has the properties of `compliant`. Its normal_stiffness must have the magnitude of the law's stiffness,
 // because tolerances, scales and frequencies depend on it. A run starts in state 0 with p = 0, or in the state given by
-// last_state(). If guards are violated there, the state changes at once until all guards are positive, as after every
-// instant. A static start supports built-in laws only.
+// last_state(). If guards are violated in this state, the state changes at once until all guards are positive, as at
+// every instant. A static start supports built-in laws only.
 // Energy: all work done on such a contact, stored or dissipated, is reported as its friction work. Conditions (6) and (7) do
 // not apply and are not audited. Files contain the kind of a state; a change between two closed states is written as `stick`
 // if it ends a slip, otherwise as `slip`.
@@ -39,7 +39,7 @@ struct UserLawForm {
 
 struct UserLawGuard {
   UserLawForm positive;             ///< positive while the state is valid
-  std::size_t next = 0;             ///< state after the guard has reached zero
+  std::size_t next = 0;             ///< number of the state after the guard has reached zero
   std::optional<Form> memory = {};  ///< new value of p at the zero of the guard; absent: p is unchanged
   /// Terms added to `positive`, for example F^2 - T^2 = (F - T)(F + T).
   std::vector<FormProduct> products = {};

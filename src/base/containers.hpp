@@ -12,16 +12,17 @@
 
 namespace signorini::base {
 
+/// Largest number of entries of a cache, and their largest total size in bytes.
 struct CacheLimits {
   std::size_t count = 0, bytes = 0;
 };
 
-// Cache with bounded count and size that removes the least recently used entries.
+// Cache of limited number of entries and size, which removes the least recently used entries.
 //
 //   if (Value* known = cache.find(key)) use(*known); else use(cache.insert(key, make(key), bytes));
 //
-// If either bound is exceeded, the least recently used entries are removed first. The last inserted entry always stays,
-// whatever its size. A reference to a value is valid until the next insert.
+// If a limit is exceeded, the least recently used entries are removed first. The entry inserted last always stays, even if it
+// alone exceeds the limit. A reference to a value is valid until the next insert.
 
 template <class Key, class Value>
 class LruCache {
@@ -31,14 +32,14 @@ class LruCache {
   LruCache(const LruCache&) = delete;
   LruCache& operator=(const LruCache&) = delete;
 
-  /// Value of the key, which becomes the most recently used key; nullptr if the key is absent.
+  /// Value of the key; nullptr if the key is absent. The key becomes the most recently used one.
   [[nodiscard]] Value* find(const Key& key) {
     const auto known = index_.find(key);
     if (known == index_.end()) return nullptr;
     entries_.splice(entries_.begin(), entries_, known->second);
     return &known->second->value;
   }
-  /// The key must be absent. bytes: memory of key and value in addition to sizeof(Key) and sizeof(Value).
+  /// Inserts a key that is not in the cache. bytes: memory of key and value in addition to sizeof(Key) and sizeof(Value).
   Value& insert(const Key& key, Value value, std::size_t bytes) {
     entries_.push_front({std::move(value), bytes + entry_overhead, {}});
     entries_.front().place = index_.emplace(key, entries_.begin()).first;
@@ -62,7 +63,7 @@ class LruCache {
     std::size_t bytes;
     typename Index::iterator place;
   };
-  /// Memory of one node of the list and one node of the index: contents, and about four words of links each.
+  /// Memory of one node of the list and one node of the index: their contents, and about four pointers in each node.
   static constexpr std::size_t entry_overhead =
       sizeof(Entry) + sizeof(typename Index::value_type) + 8 * sizeof(void*);
   CacheLimits most_;
@@ -71,7 +72,7 @@ class LruCache {
   std::size_t bytes_ = 0;
 };
 
-// Connected components of the numbers 0 .. n-1, from pairs that are connected (union-find).
+// Connected components of the numbers 0 .. n-1, from pairs of connected numbers (union-find).
 //
 //   DisjointSets sets(n);
 //   sets.join(i, j);
@@ -115,7 +116,7 @@ class DisjointSets {
 
 // A vector whose copies share unchanged pieces of memory (copy on write).
 //
-//   a, b = a copy of a;  b.set(i, x)        only the piece that contains i is copied
+//   b = a;  b.set(i, x)        copies only the piece that contains element i
 //
 // Pieces are never written after their creation, so copies may be read by several threads.
 

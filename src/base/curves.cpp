@@ -9,10 +9,10 @@
 namespace signorini::base {
 namespace {
 
-// Coefficients of the polynomial a_0 + a_1 y + ..., where y = 2x - 1 is in [-1, 1].
+/// Coefficients a_0, a_1, ... of the polynomial a_0 + a_1 y + ..., where y = 2x - 1 is in [-1, 1].
 using Powers = std::array<double, PolynomialInterpolation::max_points>;
 
-/// Coefficients by Newton's divided differences, expanded to powers of y.
+/// Coefficients of the interpolating polynomial, from Newton's divided differences.
 Powers powers_of(const PolynomialInterpolation::Values& f, std::size_t n) {
   PolynomialInterpolation::Values y{}, d = f;
   for (std::size_t i = 0; i < n; ++i) y[i] = 2.0 * PolynomialInterpolation::point(n, i) - 1.0;

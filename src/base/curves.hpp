@@ -1,11 +1,12 @@
-// curves.hpp: reduces many rows to few, so that straight lines between the kept rows approximate all rows.
+// curves.hpp: reduces the number of rows such that straight lines between the kept rows approximate all rows; and the
+// interpolating polynomial of a few values.
 //
 //   lines:   a row is dropped if the straight line between the neighbouring kept rows passes each of its quantities q
 //            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-10
-//   bins:    if that is not enough, each bin [i w, (i + 1) w) of time keeps the first and the last row, and those
-//            with the smallest and the largest value of each quantity, in order (M4: Jugel, Jerzak, Hackenbroich,
-//            Markl 2014; lines between bins are those of all rows);   w = duration / 10000, doubled as often as
-//            needed up to duration / 1250
+//   bins:    if too many rows remain, each time bin [i w, (i + 1) w) keeps its first and last row, and the rows with
+//            the smallest and the largest value of each quantity (method M4: Jugel, Jerzak, Hackenbroich, Markl 2014;
+//            lines between bins are the same as for all rows);   w = duration / 10000, doubled as often as needed
+//            up to duration / 1250
 //
 // Rows are processed once for each c, and once more at the end. So a dropped row deviates from the lines by at most 3 c of
 // the range (0.3 %), or lies within a bin whose extremes are drawn. 0.3 % is half a pixel in a panel of 170 pixels; the
@@ -24,7 +25,7 @@ namespace signorini::base {
 
 // Polynomial of low degree through given values at points along a line.
 //
-//   p(x) = sum_i L_i(x) f_i,   x_i = (1 - cos(pi i/(n - 1)))/2 in [0, 1],  degree n - 1;   n = 1: a constant
+//   p(x) = sum_i L_i(x) f_i,   x_i = (1 - cos(pi i/(n - 1)))/2 in [0, 1],  degree n - 1;   n = 1: p is constant
 //
 //   |p - the line through both ends| <= 2 max_i |f_i - the line at x_i|       (Lebesgue's constant, n <= 6)
 //
@@ -37,7 +38,7 @@ struct PolynomialInterpolation {
 
   /// Position in [0, 1] of the i-th of n points.
   [[nodiscard]] static double point(std::size_t n, std::size_t i);
-  /// Value p(x), from the values f at n points.
+  /// Value p(x), from the values f at the n points.
   [[nodiscard]] static double interpolate(const Values& f, std::size_t n, double x);
 
   /// Extreme values of p and their positions; if several values are equal up to rounding, the first position.
@@ -55,13 +56,13 @@ class Downsampled {
   using Quantities = std::array<double, count>;
 
   struct Options {
-    /// Target for the final number of rows; with bins it may be exceeded, as far as a picture of full resolution requires.
+    /// Target for the final number of rows. May be exceeded if the bins have reached their largest width, duration / 1250.
     std::size_t max_rows = 8000;
-    /// True: there are never more than max_rows rows, because bins become as wide as necessary.
-    bool crowded = false;
+    /// True: bins become as wide as necessary, so that there are at most max_rows rows.
+    bool limits_rows = false;
     /// True: of two rows with the same time, lines keep both.
     bool both_sides = false;
-    /// Largest time between two rows that are kept on a line.
+    /// Largest time between two successive rows that lines keep.
     double widest = std::numeric_limits<double>::infinity();
   };
   Downsampled(double duration, const Options& wanted)
@@ -76,9 +77,9 @@ class Downsampled {
       least_[i] = std::min(least_[i], q[i]);
       greatest_[i] = std::max(greatest_[i], q[i]);
     }
-    // Memory is reserved at once: unused pages cost nothing, whereas a growing vector fragments memory.
+    // Memory is reserved once, because a growing vector fragments memory; reserved pages that are never used cost nothing.
     if (rows_.capacity() == 0)
-      rows_.reserve(room(std::max(options_.max_rows, options_.crowded ? 0 : most_of_bins)) + 1);
+      rows_.reserve(room(std::max(options_.max_rows, options_.limits_rows ? 0 : max_rows_in_bins)) + 1);
     rows_.push_back(row);
     if (rows_.size() > limit_) downsample();
   }
@@ -97,7 +98,7 @@ class Downsampled {
     return rows_.empty() ? 0.0 : std::max(std::abs(least_[i]), std::abs(greatest_[i]));
   }
 
-  /// Must be called after the last row. For each quantity, differences up to `floors` are treated as zero.
+  /// Must be called after the last row. floors: for each quantity, the difference up to which values are treated as equal.
   void close(const Quantities& floors) {
     floors_ = floors;
     share_ = std::max(share_, finest);
@@ -109,11 +110,11 @@ class Downsampled {
 
  private:
   static constexpr double finest = 1.0 / 4096.0, coarsest = 1.0 / 1024.0;
-  static constexpr double first_bins = 10000.0, pixels = 1250.0;
-  static constexpr std::size_t most_of_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
+  static constexpr double initial_bin_count = 10000.0, pixels = 1250.0;
+  static constexpr std::size_t max_rows_in_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
 
-  /// Number of rows kept before they are downsampled. A margin of one eighth limits the memory, and each row is then
-  /// processed about nine times.
+  /// Number of rows at which downsampling begins, if it keeps `kept` rows. The margin of one eighth limits the memory, and each
+  /// row is processed about nine times.
   static std::size_t room(std::size_t kept) { return kept + kept / 8; }
 
   void downsample() {
@@ -125,15 +126,15 @@ class Downsampled {
       remove_collinear();
     }
     if (width_ > 0.0) keep_extremes();
-    while (rows_.size() > enough && width_ < (options_.crowded ? duration_ : duration_ / pixels)) {
-      width_ = std::max(2.0 * width_, duration_ / first_bins);
+    while (rows_.size() > enough && width_ < (options_.limits_rows ? duration_ : duration_ / pixels)) {
+      width_ = std::max(2.0 * width_, duration_ / initial_bin_count);
       keep_extremes();
     }
     limit_ = room(std::max(enough, rows_.size()));
   }
 
-  /// Drops rows that lie on straight lines. low and high bound the slopes of lines that start at the last kept row and pass
-  /// all rows since then within d.
+  /// Drops rows that lie on straight lines. low, high: smallest and largest slope of the lines that start at the last kept row
+  /// and pass every later row within the distance d.
   void remove_collinear() {
     if (rows_.size() < processed_ + 3) return;
     Quantities d, low, high, from;
@@ -174,7 +175,7 @@ class Downsampled {
         }
       } else if (options_.both_sides ||
                  !all([&](std::size_t i) { return std::abs(to[i] - from[i]) <= d[i]; })) {
-        anchor = j;  // the other side of a jump
+        anchor = j;  // row j is the other side of a jump
         begin_at(rows_[j]);
         rows_[++kept] = rows_[j];
       }
@@ -220,8 +221,8 @@ class Downsampled {
   std::size_t limit_;
   std::vector<Row> rows_;
   Quantities least_, greatest_, floors_{};
-  double share_ = 0.0, width_ = 0.0;
-  std::size_t processed_ = 0;  // last row that was processed with the current c
+  double share_ = 0.0, width_ = 0.0;  // c; width w of a bin
+  std::size_t processed_ = 0;         // index of the last row that was processed with the current c
 };
 
 }  // namespace signorini::base

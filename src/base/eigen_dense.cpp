@@ -30,8 +30,8 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
 
 namespace {
 
-/// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. B is scaled to a unit diagonal because translations and
-/// rotations have different units.
+/// Reduction of A x = mu B x to C y = mu y: B = D L L^T D with D = diag(B)^1/2, C = (D L)^-1 A (D L)^-T. B is
+/// scaled to a unit diagonal because translations and rotations have different units.
 struct Reduced {
   Eigen::VectorXd s;  ///< 1 / D; empty if B is not positive definite
   Eigen::LLT<Eigen::MatrixXd> llt;
@@ -109,7 +109,7 @@ std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a, const Eig
   return lu.solve(b);
 }
 
-/// Inverse iteration, x <- A^-1 A^-T x. A may be singular; a small diagonal term keeps its factors regular.
+/// Inverse iteration, x <- A^-1 A^-T x. Since A may be singular, a small diagonal matrix is added before the factorisation.
 Eigen::MatrixXd smallest_singular_vectors(const Eigen::MatrixXd& a, Eigen::Index count) {
   constexpr int rounds = 4;
   const Eigen::Index n = a.rows();
@@ -140,7 +140,7 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 }
 
 template <class Svd>
-static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double least, double size) {
+static Eigen::VectorXd truncated_solution(Svd svd, const Eigen::VectorXd& b, double least, double size) {
   const double greatest = svd.singularValues().size() > 0 ? svd.singularValues()[0] : 0.0;
   if (!(greatest > least * size)) return Eigen::VectorXd::Zero(svd.cols());
   svd.setThreshold(least * std::max(1.0, size / greatest));
@@ -150,10 +150,11 @@ static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double lea
 Eigen::VectorXd min_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
                                   double size) {
   // Number of columns above which the divide-and-conquer method costs less than Jacobi rotations.
-  constexpr Eigen::Index fewest_divided = 48;
+  constexpr Eigen::Index min_divide_columns = 48;
   constexpr unsigned both = Eigen::ComputeThinU | Eigen::ComputeThinV;
-  return a.cols() < fewest_divided ? shortest_by(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)
-                                   : shortest_by(Eigen::BDCSVD<Eigen::MatrixXd>(a, both), b, least, size);
+  return a.cols() < min_divide_columns
+             ? truncated_solution(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)
+             : truncated_solution(Eigen::BDCSVD<Eigen::MatrixXd>(a, both), b, least, size);
 }
 
 Eigen::VectorXd combination_of_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {

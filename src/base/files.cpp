@@ -24,8 +24,6 @@ std::string system_error_text(int error) {
   return error == 0 ? "" : ": " + std::generic_category().message(error);
 }
 
-namespace fs = std::filesystem;
-
 void check_output_directory(const fs::path& path, const ResultsKind& kind, bool replace) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
@@ -43,9 +41,11 @@ void check_output_directory(const fs::path& path, const ResultsKind& kind, bool 
                     fmt::format("directory exists and is not empty; use --force to replace the {} in it",
                                 kind.description));
   if (!fs::exists(path / kind.marker, error))
-    throw FileError(path.string(),
-                    fmt::format("is not empty and contains no {} (no {}) that --force could replace",
-                                kind.description, kind.marker));
+    throw FileError(
+        path.string(),
+        fmt::format("directory is not empty and contains no {} (no {}), so --force does not replace it; "
+                    "give another directory",
+                    kind.description, kind.marker));
 }
 
 void check_output_file(const fs::path& path, const std::string& what, std::string_view mark) {
@@ -57,10 +57,11 @@ void check_output_file(const fs::path& path, const std::string& what, std::strin
   file.read(begin.data(), first_bytes);
   begin.resize(static_cast<std::size_t>(file.gcount()));
   if (begin.find(mark) == std::string::npos)
-    throw FileError(path.string(),
-                    fmt::format("exists and is no {} that could be replaced; give another name, or "
-                                "remove the file",
-                                what));
+    throw FileError(
+        path.string(),
+        fmt::format("file exists and is not a {}, so it is not replaced; give another name, or remove "
+                    "the file",
+                    what));
 }
 
 fs::path make_directory(const fs::path& path) {

@@ -1,7 +1,7 @@
 // files.hpp: checks of input and output files and directories, file names, and texts that are part of the program.
 //
-//   check_output_directory       accepts a directory that is absent, empty, or contains earlier results
-//                                (its marker file) that may be replaced
+//   check_output_directory       accepts a directory that does not exist, is empty, or contains earlier results
+//                                (with their marker file) that may be replaced
 //   make_directory               creates the directory and its parents
 //   remove_created_directories   removes created directories that are empty
 //
@@ -17,34 +17,36 @@
 namespace signorini::base {
 
 /// Reason why the path is not a readable file, such as "is a directory". Empty for a regular file, and for a missing file,
-/// for which opening the file gives the reason. Pipes and devices are refused: a pipe would wait for a writer, and a device
-/// may never end.
+/// because the attempt to open it gives the reason. Pipes and devices are refused, because reading a pipe would wait for a
+/// writer, and reading a device may never end.
 [[nodiscard]] std::string input_file_error(const std::filesystem::path& path);
 
 /// Text for a value of errno, for example ": No such file or directory"; empty if error is 0.
 [[nodiscard]] std::string system_error_text(int error);
 
-/// Kind of a directory of results: description "run", with the file summary.json as marker of such a directory.
+/// Kind of a directory of results, for example description "run" and marker "summary.json", a file that each such directory
+/// contains.
 struct ResultsKind {
   std::string description, marker;
 };
 
-/// Refuses a directory that must not be overwritten. replace: true if earlier results may be replaced (--force).
+/// Errors: FileError if results must not be written to this path. replace: true if earlier results may be replaced (--force).
 void check_output_directory(const std::filesystem::path& path, const ResultsKind& kind, bool replace);
 
-/// Refuses an existing output file, unless its first bytes contain `mark`, with which Signorini marks the files that it
-/// writes. `what` describes such a file in the message. Empty files, pipes and devices are accepted, because no data are
-/// lost.
+/// Errors: FileError if an existing output file was not written by Signorini, that is, if its first kilobyte does not contain
+/// the text `mark`. `what` describes such a file in the message. Empty files, pipes and devices are accepted, because no data
+/// are lost.
 void check_output_file(const std::filesystem::path& path, const std::string& what, std::string_view mark);
 
-/// Creates the directory and its parents. Returns the outermost created directory; empty if all existed.
+/// Creates the directory and its parents. Returns the outermost directory that was created; empty if all of them existed.
 std::filesystem::path make_directory(const std::filesystem::path& path);
 
-/// Removes the directories from `path` up to `first`, the return value of make_directory(); stops at one that is not empty.
+/// Removes the directories from `path` up to `first`, the return value of make_directory(). Stops at a directory that is not
+/// empty.
 void remove_created_directories(const std::filesystem::path& path, const std::filesystem::path& first);
 
-/// Makes a part of a file name from a text: the first `most` characters, in which every character becomes `other` except
-/// ASCII letters, digits and characters of `kept`. file_name("first support", 80, "-_", '_') is "first_support".
+/// Makes a part of a file name from the first `most` characters of a text. Characters other than ASCII letters, digits and the
+/// characters in `kept` are replaced by `other`. file_name("first support", 80, "-_", '_') is "first_support".
 [[nodiscard]] std::string file_name(std::string_view text, std::size_t most, std::string_view kept,
                                     char other);
 

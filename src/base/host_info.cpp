@@ -8,8 +8,14 @@
 
 namespace signorini::base {
 
+#ifdef __clang__
+static constexpr const char* compiler = __VERSION__;  // begins with "Clang"
+#else
+static constexpr const char* compiler = "g++ " __VERSION__;
+#endif
+
 HostInfo host_info() {
-  HostInfo machine{"unknown processor", processor_count(), "g++ " __VERSION__};
+  HostInfo machine{"unknown processor", processor_count(), compiler};
 #ifdef __OPTIMIZE__
   machine.compiler += ", optimised";
 #else

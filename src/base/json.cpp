@@ -8,9 +8,9 @@ namespace signorini::base {
 
 namespace {
 
-void without_negative_zeros(Json& json) {
+void remove_negative_zeros(Json& json) {
   if (json.is_structured())
-    for (Json& part : json) without_negative_zeros(part);
+    for (Json& part : json) remove_negative_zeros(part);
   else if (json.is_number_float())
     json = json.get<double>() + 0.0;
 }
@@ -21,10 +21,10 @@ bool has_negative_zero(const Json& json) {
 }
 
 /// JSON text without negative zeros; the value is copied only if it contains a negative zero.
-std::string dumped(const Json& json, int indent) {
+std::string json_dump(const Json& json, int indent) {
   if (has_negative_zero(json)) {
     Json mended = json;
-    without_negative_zeros(mended);
+    remove_negative_zeros(mended);
     return mended.dump(indent, ' ', false, Json::error_handler_t::replace);
   }
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
@@ -32,9 +32,9 @@ std::string dumped(const Json& json, int indent) {
 
 }  // namespace
 
-std::string json_text(const Json& json) { return dumped(json, 2) + "\n"; }
+std::string json_text(const Json& json) { return json_dump(json, 2) + "\n"; }
 
-std::string json_line(const Json& json) { return dumped(json, -1); }
+std::string json_line(const Json& json) { return json_dump(json, -1); }
 
 Json parse_json(std::istream& stream) { return Json::parse(stream); }
 

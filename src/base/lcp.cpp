@@ -18,7 +18,7 @@ class Tableau {
       : n_(q.size()), t_(n_, 2 * n_ + 2), basis_(static_cast<std::size_t>(n_)) {
     t_ << Eigen::MatrixXd::Identity(n_, n_), -M, -d, q;
     for (Eigen::Index i = 0; i < n_; ++i) basis_[static_cast<std::size_t>(i)] = i;
-    // size below which an entry is a zero with rounding errors of the elimination
+    // Magnitude below which an entry is treated as zero, because of the rounding errors of the elimination.
     zero_ = rounding::many_operations * std::max(1.0, M.cwiseAbs().maxCoeff());
   }
 
@@ -28,7 +28,7 @@ class Tableau {
   }
   [[nodiscard]] const std::vector<Eigen::Index>& basis() const { return basis_; }
 
-  /// Row of the most negative entry relative to d. It is the first pivot row, because this pivot makes the start feasible.
+  /// First pivot row: the row with the most negative ratio of q to d. This pivot makes the start feasible.
   [[nodiscard]] Eigen::Index first_row(const Eigen::VectorXd& d) const {
     Eigen::Index best = 0;
     for (Eigen::Index i = 1; i < n_; ++i)
@@ -36,7 +36,8 @@ class Tableau {
     return best;
   }
 
-  /// Row whose basic variable reaches zero first as the entering variable grows; -1: none. In a tie z0 leaves the basis.
+  /// Row whose basic variable reaches zero first as the entering variable grows; -1: there is none. In a tie the row of z0 is
+  /// returned, so that z0 leaves the basis.
   [[nodiscard]] Eigen::Index blocking_row(Eigen::Index column) const {
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < n_; ++i) {
@@ -97,7 +98,7 @@ class Tableau {
   double zero_ = 0.0;
 };
 
-/// Computes z of the final basis again from M and q, so that the rounding errors of all pivots are removed.
+/// Computes z again from M and q, with the variables of the final basis. This removes the rounding errors of the pivots.
 Eigen::VectorXd refined(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Tableau& tableau,
                         const Eigen::VectorXd& z) {
   std::vector<Eigen::Index> active;
@@ -124,7 +125,7 @@ std::optional<Eigen::VectorXd> solve_lcp(const Eigen::MatrixXd& M, const Eigen::
   if (n == 0 || q.minCoeff() >= 0.0) return Eigen::VectorXd::Zero(n);
   Tableau tableau(M, q, d);
   Eigen::Index left = tableau.pivot(tableau.first_row(d), tableau.artificial());
-  // Lexicographic pivots never return to an earlier basis, but rounding errors might cause it: hence a limit.
+  // Limit of the number of pivots. Without rounding errors, lexicographic pivots never return to an earlier basis.
   const Eigen::Index most = 100 + 50 * n;
   for (Eigen::Index i = 0; i < most; ++i) {
     const Eigen::Index entering = tableau.complement(left);

@@ -14,14 +14,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_steps = 100;    // limit for Newton steps; a few are usual
-constexpr int most_halvings = 40;  // limit for halvings of one step
+constexpr int most_steps = 100;        // limit of the number of Newton steps; usually a few suffice
+constexpr int max_step_halvings = 40;  // limit of the number of halvings of one step
 // Damping added to the curvature of the dual function. The curvature is at most 1, and 0 where x is in a corner of a set.
 // Damping is proportional to the residual, so that convergence is faster than linear, and at least the rounding error of the
 // curvature.
 constexpr double most_damping = 1e-3, least_damping = 1e-13;
 
-/// Projection P(z) onto one set, and a generalised derivative of P.
+/// Projection x = P(z) onto a convex set, and a generalised derivative of P.
 struct Projection {
   VectorXd x;
   MatrixXd derivative;
@@ -36,7 +36,7 @@ Projection onto_cone(double f, const VectorXd& z) {
   if (f * length <= -z[0]) return p;
   const VectorXd e = length > 0.0 ? VectorXd(t / length) : VectorXd(t);
   const double n = (z[0] + f * length) / (1.0 + f * f);
-  VectorXd edge(z.size());  // generator of the cone through P(z)
+  VectorXd edge(z.size());  // generating line of the cone, through P(z)
   edge << 1.0, f * e;
   p.x = n * edge;
   p.derivative = edge * edge.transpose() / (1.0 + f * f);
@@ -82,7 +82,7 @@ double dual(const VectorXd& r, const VectorXd& y, const VectorXd& z, const Vecto
 
 std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const std::vector<ConvexSet>& sets) {
   const double size = r.norm();
-  VectorXd y = r;  // this is the solution if no set restricts x
+  VectorXd y = r;  // the solution, if no set restricts x
   VectorXd z = a.transpose() * y;
   Projection now = projected(sets, z);
   std::optional<VectorXd> best;
@@ -90,7 +90,7 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
   for (int step = 0; step < most_steps; ++step) {
     const VectorXd left = r - a * now.x;
     if (left.norm() <= rounding::elimination * size) {
-      if (!(left.norm() < 0.5 * least)) return best;  // the residual is only rounding
+      if (!(left.norm() < 0.5 * least)) return best;  // the residual is only rounding error
       least = left.norm();
       best = now.x;
     }
@@ -102,12 +102,12 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
     if (!(slope > 0.0)) return best;
     double part = 1.0;
     for (int halving = 0;; ++halving, part *= 0.5) {
-      if (halving == most_halvings) return best;
+      if (halving == max_step_halvings) return best;
       const VectorXd tried = y + part * way;
       const VectorXd there = a.transpose() * tried;
       Projection next = projected(sets, there);
-      // Near the solution g changes by less than its rounding error, so the residual decides whether a step is an
-      // improvement.
+      // Near the solution the dual function changes by less than its rounding error; the residual then shows whether the
+      // step is an improvement.
       const bool better = dual(r, tried, there, next.x) >= value + 1e-4 * part * slope;
       if (!better && !((r - a * next.x).norm() < 0.5 * left.norm())) continue;
       y = tried;

@@ -9,7 +9,7 @@
 // A damped Newton method solves it, with a generalised derivative D of P: A D A' dy = r - A x. The method ends after finitely
 // many steps if the sets are polyhedral (one tangent), and otherwise converges quadratically.
 //
-//   set    { (n, t) : |t| <= f n }    a second-order cone, d tangents; d = 0: the half-line n >= 0
+//   set    { (n, t) : |t| <= f n }    a second-order cone; without tangents t: the half-line n >= 0
 //          { t : |t| <= F }           a disc
 //          { c e : c >= 0 }           a ray along the unit vector e
 // Source: Facchinei, Pang, Finite-Dimensional Variational Inequalities, chapter 11 (projections); Moreau's decomposition.
@@ -21,7 +21,7 @@
 
 namespace signorini::base {
 
-/// A convex set for the components of one contact, which are consecutive entries of x.
+/// A convex set for the force components of one contact, which are consecutive entries of x.
 struct ConvexSet {
   enum class Kind : unsigned char { cone, disc, ray } kind = Kind::cone;
   Eigen::Index size = 1;  ///< number of entries; cone: 1 + tangents (the first entry is n); disc: tangents
@@ -30,8 +30,8 @@ struct ConvexSet {
   Eigen::VectorXd direction;  ///< ray: e
 };
 
-/// Arguments: a: m x n with orthonormal rows, m <= n; r: length m; sets: their sizes add up to n. A x = r is satisfied within
-/// rounding::elimination |r|. nullopt: no point was found, because there is none or rounding errors hide it.
+/// Returns x; A x = r is satisfied within rounding::elimination |r|. nullopt: no x was found, because there is none, or because
+/// of rounding errors. a: m x n with orthonormal rows, m <= n; r: length m; the sizes of the sets add up to n.
 [[nodiscard]] std::optional<Eigen::VectorXd> least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
                                                         const std::vector<ConvexSet>& sets);
 

@@ -9,8 +9,8 @@
 //   4    products and sums of two or three terms     at most 8 operations of eps/2
 //   64   sums of many terms, solves, differences     128 operations of eps/2 at worst; about 10^4 with
 //                                                    random errors, as sqrt(n) eps/2
-//   100  times                                       the limit for equal times in IDA
-//   1000 solutions of small dense problems           some n^2 operations of eps/2 per row, n = 24: six contacts
+//   100  times                                       IDA treats times as equal up to this difference
+//   1000 solutions of small dense problems           about n^2 operations of eps/2 per row, n = 24 (six contacts)
 //
 // Results of solves with larger matrices have the backward error of the solve instead.
 #pragma once

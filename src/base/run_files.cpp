@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_there(const fs::path& path) {
+bool file_exists(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
 }
@@ -38,7 +38,7 @@ std::ifstream opened(const fs::path& path) {
   return stream;
 }
 
-/// True if the last line has no line end, for example because the run was killed.
+/// True if the last line of the table has no line end, for example because the run was killed.
 bool is_cut(const fs::path& table) {
   if (!input_file_error(table).empty()) return false;
   std::ifstream stream(table, std::ios::binary | std::ios::ate);
@@ -79,13 +79,15 @@ void check_file(const fs::path& directory, const Manifest& manifest, std::string
   const fs::path path = directory / file;
   const ManifestEntry* expected = manifest.find(file);
   if (expected == nullptr) {
-    if (!is_there(path)) return;
-    throw FileError(path.string(),
-                    fmt::format("found a file that {} does not list: it does not belong to this run, or is "
-                                "incomplete. Delete it, or delete {} if the change was intended",
-                                manifest_file, (directory / manifest_file).string()));
+    if (!file_exists(path)) return;
+    throw FileError(
+        path.string(),
+        fmt::format("found a file that {} does not list: the file does not belong to this "
+                    "run, or is incomplete. Delete the file, or delete {} if the change was intended",
+                    manifest_file, (directory / manifest_file).string()));
   }
-  if (!is_there(path)) refuse(directory, file, fmt::format("not found, expected {} bytes", expected->size));
+  if (!file_exists(path))
+    refuse(directory, file, fmt::format("not found, expected {} bytes", expected->size));
   std::error_code error;
   if (const std::uintmax_t size = fs::file_size(path, error); !error && size != expected->size)
     refuse(directory, file, fmt::format("found {} bytes, expected {}", size, expected->size));
@@ -109,7 +111,7 @@ void Manifest::remove(std::string_view file) {
 
 void Manifest::add(const fs::path& directory, std::string_view file) {
   remove(file);
-  if (!is_there(directory / file)) return;
+  if (!file_exists(directory / file)) return;
   const auto rank = [](std::string_view name) {
     return std::find(result_files.begin(), result_files.end(), name) - result_files.begin();
   };
@@ -133,7 +135,7 @@ Manifest manifest_of(const fs::path& directory, const std::string& outcome) {
 
 std::optional<Manifest> read_manifest(const fs::path& directory) {
   const fs::path path = directory / manifest_file;
-  if (!is_there(path)) return std::nullopt;
+  if (!file_exists(path)) return std::nullopt;
   std::ifstream stream = opened(path);
   try {
     const Json json = parse_json(stream);
@@ -142,14 +144,15 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
       manifest.files.push_back({e.at("file"), e.at("size"), e.at("checksum")});
       const std::string& file = manifest.files.back().file;
       if (file.empty() || file.find('/') != std::string::npos)
-        throw FileError(path.string(),
-                        "is not a manifest of a run: found the file name \"" + excerpt(file) + "\"");
+        throw FileError(path.string(), "is not a manifest of a run: found the file name \"" + excerpt(file) +
+                                           "\", expected a name without \"/\"");
     }
     return manifest;
   } catch (const Json::exception& error) {
-    throw FileError(path.string(),
-                    std::string("is not a manifest of a run: ") + error.what() +
-                        "; compute the run again, or delete the manifest: its files are then not checked");
+    throw FileError(
+        path.string(),
+        std::string("is not a manifest of a run: ") + error.what() +
+            "; compute the run again, or delete the manifest; the files of the run are then not checked");
   }
 }
 
@@ -176,9 +179,10 @@ void check_run_files(const fs::path& directory, const std::vector<std::string_vi
 }
 
 std::string unchecked_reason(const fs::path& directory) {
-  if (is_there(directory / manifest_file)) return "";
+  if (file_exists(directory / manifest_file)) return "";
   std::string why = fmt::format(
-      "{}: no {}: the run may not have finished, or is of an earlier version; its files are not checked",
+      "{}: {} is missing: the run may not have finished, or is of an earlier version; the files of the "
+      "run are not checked",
       directory.string(), manifest_file);
   if (is_cut(directory / "states.csv"))
     why += ". The last line of states.csv has no line end: its state is ignored";

@@ -3,7 +3,7 @@
 //   DIR/manifest.json   {"signorini": "0.9.0", "outcome": "done",
 //                        "files": [{"file": "events.csv", "size": 5120, "checksum": "9d0c5f1e2a7b4c38"}, ...]}
 //
-//   size: bytes;  checksum: of all bytes, base/text.hpp;  files: the existing files, in the order of result_files
+//   size: bytes;  checksum: Fingerprint of all bytes (base/text.hpp);  files: the existing files, in the order of result_files
 //
 // A run removes the manifest before it changes any other file, and writes the manifest after all other files. So a killed run
 // has no manifest. Pictures and pages are drawn from files of the manifest and are not listed in it.
@@ -55,15 +55,15 @@ struct Manifest {
 [[nodiscard]] Manifest manifest_of(const std::filesystem::path& directory, const std::string& outcome);
 /// Reads DIR/manifest.json; nullopt if the file is missing. Errors: FileError.
 [[nodiscard]] std::optional<Manifest> read_manifest(const std::filesystem::path& directory);
-/// Removes the manifest; must be called before any file in the directory changes. Errors: FileError.
+/// Removes the manifest. Must be called before any file in the directory is changed. Errors: FileError.
 void remove_manifest(const std::filesystem::path& directory);
 
-/// Refuses files that are not regular files. If there is a manifest, also refuses files that are missing, not listed, or of
-/// another size or checksum. Without names, checks all files that a run writes. Errors: FileError with the name of the file.
+/// Checks that the files are regular files and, if there is a manifest, that they are listed in it and have the listed size and
+/// checksum. Without names, checks all files that a run writes. Errors: FileError with the name of the file.
 void check_run_files(const std::filesystem::path& directory);
 void check_run_files(const std::filesystem::path& directory, const std::vector<std::string_view>& names);
-/// If there is no manifest: a sentence that says so, and whether the last line of states.csv is incomplete. Otherwise an
-/// empty text.
+/// Reason why the files cannot be checked: there is no manifest; mentions an incomplete last line of states.csv. Empty: there
+/// is a manifest.
 [[nodiscard]] std::string unchecked_reason(const std::filesystem::path& directory);
 
 }  // namespace signorini::base

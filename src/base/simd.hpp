@@ -1,10 +1,12 @@
 // simd.hpp: compiles a function for two and for four doubles per instruction; the version is selected at program start.
 //
-//   SIGNORINI_WIDE_LANES void f(...) { loops over Double4 }   same bits on every machine:
-//   each lane computes a separate result, or one of four fixed parts of a sum; no fused multiply-add
+//   SIGNORINI_WIDE_LANES void f(...) { loops over Double4 }
+//
+// Results are bitwise equal on every machine: each lane computes a separate result, or one of four fixed parts of a sum; no
+// fused multiply-add.
 //
 // Only for functions that are not templates; functions that they call must be inlined. If the compiler or a sanitizer does
-// not support the selection, only the version for two doubles exists.
+// not support the selection at program start, only the version for two doubles is compiled.
 #pragma once
 
 namespace signorini::base {
@@ -18,8 +20,8 @@ namespace signorini::base {
 
 using Double4 = double __attribute__((vector_size(32)));
 
-/// A vector of doubles at any address. It is a class because a vector type as a template argument would lose its alignment
-/// attribute.
+/// A vector of doubles at an address without alignment. A class is needed, because a vector type that is a template argument
+/// loses its alignment attribute.
 template <class T>
 struct [[gnu::packed, gnu::may_alias]] UnalignedLanes {
   T v;

@@ -98,7 +98,7 @@ bool is_plain_text(std::string_view text) {
 }
 
 void Fingerprint::add(std::string_view part) {
-  std::uint64_t hash = hash_;  // local, because a member would be stored after every byte
+  std::uint64_t hash = hash_;  // local copy: a member would be written to memory after every byte
   for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   hash_ = hash;
 }

@@ -22,7 +22,7 @@ namespace signorini::base {
 /// The whole text as an integer; nullopt if the text contains anything else or the integer overflows.
 [[nodiscard]] std::optional<long long> parse_integer(std::string_view text);
 
-/// Number and noun, with a plural s if needed: "1 value", "3 values".
+/// Number and noun, with a plural "s" unless the number is 1: "1 value", "3 values".
 [[nodiscard]] std::string count_text(std::size_t number, std::string_view thing);
 
 // Joins names for a sentence.
@@ -33,14 +33,14 @@ namespace signorini::base {
 /// Joins the first `most` names in quotes, followed by the number of further names.
 [[nodiscard]] std::string join_quoted(const std::vector<std::string>& names, std::size_t most = 10);
 
-/// Same as join_quoted() for texts that are not quoted.
+/// Joins the first `most` texts without quotes, followed by the number of further texts.
 [[nodiscard]] std::string join_texts(const std::vector<std::string>& texts, std::size_t most = 10);
 
 // A duration as text.
 //
 //   duration_text(0.4) == "1 s", duration_text(75) == "1.3 min"
 
-/// Duration as text, seconds >= 0: whole seconds below a minute, two digits in min, h or days above.
+/// Duration as text, seconds >= 0: whole seconds below one minute, otherwise two digits in min, h or days.
 [[nodiscard]] std::string duration_text(double seconds);
 
 /// Excerpt of a text from a file, for a message: at most 80 characters, ending with "..." if the text is longer. Characters
@@ -53,18 +53,18 @@ namespace signorini::base {
 /// True for UTF-8 text whose only control characters are tabs and line breaks.
 [[nodiscard]] bool is_plain_text(std::string_view text);
 
-// A short text computed from a whole long text, the same on every machine.
+// Fingerprint: a short text computed from all bytes of a long text, equal on every machine.
 //
 //   FNV-1a of 64 bits:   h = 14695981039346656037,  for each byte  h = (h xor byte) 1099511628211 mod 2^64
 //   sixteen hexadecimal digits of h
 //
-// A single changed byte always changes the fingerprint. Another change leaves it the same with probability 2^-64.
+// A change of a single byte always changes the fingerprint. Any other change goes unnoticed with probability 2^-64.
 
-/// Fingerprint of a text, which may be added in parts.
+/// Computes the fingerprint of a text that is added in parts.
 class Fingerprint {
  public:
   void add(std::string_view part);
-  /// The sixteen hexadecimal digits for all parts added so far.
+  /// Fingerprint of all parts added so far: sixteen hexadecimal digits.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -86,7 +86,8 @@ class Fingerprint {
 /// Text for the end of a message, "; did you mean \"friction\"?"; empty if no known name is similar.
 [[nodiscard]] std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
 
-/// Text for the end of a message: the most similar name, or otherwise some of the known names.
+/// Text for the end of a message: "; did you mean ...?" with the most similar name, or else "; known: ..." with some known
+/// names.
 [[nodiscard]] std::string suggestion(std::string_view given, const std::vector<std::string>& known);
 
 // Reads one row of a CSV table.

@@ -11,7 +11,7 @@
 // the difference of the runs contains ida's local error except near grazing guards; one half with rtol / 100, because in
 // chatter both runs have similar errors; otherwise all of it, because the companion's local error is as large.
 //
-// Series repeat the same rounding errors in steps of equal length (exact_engine.cpp, share_of_step): after N steps they
+// Series repeat the same rounding errors in steps of equal length (exact_engine.cpp, random_step_factor): after N steps they
 // add up to N roundings. Perturbed data do not reveal this error, because they change the phase of a motion but not its
 // amplitude. So companions of `exact` also use random step lengths.
 //

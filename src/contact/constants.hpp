@@ -1,6 +1,7 @@
-// constants.hpp: functions that visit every constant and every form of a contact, whatever its law.
+// constants.hpp: functions that visit every constant and every form of a contact, for any contact law.
 //
-// Code that rescales, perturbs, renumbers or reduces contacts uses these functions, so it need not know the laws.
+// Code that rescales, perturbs, renumbers or reduces contacts uses these functions, so this code does not depend
+// on the laws.
 #pragma once
 
 #include "base/unit.hpp"
@@ -27,8 +28,8 @@ void visit_stiffnesses(Contact& contact, const Visit& visit) {
   visit(contact.shear->damping, unit::damping);
 }
 
-/// Visits all constants that have a unit, including those of the contact's law, but no forms and no histories: visit(double&,
-/// Unit).
+/// Visits all constants that have a unit: visit(double&, Unit). Constants of the contact's law are included, forms and
+/// histories are not.
 template <class Visit>
 void visit_constants(Contact& contact, const Visit& visit) {
   visit(contact.gap, unit::length);

@@ -17,8 +17,8 @@ using ContactStates = std::vector<ContactState>;
   return is_open(state) && !is_user_law_state(state) ? State::open : state;
 }
 
-/// Representative states without anchors. They determine the matrix of the state system; anchors enter only the constants of
-/// rows.
+/// Representative state of each contact, without the anchor. These states determine the matrix of the state system; anchors
+/// enter only the constants of rows.
 [[nodiscard]] inline std::vector<State> states_of(const ContactStates& contact_states) {
   std::vector<State> states(contact_states.size());
   for (std::size_t k = 0; k < contact_states.size(); ++k)
@@ -26,7 +26,7 @@ using ContactStates = std::vector<ContactState>;
   return states;
 }
 
-/// Layout of the forces and guards of these contacts, from the numbers in the capabilities of their laws.
+/// Layout of the forces and guards of these contacts, from the capabilities of their laws.
 [[nodiscard]] inline ForceLayout layout_of(const std::vector<Contact>& contacts) {
   std::vector<ForceLayout::Counts> counts;
   counts.reserve(contacts.size());

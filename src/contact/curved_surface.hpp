@@ -23,8 +23,8 @@ namespace signorini::contact {
   return -N / contact.pendulum_surface->radius * ut;
 }
 
-/// ( N_K - N_0 ) / R: stiffness in K in addition to that of the scene's spring, N_0 / R, where N_0 is the nominal force of
-/// `in_scene`. 0 if the surface is not curved.
+/// Stiffness ( N_K - N_0 ) / R, which is added to K. K already contains the stiffness N_0 / R of the scene's spring; N_0: the
+/// nominal force of `in_scene`. 0 if the surface is not curved.
 [[nodiscard]] inline double extra_stiffness(const ContactSpec& in_scene, const Contact& contact) {
   return contact.pendulum_surface
              ? (contact.pendulum_surface->nominal_force - in_scene.pendulum_surface->nominal_force) /

@@ -9,7 +9,7 @@ namespace signorini::contact {
 namespace {
 
 /// Taylor coefficient E_k of E = exp(g) times a constant, from E_0 ... E_(k-1) and g_0 ... g_k.
-double next_of_exponential(const std::vector<double>& g, const std::vector<double>& e) {
+double next_exponential_coefficient(const std::vector<double>& g, const std::vector<double>& e) {
   const std::size_t k = e.size();
   double sum = 0.0;
   for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(j) * g[j] * e[k - j];
@@ -71,7 +71,7 @@ void FrictionRecursion::take_rate(double rate) {
 
 void FrictionRecursion::extend(double rate) {
   exponent_.push_back(-s_ * rate / velocity_);
-  varying_.push_back(next_of_exponential(exponent_, varying_));
+  varying_.push_back(next_exponential_coefficient(exponent_, varying_));
 }
 
 FrictionTangent::FrictionTangent(const Friction& friction, const Friction& by, int s)
@@ -88,11 +88,11 @@ void FrictionTangent::extend(double rate, double moved_rate) {
   const double x = s_ * rate;
   exponent_.push_back(-x / velocity_);
   y_.push_back((x * by_velocity_ / velocity_ - s_ * moved_rate) / velocity_);
-  e_.push_back(k == 0 ? std::exp(exponent_[0]) : next_of_exponential(exponent_, e_));
+  e_.push_back(k == 0 ? std::exp(exponent_[0]) : next_exponential_coefficient(exponent_, e_));
   double product = 0.0;
   for (std::size_t j = 0; j <= k; ++j) product += e_[j] * y_[k - j];
-  by_p_.push_back((k == 0 ? by_kinetic_ : 0.0) + (by_static_ - by_kinetic_) * e_[k] +
-                  (static_ - kinetic_) * product);
+  friction_rates_.push_back((k == 0 ? by_kinetic_ : 0.0) + (by_static_ - by_kinetic_) * e_[k] +
+                            (static_ - kinetic_) * product);
 }
 
 double friction_limit(const Friction& f, double x) {
@@ -122,7 +122,7 @@ LimitSeries::LimitSeries(const Friction& friction, double x0)
       x_{x0},
       e_{std::exp(-std::max(x0, 0.0) / force_)} {}
 
-/// Known part of E_k: all terms but -x_k E_0 / Nc, because x_k is not known yet.
+/// Part of E_k that does not depend on x_k: all terms except -x_k E_0 / Nc.
 double LimitSeries::known_exponential() const {
   const std::size_t k = x_.size();
   double sum = 0.0;
@@ -147,7 +147,8 @@ double LimitSeries::take(double x) {
 
 namespace {
 
-// Limit for Newton steps: the first steps advance x by at least v each, the last ones converge quadratically.
+// Limit of the number of Newton steps: each of the first steps increases x by at least v, the last steps converge
+// quadratically.
 constexpr int most_steps = 200;
 
 }  // namespace
@@ -166,11 +167,12 @@ std::optional<double> massless_slip_rate(const Friction& friction, double pull, 
     if (!(rest > saturation_tolerance)) return std::nullopt;
     return -v * std::log(rest);
   }
-  // The residual decreases and is convex in x, so Newton steps that start left of the root never pass the root.
+  // The residual decreases and is convex in x, so Newton's method that starts below the root never exceeds the root.
   double x = 0.0;
   for (int i = 0; i < most_steps; ++i) {
-    const double fading = (fast - slow) * std::exp(-x / v) * pressed;
-    const double step = (pull - damping * x - fast * pressed + fading) / (damping + fading / v);
+    const double exponential_part = (fast - slow) * std::exp(-x / v) * pressed;
+    const double step =
+        (pull - damping * x - fast * pressed + exponential_part) / (damping + exponential_part / v);
     x += step;
     if (std::abs(step) <= rounding::few_operations * (std::abs(x) + v)) break;
   }

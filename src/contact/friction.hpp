@@ -1,7 +1,7 @@
 // friction.hpp: magnitude of the friction force, and its derivatives.
 //
 //   stick   |T| <= fs |N|
-//   slip s  T + s f(s p') N = 0,   f(x) = fk + (fs - fk) exp(-x / v_s)    f = fk without v_s
+//   slip s  T + s f(s p') N = 0,   f(x) = fk + (fs - fk) exp(-x / v_s)    without v_s: f = fk
 //
 // fs > fk: Stribeck friction, which decreases with the slip rate. fs < fk: friction that rises with the slip rate, from fs
 // (slow) to fk (fast).
@@ -29,10 +29,10 @@ namespace signorini::contact {
 // Friction whose coefficient depends on the normal force.
 //
 //   |T| <= F in stick,  T = s F in slip,  F(x) = f(x) x,
-//   f(x) = fh + (fl - fh) exp(-x / Nc),  x = |N|              fl, fh: for light and for heavy loads, Nc: `force`
+//   f(x) = fh + (fl - fh) exp(-x / Nc),  x = |N|              fl, fh: f for light and heavy loads, Nc: `force`
 //   F'(x) = fh + (fl - fh) (1 - x / Nc) exp(-x / Nc)
 //
-// F is smooth, F(0) = 0 and F'(0) = fl. For x < 0 it continues as a straight line, so that a root finder may evaluate F
+// F is smooth, F(0) = 0 and F'(0) = fl. For x < 0, F continues as a straight line, so that a root finder may evaluate F
 // slightly beyond a separation. Taylor coefficients along a series of x, with E = exp(-x / Nc):
 //   k E_k = -(1 / Nc) sum_(j = 1..k) j x_j E_(k-j),   F_k = fh x_k + (fl - fh) sum_(j = 0..k) x_j E_(k-j)
 // F'(x_0) x_k is the part of F_k that depends on x_k. Units: F, x and Nc are forces, f is dimensionless.
@@ -41,19 +41,20 @@ namespace signorini::contact {
 [[nodiscard]] double friction_limit(const Friction& friction, double x);
 [[nodiscard]] double friction_limit_slope(const Friction& friction, double x);
 
-/// Sets F and its rate in the motion of a closed contact, from N, g' and q'. Does nothing if friction does not depend on N.
+/// Sets the members `limit` and `limit_rate` in the motion m of a closed contact, from N, g' and q'. Does nothing if friction
+/// does not depend on N.
 void set_limit(const Contact& contact, ContactMotion& m);
 
-/// Taylor coefficients of F along a series of x, computed one after the other.
+/// Taylor coefficients F_k of the friction limit F(x), from the Taylor coefficients x_k of the compression.
 class LimitSeries {
  public:
   LimitSeries(const Friction& friction, double x0);
 
   /// Slope F'(x_0) of the limit.
   [[nodiscard]] double slope() const { return slope_; }
-  /// Part F_k - F'(x_0) x_k of the next coefficient k; it can be computed before x_k is known.
+  /// Part F_k - F'(x_0) x_k of the next coefficient F_k. This part does not depend on x_k.
   [[nodiscard]] double known() const;
-  /// Appends x_k, for k = 1, 2, ...; returns F_k.
+  /// Appends the next coefficient x_k, for k = 1, 2, ...; returns F_k.
   double take(double x);
 
  private:
@@ -73,13 +74,13 @@ class LimitSeries {
 [[nodiscard]] inline double kinetic_friction(const Contact& contact) {
   return contact.friction.is_rate_strengthening() ? contact.friction.static_ : contact.friction.kinetic;
 }
-/// Ratio |T| / |N| in a slipping state; if it varies with the slip rate, its least value. At the static limit: the static
-/// coefficient.
+/// Ratio |T| / |N| in a slipping state, or its least value if it varies with the slip rate. In a state at the static limit:
+/// the static coefficient.
 [[nodiscard]] inline double slipping_friction(const Contact& contact, State state) {
   return is_at_static_limit(state) ? static_friction(contact) : kinetic_friction(contact);
 }
-/// For a normal force N <= 0: sticking_limit is the greatest |T| in stick, sliding_limit is |T| when slip begins. Unit:
-/// force.
+/// Friction force at the normal force N <= 0: sticking_limit is the greatest |T| in stick, sliding_limit is |T| when slip
+/// begins. Unit: force.
 [[nodiscard]] inline double sticking_limit(const Contact& contact, double N) {
   const Friction& f = contact.friction;
   return f.is_load_dependent() ? friction_limit(f, -N) : f.static_ * (0.0 - N);
@@ -88,7 +89,8 @@ class LimitSeries {
   return contact.friction.is_load_dependent() ? friction_limit(contact.friction, -N)
                                               : kinetic_friction(contact) * (0.0 - N);
 }
-/// Coefficient of friction at the slip rate along = s p' (smooth through zero), and its derivative with respect to along.
+/// Coefficient of friction at the slip rate `along` = s p', and its derivative with respect to `along`. Both are also defined
+/// for `along` < 0.
 [[nodiscard]] double sliding_friction(const Contact& contact, double along);
 [[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 
@@ -113,26 +115,27 @@ class LimitSeries {
 /// Linearisation of the nonlinear slip row at a motion m.
 [[nodiscard]] Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m);
 
-/// Taylor coefficients of the coefficient of friction along a motion, computed one after the other.
+/// Taylor coefficients f_k of the coefficient of friction, from the Taylor coefficients of the slip rate ut'.
 class FrictionRecursion {
  public:
-  /// Starts the series; rate: coefficient 0 of the Taylor series of ut'.
+  /// Starts the series of a contact that slips in direction s. rate: coefficient 0 of the Taylor series of ut'.
   void begin(const Contact& contact, int s, double rate);
   /// Initial coefficient of friction f_0, the factor in the row entry s f_0 N.
   [[nodiscard]] double first() const { return first_; }
-  /// Appends coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). applied(i) returns N_i.
+  /// Appends coefficient k of ut', for k = 1, 2, ...; returns s sum_(j = 1..k) f_j N_(k-j). applied(i) must return N_i.
   template <class Pressing>
   [[nodiscard]] double next(double rate, const Pressing& applied) {
     extend(rate);
     return known(applied);
   }
-  /// Same sum without the part that depends on coefficient k of ut', for use if that coefficient is an unknown of level k.
-  /// Call take_rate() with the coefficient once it is known.
+  /// Returns the sum of next() without the part that depends on coefficient k of ut', for use if coefficient k is still
+  /// unknown. take_rate() must be called when coefficient k is known.
   template <class Pressing>
   [[nodiscard]] double without_rate(const Pressing& applied) {
     extend(0.0);
     return known(applied);
   }
+  /// Sets coefficient k of ut' after without_rate().
   void take_rate(double rate);
 
  private:
@@ -151,11 +154,11 @@ class FrictionRecursion {
   std::vector<double> exponent_, varying_;  // g_k, (fs - fk) E_k
 };
 
-/// Derivative of the friction series with respect to a parameter, computed together with the coefficients of the motion. At
-/// level k every product of series except f_0 N_p,k is known, because x_k and x_p,k belong to level k - 1.
+/// Derivative of the friction series with respect to a parameter p, computed together with the Taylor coefficients of the
+/// motion. At order k only N_p,k is unknown: x_k and x_p,k, the coefficients of the slip rate, follow from order k - 1.
 class FrictionTangent {
  public:
-  /// For a contact that slips in direction s. by: derivatives of the friction constants with respect to the parameter.
+  /// s: direction of slip. by: derivatives of the friction constants with respect to the parameter.
   FrictionTangent(const Friction& friction, const Friction& by, int s);
 
   /// Appends coefficient k of ut' and of its derivative with respect to p, for k = 0, 1, ... applied(i) returns N_i, moved(i)
@@ -166,7 +169,7 @@ class FrictionTangent {
     const std::size_t k = e_.size() - 1;
     double sum = 0.0;
     for (std::size_t j = 1; j <= k; ++j) sum += (static_ - kinetic_) * e_[j] * moved(k - j);
-    for (std::size_t j = 0; j <= k; ++j) sum += by_p_[j] * applied(k - j);
+    for (std::size_t j = 0; j <= k; ++j) sum += friction_rates_[j] * applied(k - j);
     return s_ * sum;
   }
 
@@ -174,22 +177,22 @@ class FrictionTangent {
   void extend(double rate, double moved_rate);
 
   double static_, kinetic_, velocity_ = 1.0;           // fs, fk, v_s
-  double by_static_, by_kinetic_, by_velocity_ = 0.0;  // derivatives with respect to p
+  double by_static_, by_kinetic_, by_velocity_ = 0.0;  // derivatives of fs, fk, v_s with respect to p
   int s_;
-  std::vector<double> exponent_, e_, y_, by_p_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
+  std::vector<double> exponent_, e_, y_, friction_rates_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
 };
 
-// Slip rate of a massless sliding point whose friction rises with the rate.
+// Slip rate of a massless sliding point whose friction rises with the slip rate.
 //
-//   pull - c x = f(x) |N|,   f(x) = fast - (fast - slow) exp(-x / v)      x = s p', c: dashpot beside kt
+//   pull - c x = f(x) |N|,   f(x) = fast - (fast - slow) exp(-x / v)      x = s p', c: dashpot parallel to kt
 //   c = 0:  x = -v ln m,   m = (fast |N| - pull) / ((fast - slow) |N|)
 //
 // The spring force T acts on the point, so friction determines the slip rate. The left side decreases with x and the right
 // side increases, hence x is unique. If pull < slow |N|, x is negative and the point sticks. If c = 0 and pull >= fast |N|,
-// there is no solution, and the point follows instantaneously. Units: x, v length/time.
+// there is no solution, and the point moves instantaneously. Units: x, v length/time.
 
-/// Fraction of fast - slow within which the coefficient is treated as equal to `fast`; the pull then no longer determines the
-/// rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
+/// Distance of the coefficient from `fast`, as a fraction of fast - slow, below which the coefficient is treated as `fast`; the
+/// pull then does not determine the rate. Chosen value; tests/unit/contact/massless_slip.cpp depends on it.
 inline constexpr double saturation_tolerance = 1e-8;
 
 /// Slip rate beyond which the coefficient is treated as `fast`: -v ln(saturation_tolerance). Unit: length/time.

@@ -19,7 +19,7 @@ const char* to_string(State state) {
       return "slip-";
     case State::static_limit_plus:
     case State::static_limit_minus:
-      break;  // impossible: kind_of() never returns these
+      break;  // impossible: kind_of() never returns a static limit
   }
   return "?";
 }

@@ -5,15 +5,15 @@
 //   rigid      N = 0, T = 0    g'' = 0                       ut'' = 0                     T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     as compliant, or ut'' = 0    T + s fk N = 0
 //   with a shear element, whose sliding point is massless:   p' = 0                       T + s fk N = 0
-//   static limit s, without slip, which other contacts prevent:                       T + s fs N = 0
+//   static limit in direction s, without slip (other contacts prevent slip):              T + s fs N = 0
 //   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction.hpp.
-// A dashpot adds cn g' to kn g. The contact opens at N = 0, because it must not pull, although g is still negative. It stays
-// open (state "inside") until kn g + cn g' < 0 again or until the gap has opened.
+// A dashpot adds cn g' to kn g. The contact opens at N = 0, because it must not pull, although g is still negative. The contact
+// stays open (state "inside") until kn g + cn g' < 0 again or until the gap has opened.
 //
-//   guards     open    g                        (sliders: none; q = 0 there)
+//   guards     open    g                        (sliders: none, because an open slider has q = 0)
 //              inside  g + (cn/kn) g', -g
 //              closed  -N
-//              stick   -N, -fs N - T, -fs N + T      F in place of -fs N where friction depends on N
+//              stick   -N, -fs N - T, -fs N + T      F in place of -fs N if friction depends on N
 //              slip s  -N, s p'
 //                      -N, s T + fs N   for a massless sliding point whose friction rises with the slip rate:
 //                                       this guard has the sign of s p'
@@ -22,7 +22,7 @@
 //              p' = ut' - s F'/kt               friction that depends on N
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
-// These are the built-in laws: contact/law/coulomb_law.hpp and the normal laws in the same folder. A user-defined law gets
+// Built-in laws: contact/law/coulomb_law.hpp and the normal laws in the same folder. A user-defined law gets
 // its rows and guards from data (signorini/user_contact_law.hpp, contact/law/user_law.hpp). All laws implement the interface
 // signorini/contact_law.hpp. A guard is positive while its state is valid; the event is the first zero of a guard. Guards
 // continue smoothly beyond their zero, so a root finder may evaluate them slightly after the event.
@@ -39,9 +39,9 @@
 
 namespace signorini {
 
-/// Guards, named after the change of state at their zero. closing: g of an open contact; opening: -g in state inside;
-/// separation: -N; slip_plus, slip_minus: distance of T from the friction limit in the direction + or -; sliding: the slip
-/// rate; user_1 to user_3: the guards of a user law; none: an unused entry.
+/// Guards, named after the change of state at the zero of the guard. closing: g of an open contact; opening: -g in state
+/// inside; separation: -N; slip_plus, slip_minus: distance of T from the friction limit in the direction + or -; sliding: the
+/// slip rate; user_1 to user_3: the guards of a user law; none: an unused entry.
 enum class Guard : unsigned char {
   none,
   closing,
@@ -79,7 +79,7 @@ namespace signorini {
 struct GuardForm {
   Guard kind = Guard::none;
   Form form;
-  /// Empty products: nullptr, the guard is linear.
+  /// Products a b; nullptr: the guard has no products and is linear.
   std::shared_ptr<const std::vector<FormProduct>> products = nullptr;
 
   [[nodiscard]] bool is_linear() const { return products == nullptr; }
@@ -119,7 +119,7 @@ namespace signorini::contact {
 
 namespace signorini {
 
-/// The two constraint rows of a contact, each zero on the motion.
+/// The two constraint rows of a contact: forms that are zero for the motion of the contact.
 struct Rows {
   Form normal, tangent;
 };
@@ -156,8 +156,8 @@ namespace signorini {
 // Source: Lukashevich et al. 2021, section on contact states. The rule for closing compares directions at the apex of the
 // friction cone.
 
-/// Motion of one contact just after an instant: motion[k] is the k-th time derivative. noise[k]: the error of each entry of
-/// motion[k] that one rounding of the data causes.
+/// Motion of one contact just after an instant: motion[k] is the k-th time derivative. noise[k]: for each entry of motion[k],
+/// the error caused by one rounding of the data.
 struct MotionJet {
   static constexpr std::size_t orders = 5;  ///< the motion and its first four derivatives
   std::array<ContactMotion, orders> motion, noise;
@@ -169,12 +169,12 @@ namespace signorini::contact {
 
 /// Slipping state with this sign of the slip rate.
 [[nodiscard]] State slip_state(double direction);
-/// State of a loaded contact that does not slip: stick if it has friction, otherwise closed.
+/// State of a contact with a compressive force that does not slip: stick if the contact has friction, otherwise closed.
 [[nodiscard]] State state_at_rest(const Contact& contact);
-/// State of a contact without force: inside if it has a dashpot and g < 0, otherwise open.
+/// State of a contact without force: inside if the contact has a dashpot and g < 0, otherwise open.
 [[nodiscard]] State separated_state(const Contact& contact, double gap);
 
-/// State after guard `failed` of state `now` has failed; jet: the motion in state `now`.
+/// State after the guard `failed` of state `now` has failed. jet: motion in state `now`, with time derivatives.
 [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                       const MotionJet& jet);
 
@@ -184,14 +184,14 @@ namespace signorini {
 
 // Amounts by which a contact violates its conditions (6) and (7).
 //
-//   (6)  g >= 0, N <= 0, g N = 0          with a normal spring: g minus its deformation (N - cn g')/kn
+//   (6)  g >= 0, N <= 0, g N = 0          with a normal spring, g is reduced by its deformation (N - cn g')/kn
 //   (7)  |T| <= T_U, T p' >= 0            T_U: static limit in stick, friction at the slip rate in slip
 
 /// Amounts of violation; a value is positive if its condition is violated.
 struct Violations {
-  double tension = 0.0;      ///< N; positive in tension; force
-  double gap = 0.0;          ///< -(g - deformation of the spring); length; only contacts with a spring
-  double penetration = 0.0;  ///< |g| if closed, -g if open; length; only constraints
+  double tension = 0.0;  ///< N; positive in tension; force
+  double gap = 0.0;      ///< -(g - deformation of the spring); length; only for contacts with a normal spring
+  double penetration = 0.0;  ///< |g| if closed, -g if open; length; only for rigid contacts
   double product = 0.0;      ///< |g N|, with g as in `gap` or `penetration`; energy
   double friction = 0.0;     ///< |T| - T_U of a closed contact; force
   double direction = 0.0;    ///< -T p' of a slipping contact; power

@@ -14,7 +14,7 @@
 
 namespace signorini::contact {
 
-/// ut if u is a displacement, ut' if u is a velocity; surface: motion or velocity of the surface.
+/// ut if u contains displacements, ut' if u contains velocities. surface: displacement or velocity of the surface.
 template <class U>
 [[nodiscard]] double along_surface(const Contact& contact, const U& u, double surface) {
   return contact.tangent.dot(u) - surface;
@@ -42,8 +42,8 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   m.at = contact.tangent.dot(a) - surface_acceleration;
 }
 
-/// Slip p; a contact that begins to stick keeps this p as its anchor. The function is linear, so increments of ut and T give
-/// the increment of p.
+/// Slip p. When a contact begins to stick, its p becomes the anchor. The function is linear: for increments of ut and T it
+/// returns the increment of p.
 [[nodiscard]] inline double slip_of(const Contact& contact, double ut, double T) {
   const std::optional<double> kt = contact.anchor_spring();
   return kt ? ut - T / *kt : ut;

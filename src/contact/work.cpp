@@ -10,7 +10,7 @@ double working_slip_rate(const Contact& contact, State state, const ContactMotio
   return contact.law->working_slip_rate(contact, state, m);
 }
 
-double inside_loss(const Contact& contact, State state, double gap_from, double gap_to) {
+double dashpot_loss_inside(const Contact& contact, State state, double gap_from, double gap_to) {
   if (state != State::inside) return 0.0;
   return 0.5 * contact.normal_stiffness * (gap_from - gap_to) * (gap_from + gap_to);
 }

@@ -11,15 +11,15 @@
 
 namespace signorini {
 
-/// Small increments along a contact's path, or rates if time = 1, together with g' on the path.
+/// Small increments of the motion of a contact, or rates if time = 1; and the gap rate g' during the increment.
 struct ContactIncrement {
   double slip = 0.0, surface = 0.0, gap = 0.0;  ///< dp, ds, dg
   double gap_rate = 0.0;                        ///< g'
   double time = 0.0;                            ///< dt
 };
 
-/// Works on an increment of the path; powers if the increment contains rates. For a user-defined law `friction` is the whole
-/// work, stored or dissipated, and ContactIncrement::slip is d ut. Unit: energy; applied_normal_force: force * time.
+/// Work during an increment; power if the increment contains rates. For a user-defined law `friction` is the whole work,
+/// stored or dissipated, and ContactIncrement::slip is d ut. Unit: energy; applied_normal_force: force * time.
 struct ContactWork {
   double friction = 0.0, surface = 0.0, damping = 0.0, applied_normal_force = 0.0;
 };
@@ -28,7 +28,7 @@ struct ContactWork {
 
 namespace signorini::contact {
 
-/// Work of the contact forces N and T along the path, for a contact in this state.
+/// Work of the contact forces N and T during the increment `path`, for a contact in this state.
 [[nodiscard]] ContactWork work_on(const Contact& contact, State state, double N, double T,
                                   const ContactIncrement& path);
 
@@ -37,13 +37,13 @@ namespace signorini::contact {
 
 /// Energy dissipated by the dashpot of a contact in state `inside` while the gap changes from gap_from to gap_to; 0 in any
 /// other state.
-[[nodiscard]] double inside_loss(const Contact& contact, State state, double gap_from, double gap_to);
+[[nodiscard]] double dashpot_loss_inside(const Contact& contact, State state, double gap_from, double gap_to);
 
-/// True if the sliding point jumps whenever its force jumps: it has no dashpot, or the body at the point also moves
-/// instantaneously.
+/// True if the sliding point jumps whenever its force jumps: the shear element has no dashpot, or the body at the sliding point
+/// also moves instantaneously.
 [[nodiscard]] bool slides_instantaneously(const Contact& contact);
 
-/// Energy stored in the tangential spring. With a shear element it is 0, because that spring belongs to the structure.
+/// Energy stored in the tangential spring. 0 for a shear element, because its spring belongs to the structure.
 [[nodiscard]] double shear_energy(const Contact& contact, double T);
 /// Energy stored in the springs of the contact, along the normal and along the tangent (see shear_energy()).
 [[nodiscard]] double stored_energy(const Contact& contact, State state, const ContactMotion& m);

@@ -17,7 +17,7 @@
 namespace signorini::decide {
 namespace {
 
-/// A guard and its time derivatives at its zero, from the motion in the states that end there.
+/// A guard and its time derivatives at the zero of the guard, from the motion just before the change of state.
 Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   Crossing result{guard, {}, guard.rounding(jet.motion.data(), jet.noise.data(), 0)};
   for (std::size_t k = 1; k < jet.motion.size(); ++k)
@@ -25,23 +25,23 @@ Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   return result;
 }
 
-/// True if the guard did not reach zero continuously: its value was clearly positive just before, and the new state of
-/// another contact made the value jump below zero.
+/// True if the guard did not reach zero continuously: its value was clearly positive just before the instant, and jumped below
+/// zero because of the new state of another contact.
 bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion& before,
                const ContactMotion& noise) {
   return f.sign.order == 0 && !instant.has_triggered(f.contact, f.guard) &&
          f.form.value(before) > retry_noise_factor * f.form.rounding(&before, &noise, 0);
 }
 
-std::vector<std::size_t> every_contact(const Model& model) {
+std::vector<std::size_t> indices_of_all_contacts(const Model& model) {
   std::vector<std::size_t> all(model.contacts.size());
   std::iota(all.begin(), all.end(), 0U);
   return all;
 }
 
-/// Refusal for contact states whose equations cannot be solved: constraint rows of rigid contacts are linearly dependent, or
-/// the structure is singular.
-Refusal no_system(const Model& model, const contact::ContactStates& states) {
+/// Refusal for contact states whose equations have no unique solution: constraint rows of contacts are linearly dependent, or
+/// the matrix of the structure is singular.
+Refusal unsolvable_refusal(const Model& model, const contact::ContactStates& states) {
   std::vector<std::size_t> held;
   for (std::size_t c = 0; c < states.size(); ++c)
     if (!states[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
@@ -49,20 +49,20 @@ Refusal no_system(const Model& model, const contact::ContactStates& states) {
   if (!held.empty()) {
     Refusal why = dependent_rows(held);
     for (const std::size_t c : held)
-      if (const std::string alone = holds_no_mass(model, model.contacts[c]); !alone.empty()) {
+      if (const std::string alone = massless_stick_error(model, model.contacts[c]); !alone.empty()) {
         why.reason += ": " + alone;
         break;
       }
     return why;
   }
   return {Refusal::Kind::singular,
-          "the equations of motion are singular: the least stiffnesses and masses are below the rounding of "
-          "the greatest, or outside the range of doubles",
+          "the equations of motion are singular: the smallest stiffness or mass is below the rounding error "
+          "of the largest one, or outside the range of doubles",
           {}};
 }
 
-/// Changes of the scene that make the contact forces unique, for messages. Only sliders may have a tangential_stiffness
-/// without a normal one.
+/// Keys that make the forces of these contacts unique, for messages. Only sliders may have a tangential_stiffness without a
+/// normal_stiffness.
 std::string springs_for_uniqueness(const Model& model, const std::vector<std::size_t>& contacts) {
   const bool sliders = std::any_of(contacts.begin(), contacts.end(),
                                    [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
@@ -80,7 +80,7 @@ ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_ro
     : model_(systems.model()),
       systems_(systems),
       jets_(systems),
-      all_contacts_(every_contact(model_)),
+      all_contacts_(indices_of_all_contacts(model_)),
       max_rounds_(max_rounds),
       rigid_solver_(systems, jets_, capture_velocity),
       guards_(model_),
@@ -93,7 +93,7 @@ ContactStateSolver::ContactStateSolver(motion::StateSystems& systems, int max_ro
   if (!local_derivatives_->possible()) local_derivatives_.reset();
 }
 
-/// Computes the motion in the given contact states. False: their constraint rows are linearly dependent.
+/// Computes the motion in the given contact states. False: the constraint rows of these states are linearly dependent.
 bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::ContactStates& states,
                                   SolverState& solver_state) {
   systems_.mark_static_limits(states, forcing, solver_state.instant.t);
@@ -109,8 +109,8 @@ bool ContactStateSolver::evaluate(const motion::Forcing& forcing, contact::Conta
   motion::JetMaker::StopCriterion enough;
   if (decide_separately_ && !solver_state.impact_result.sliders)
     enough = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
-      return decided_by(guards_.of(c, states[c]), c, jet, orders, instant,
-                        solver_state.impact_result.known[c], retry_noise_factor);
+      return signs_are_decided(guards_.of(c, states[c]), c, jet, orders, instant,
+                               solver_state.impact_result.known[c], retry_noise_factor);
     };
   std::optional<motion::LocalDerivatives::LocalJet> near;
   if (local_derivatives_) {
@@ -147,22 +147,22 @@ std::vector<motion::BodySlide> ContactStateSolver::slides(const motion::Forcing&
   return result;
 }
 
-/// Computes the motion just before the instant, in the old states under the old forcing, and the states that follow from a
-/// jump of the forcing.
+/// Computes the motion just before the instant, with the old states and the old forcing. If the forcing jumps, also computes
+/// the states that follow from the jump.
 Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& solver_state) {
   Instant& instant = solver_state.instant;
   Decision& d = solver_state.decision;
-  if (!evaluate(before, instant.states, solver_state)) return no_system(model_, instant.states);
+  if (!evaluate(before, instant.states, solver_state)) return unsolvable_refusal(model_, instant.states);
   d.before.reserve(solver_state.jets.size());
   solver_state.noise_before.reserve(solver_state.jets.size());
   for (const MotionJet& jet : solver_state.jets) {
     d.before.push_back(jet.motion[0]);
     solver_state.noise_before.push_back(jet.noise[0]);
   }
-  if (!instant.resting_limits.empty()) solver_state.so_far = solver_state.jets;
+  if (!instant.resting_limits.empty()) solver_state.motion_up_to_instant = solver_state.jets;
   d.slides_before = slides(before, d);
-  // u and v without integration drift, which must not influence the decision: a rigidly sticking contact moves with its
-  // surface, and a touching rigid contact has no gap.
+  // Removes the drift of the integration from u and v: a rigidly sticking contact moves with its surface, and a touching
+  // rigid contact has no gap. The drift must not influence the decision.
   if (instant.start) solver_state.initial_u = instant.u;
   instant.u = d.u;
   instant.v = d.v;
@@ -172,7 +172,7 @@ Refusal ContactStateSolver::begin(const motion::Forcing& before, SolverState& so
   apply_forcing_jump(model_, instant, before, solver_state.after, d.before, solver_state.states);
   do {  // ends, because each round makes one more contact stick
     if (!evaluate(solver_state.after, solver_state.states, solver_state))
-      return no_system(model_, solver_state.states);
+      return unsolvable_refusal(model_, solver_state.states);
   } while (resolve_slip_reversal(model_, d.before, solver_state.jets, solver_state.states));
   return {};
 }
@@ -182,12 +182,12 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
          systems_.held_by_others(c, solver_state.states, solver_state.after, solver_state.instant.t);
 }
 
-/// Finds the guards that fail in the evaluated states, and calls the listener. before: true if these are the states of the
-/// motion up to the instant.
+/// Finds the guards that fail in the evaluated states, and calls the listener. before: true if the evaluated states are the
+/// states before the instant.
 void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   solver_state.failed =
       find_failed_guards(model_, solver_state.jets, solver_state.states, solver_state.instant, before,
-                         solver_state.impact_result.known, solver_state.so_far,
+                         solver_state.impact_result.known, solver_state.motion_up_to_instant,
                          solver_state.open ? *solver_state.open : all_contacts_);
   std::erase_if(solver_state.failed, [&](const FailedGuard& f) {
     if (f.guard == Guard::sliding && held_by_others(f.contact, solver_state)) return true;
@@ -206,10 +206,10 @@ void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
   listener_(round);
 }
 
-/// If contact f stops while massless parts move instantaneously along their path, restarts the path at the stop, so that the
-/// contact stays there. Done only once per contact, because the path changes afterwards.
+/// If the contact of f stops slipping at the end of the instantaneous motion of massless parts, a new motion of these parts
+/// starts at the stop, so that the contact sticks at this position. Done at most once per contact, because the path changes.
 void ContactStateSolver::restart_path_at_stop(const FailedGuard& f, SolverState& solver_state) const {
-  std::vector<std::size_t>& before = solver_state.slid_contacts;
+  std::vector<std::size_t>& before = solver_state.stopped_on_path;
   if (!stops_on_path(model_.contacts[f.contact], f, solver_state.states[f.contact].state,
                      {solver_state.instant.u, solver_state.decision.u},
                      solver_state.jets[f.contact].noise[0].ut) ||
@@ -233,7 +233,7 @@ std::vector<Block> selected(const std::vector<Block>& blocks, const std::vector<
 
 /// Sets the next states of the contacts that are decided separately. Returns the blocks of contacts that must be decided
 /// together.
-std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
+std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& solver_state) const {
   ImpactResult& found = solver_state.impact_result;
   std::vector<bool> jointly(blocks_.all.size(), false);
   std::vector<std::size_t> turning;
@@ -244,7 +244,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   };
   if (solver_state.touched && model_.contacts[solver_state.touched->contact].normal_damping > 0.0)
     solver_state.instant.u = way.from + solver_state.touched->fraction * (way.to - way.from);
-  // Failures are deferred only in the rounds before states repeat; then all contacts are decided.
+  // Failures are deferred only until states repeat; afterwards all contacts are decided.
   if (solver_state.decision.rounds >= 2 && !solver_state.noise_increased) {
     defer_slip_failures(model_, solver_state.failed);
     if (!found.sliders)
@@ -253,7 +253,7 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   for (const FailedGuard& f : solver_state.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
-    // A contact that closes on the path has no crossing: another contact caused the event.
+    // A contact that closes during an instantaneous motion has no crossing: another contact caused the event.
     if (!solver_state.decision.visited[c] && !touched(c) &&
         !is_pushed(f, solver_state.instant, solver_state.decision.before[c], solver_state.noise_before[c]))
       solver_state.decision.crossings.insert_or_assign(c, crossing(f.form, solver_state.jets[c]));
@@ -262,26 +262,26 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
     const bool slips = contact::is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
     if (!contact.takes_impulses() && !joins) {
-      // The slip rate of this contact is zero up to rounding, so it is treated as zero in any next state.
+      // The slip rate of this contact is zero up to rounding, so the slip rate is treated as zero in any next state.
       if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
       restart_path_at_stop(f, solver_state);
       ContactState& state = solver_state.states[c];
       state = contact::next_state(contact, state, f.guard, solver_state.jets[c]);
-      if (touched(c))  // tried as sticking first; its friction limit decides about slip
+      if (touched(c))  // tried in stick first; the friction limit decides about slip
         state = {contact::state_at_rest(contact),
                  solver_state.jets[c].motion[0].ut + solver_state.touched->ut};
       continue;
     }
     jointly[blocks_.of[c]] = true;
-    // The contact should leave, but g' is zero in the resulting states; or its gap has closed with g' = 0.
+    // The contact opened, but g' is zero and g becomes negative; or the gap has closed with g' = 0.
     if (f.guard == Guard::closing && f.sign.order > 1 &&
         (found.known[c].touches || solver_state.instant.has_triggered(c, Guard::closing)))
       found.stays[c] = true;
-    // The contact was at its static limit, and now exceeds that limit.
+    // The contact was decided as sticking at its static limit, and now exceeds this limit.
     if (slips && found.decided[c])
-      (held_by_others(c, solver_state) ? found.bears_limit : found.kinetic)[c] = true;
+      (held_by_others(c, solver_state) ? found.stays_at_limit : found.kinetic)[c] = true;
     if (f.guard == Guard::sliding && found.decided[c] &&
         starts_at_zero(f.form, solver_state.jets[c], solver_state.instant))
       found.rests[c] = true;
@@ -293,8 +293,8 @@ std::vector<Block> ContactStateSolver::react(SolverState& solver_state) const {
   return selected(blocks_.all, jointly);
 }
 
-/// Sets the slip rates of reversing sliders to zero: the event time is located within a tolerance, and the slip rate at that
-/// time would persist.
+/// Sets the slip rates of reversing sliders to zero. Since the event is located only within a tolerance, the slip rate at the
+/// located time is not exactly zero, and a sticking slider would keep this rate.
 void ContactStateSolver::stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const {
   if (turning.empty()) return;
   const motion::StateSystemPtr system = systems_.system_of(solver_state.states);
@@ -322,9 +322,9 @@ void ContactStateSolver::record_closed_gaps(SolverState& solver_state) const {
 }
 
 /// Proposes the next states from the guards that fail in the states tried last.
-Refusal ContactStateSolver::propose(SolverState& solver_state) {
+Refusal ContactStateSolver::propose_states(SolverState& solver_state) {
   Decision& d = solver_state.decision;
-  const std::vector<Block> jointly = react(solver_state);
+  const std::vector<Block> jointly = decide_separate_contacts(solver_state);
   solver_state.impact_result.hit = false;
   if (!jointly.empty()) {
     Refusal why =
@@ -333,7 +333,7 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
     record_closed_gaps(solver_state);
     if (why) {
       if (!solver_state.failed.empty())
-        why.reason += " (after " + names_of(model_, solver_state.failed) + ")";
+        why.reason += " (after these guards failed: " + names_of(model_, solver_state.failed) + ")";
       return why;
     }
   }
@@ -347,24 +347,25 @@ Refusal ContactStateSolver::propose(SolverState& solver_state) {
   return {};
 }
 
-/// Proposes the next states and computes their motion. A slider that stops together with sticking contacts need not stick: if
-/// the constraint rows are linearly dependent, all of them are decided together.
-Refusal ContactStateSolver::try_next(SolverState& solver_state) {
+/// Proposes the next states and computes the motion in these states. A slider that stops together with sticking contacts need
+/// not stick: if the constraint rows are linearly dependent, the slider and these contacts are decided together.
+Refusal ContactStateSolver::try_next_states(SolverState& solver_state) {
   const contact::ContactStates last = solver_state.states;
-  if (Refusal why = propose(solver_state)) return why;
+  if (Refusal why = propose_states(solver_state)) return why;
   if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
   if (!solver_state.impact_result.hit && !std::exchange(solver_state.impact_result.sliders, true)) {
     solver_state.tried_states.pop_back();
     solver_state.states = last;
-    // A joint decision of several sliders needs all orders of their motions.
+    // The motion is computed again, because a joint decision of several sliders needs all its derivatives.
     if (!evaluate(solver_state.after, solver_state.states, solver_state))
-      return no_system(model_, solver_state.states);
-    if (Refusal why = propose(solver_state)) return why;
+      return unsolvable_refusal(model_, solver_state.states);
+    if (Refusal why = propose_states(solver_state)) return why;
     if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
   }
   Refusal why = dependent_rows(contacts_of(solver_state.failed));
-  why.reason += fmt::format(" (after {}); {} makes them unique", names_of(model_, solver_state.failed),
-                            springs_for_uniqueness(model_, why.contacts));
+  why.reason +=
+      fmt::format(" (after these guards failed: {}); {} makes the forces unique",
+                  names_of(model_, solver_state.failed), springs_for_uniqueness(model_, why.contacts));
   return why;
 }
 
@@ -384,15 +385,16 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
               fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
                           max_rounds_, names_of(model_, solver_state.failed)),
               contacts_of(solver_state.failed)};
-    if (Refusal why = try_next(solver_state)) return why;
+    if (Refusal why = try_next_states(solver_state)) return why;
     check_guards(solver_state, false);
   }
   return {};
 }
 
-/// True if the contact sticks at its friction limit from this instant on, and no derivative shows when it will slip.
-bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::size_t c,
-                                        const GuardStart& guard) {
+/// True if the contact sticks at its friction limit from this instant on, and all known derivatives of the guard are zero, so
+/// that the time of slip is unknown.
+bool ContactStateSolver::sticks_at_limit(const SolverState& solver_state, std::size_t c,
+                                         const GuardStart& guard) {
   const bool limit = contact::is_friction_limit(guard.kind);
   const bool asked = solver_state.instant.start || solver_state.instant.jump ||
                      solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
@@ -400,17 +402,18 @@ bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::si
          std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
 }
 
-/// True if the contact stops exactly at its static limit (up to rounding), and kinetic friction is lower. Beyond the limit
-/// the contact slips at once, by much more than rounding. At the start of a run, loads lead to the limit but not beyond it.
-bool ContactStateSolver::meets_static_limit(const SolverState& solver_state, std::size_t c,
-                                            const GuardStart& guard) const {
+/// True if the contact stops exactly at its static limit (up to rounding), and kinetic friction is lower. Above the limit the
+/// contact would slip at once, by much more than rounding. Not applied at the start of a run, where the friction force is at
+/// most at the limit.
+bool ContactStateSolver::stops_at_static_limit(const SolverState& solver_state, std::size_t c,
+                                               const GuardStart& guard) const {
   const bool asked = solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
   return model_.contacts[c].friction.has_static_drop() && contact::is_friction_limit(guard.kind) && asked &&
          !solver_state.instant.start && guard.at_zero && guard.leading_order > 0 &&
          std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
 }
 
-/// True if the values of all guards of contact c are positive by more than rounding.
+/// True if all guards of contact c are positive by more than their rounding errors.
 bool ContactStateSolver::has_clear_guards(const SolverState& solver_state, std::size_t c) {
   return solver_state.open && !std::binary_search(solver_state.open->begin(), solver_state.open->end(), c);
 }
@@ -422,10 +425,10 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
   Decision& d = solver_state.decision;
   const MotionJet& jet = solver_state.jets[c];
   const Known known = solver_state.impact_result.known[c].of(guard.kind);
-  const MotionJet* base = solver_state.so_far.empty()
+  const MotionJet* base = solver_state.motion_up_to_instant.empty()
                               ? nullptr
                               : resting_reference(model_.contacts[c], c, solver_state.states[c], guard,
-                                                  solver_state.so_far[c], solver_state.instant);
+                                                  solver_state.motion_up_to_instant[c], solver_state.instant);
   const Sign sign = sign_of_guard(guard, jet, solver_state.instant, known, base);
   start.at_zero =
       known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard, jet, solver_state.instant));
@@ -434,17 +437,17 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
     for (std::size_t k = 0; k < start.derivative_noise.size(); ++k)
       start.derivative_noise[k] =
           solver_state.instant.noise_factor * guard.rounding(jet.motion.data(), jet.noise.data(), k + 2);
-  const bool rests = rests_at_limit(solver_state, c, start);
+  const bool rests = sticks_at_limit(solver_state, c, start);
   d.undecided = d.undecided || rests;
   const double value = guard.value(jet.motion[0]);
-  if (rests || (known.zeros == 0 && meets_static_limit(solver_state, c, start)))
+  if (rests || (known.zeros == 0 && stops_at_static_limit(solver_state, c, start)))
     d.at_limit.push_back({c, value, start.noise});
   // The decision treated this value as zero, so the engine must treat it as rounding, too.
   if (start.at_zero && (start.leading_order < 0 || base != nullptr))
     start.noise = std::max(start.noise, std::abs(value));
 }
 
-/// Fills in the data of the decision that the engine and the event log need.
+/// Sets the members of the decision that the engine and the event log use.
 void ContactStateSolver::finish(SolverState& solver_state) {
   Decision& d = solver_state.decision;
   d.consistent = true;
@@ -466,7 +469,7 @@ void ContactStateSolver::finish(SolverState& solver_state) {
     for (std::size_t i = 0; i < d.layout.guards(c); ++i) {
       const GuardForm& guard = guards[i];
       GuardStart& start = d.guards[d.layout.guard(c, i)];
-      // If other contacts hold the slip rate at zero up to rounding, the guard is omitted.
+      // If other contacts constrain the slip rate to zero, its guard is omitted.
       if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, solver_state)))
         continue;
       start.kind = guard.kind;
@@ -480,8 +483,8 @@ void ContactStateSolver::finish(SolverState& solver_state) {
   record_released(solver_state, d);
 }
 
-/// Records contacts that were opened by the enumeration of states, in addition to those of CycleFallback::release(). At its
-/// friction limit a contact on massless parts may open, and its force drops to zero.
+/// Records contacts on massless parts that the enumeration of states has opened at their friction limit, so that their forces
+/// drop to zero. CycleFallback::release() records the contacts that it opens itself.
 void ContactStateSolver::record_released(const SolverState& solver_state, Decision& d) const {
   const Instant& now = solver_state.instant;
   if (now.jump || now.start || !d.released.empty()) return;
@@ -493,9 +496,9 @@ void ContactStateSolver::record_released(const SolverState& solver_state, Decisi
   }
 }
 
-/// Refuses a slipping contact whose slip rate and all its derivatives are zero because sticking contacts hold it. Its
-/// constraint row depends on theirs, so its force is not unique and need not stay at the limit.
-Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const {
+/// Refusal for a slipping contact whose slip rate is zero with all derivatives because sticking contacts constrain it. In stick
+/// its constraint row would be linearly dependent on theirs, so its force is not unique and need not be at the friction limit.
+Refusal ContactStateSolver::refuse_undetermined_slip(const SolverState& solver_state) const {
   const Decision& d = solver_state.decision;
   for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
     const GuardStart& guard = d.guards[slot];
@@ -506,7 +509,7 @@ Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const 
     sticking[c].state = State::stick;
     if (systems_.system_of(sticking)) continue;
     Refusal why = dependent_rows({c});
-    why.reason += fmt::format(" ('{}' stops slipping); {} makes them unique", model_.contacts[c].name,
+    why.reason += fmt::format(" ('{}' stops slipping); {} makes the forces unique", model_.contacts[c].name,
                               springs_for_uniqueness(model_, why.contacts));
     return why;
   }
@@ -524,7 +527,7 @@ ContactStateSolver::Attempt ContactStateSolver::attempt(const Instant& instant, 
   solver_state.decision.refusal = iterate(before, solver_state);
   if (!solver_state.decision.refusal) {
     finish(solver_state);
-    solver_state.decision.refusal = held_at_rest(solver_state);
+    solver_state.decision.refusal = refuse_undetermined_slip(solver_state);
     solver_state.decision.consistent = !solver_state.decision.refusal;
   }
   scratch_ = std::move(solver_state.jets);
@@ -538,13 +541,14 @@ Decision ContactStateSolver::decide(Instant instant, const motion::Forcing& befo
   const Refusal::Kind kind = first.decision.refusal.kind;
   if (kind == Refusal::Kind::none) return std::move(first.decision);
   if (first.flight_taken_as_rest) {
-    // If no consistent state has the contact at rest, its low flights are computed as long as the resolution of time permits.
+    // If no consistent states exist with the contact at rest, its low flights are computed, as far as the resolution of time
+    // permits.
     Instant flying = instant;
     flying.keep_low_flights = true;
     if (Attempt a = attempt(flying, before, after); !a.decision.refusal) return std::move(a.decision);
   }
-  // A third attempt treats slip rates up to the speeds that were taken as rest as zero: the omitted impacts would change
-  // these slip rates, and the slip ends together with the bouncing.
+  // A third attempt treats slip rates as zero up to the speed of the flights that were replaced by rest: the omitted impacts
+  // would change these slip rates, and slip ends together with the rebounds.
   const bool painleve = kind == Refusal::Kind::ambiguous || kind == Refusal::Kind::paradox;
   if (!painleve || !(first.max_rest_speed > 0.0)) return std::move(first.decision);
   instant.rest_speed = retry_noise_factor * first.max_rest_speed;
@@ -570,7 +574,7 @@ Decision ContactStateSolver::adopt(const Instant& instant, const contact::Contac
   d.jumped.assign(states.size(), false);
   contact::ContactStates taken = states;
   if (!evaluate(forcing, taken, solver_state)) {
-    d.refusal = no_system(model_, states);
+    d.refusal = unsolvable_refusal(model_, states);
     return std::move(d);
   }
   d.consistent = true;

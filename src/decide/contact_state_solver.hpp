@@ -2,15 +2,15 @@
 //
 //   every guard g of the new states:  g, g', g'', ...  is lexicographically nonnegative
 //
-// The states after an instant are those whose guards are not negative on the motion after it. A contact whose guard fails
+// The states after an instant are consistent if no guard becomes negative just after the instant. A contact whose guard fails
 // takes its next state (contact/law.hpp). The motion is then computed again in the new states, until no guard fails. Rigid
 // contacts are decided together (decide/rigid_contact_solver.hpp): velocities first if a contact closes with g' < 0, then
 // accelerations and their derivatives. Sliders without tangential stiffness are decided with the rigid contacts if states
-// repeat, or if several contacts may hold the same motion. If states still repeat, decide/cycle_fallback.hpp continues.
+// repeat, or if several contacts may constrain the same motion. If states still repeat, decide/cycle_fallback.hpp continues.
 //
-// If no states are consistent, the decision is refused. If a flight was taken as rest only because it is low, a second
-// attempt computes this flight. If the second attempt is refused as well, a third one treats slip rates up to the speeds of
-// such flights as zero.
+// If no states are consistent, the decision is refused. If a low flight was replaced by rest, a second attempt computes this
+// flight. If the second attempt is refused as well, a third attempt treats slip rates up to the speed of the replaced flights
+// as zero.
 #pragma once
 
 #include "decide/cycle_fallback.hpp"
@@ -20,24 +20,25 @@ namespace signorini::decide {
 
 class ContactStateSolver {
  public:
-  /// max_rounds: limit for the rounds of state changes at one instant. capture_velocity: for rigid contacts that do not
-  /// specify one. whole_jets: true if the caller uses derivatives in Decision::jet beyond accelerations and force rates.
+  /// max_rounds: limit for the rounds of state changes at one instant. capture_velocity: value for rigid contacts
+  /// without their own value. whole_jets: true if the caller uses derivatives in Decision::jet beyond accelerations and force
+  /// rates.
   ContactStateSolver(motion::StateSystems& systems, int max_rounds, double capture_velocity,
                      bool whole_jets = true);
 
   /// Decides the states just after an instant. `before` and `after`: the forcing just before and just after the instant.
   [[nodiscard]] Decision decide(Instant instant, const motion::Forcing& before, const motion::Forcing& after);
-  /// Adopts `states` from an engine that determines the states itself but not the instants of their changes. Computes forces
-  /// and accelerations, which are then the same before and after the instant.
+  /// Decision with the given states, for an engine that determines the states itself. Computes forces and accelerations; they
+  /// are equal before and after the instant.
   [[nodiscard]] Decision adopt(const Instant& instant, const contact::ContactStates& states,
                                const motion::Forcing& forcing);
 
-  /// Refusal that ends a run because events repeat without progress in time, after the decision `last`. Contains the reason,
-  /// the contacts, and the condition number of their forces.
+  /// Refusal for a run in which events repeat without progress in time. last: the last decision; contacts: contacts of these
+  /// events. The refusal contains the condition number for the forces of these contacts.
   [[nodiscard]] Refusal standstill(const Decision& last, std::vector<std::size_t> contacts,
                                    std::string reason);
 
-  /// Sets a listener; it is called in each round with the contact states that were tried.
+  /// Sets a listener, which is called in each round with the contact states that were tried.
   void trace(RoundListener listener) { listener_ = std::move(listener); }
 
  private:
@@ -53,38 +54,38 @@ class ContactStateSolver {
   [[nodiscard]] Refusal begin(const motion::Forcing& before, SolverState& solver_state);
   void check_guards(SolverState& solver_state, bool before);
   void restart_path_at_stop(const FailedGuard& f, SolverState& solver_state) const;
-  [[nodiscard]] std::vector<Block> react(SolverState& solver_state) const;
+  [[nodiscard]] std::vector<Block> decide_separate_contacts(SolverState& solver_state) const;
   void stop(const std::vector<std::size_t>& turning, SolverState& solver_state) const;
   void record_closed_gaps(SolverState& solver_state) const;
-  [[nodiscard]] Refusal propose(SolverState& solver_state);
-  [[nodiscard]] Refusal try_next(SolverState& solver_state);
+  [[nodiscard]] Refusal propose_states(SolverState& solver_state);
+  [[nodiscard]] Refusal try_next_states(SolverState& solver_state);
   [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& solver_state) const;
   [[nodiscard]] Refusal iterate(const motion::Forcing& before, SolverState& solver_state);
-  [[nodiscard]] static bool rests_at_limit(const SolverState& solver_state, std::size_t c,
-                                           const GuardStart& guard);
-  [[nodiscard]] bool meets_static_limit(const SolverState& solver_state, std::size_t c,
-                                        const GuardStart& guard) const;
+  [[nodiscard]] static bool sticks_at_limit(const SolverState& solver_state, std::size_t c,
+                                            const GuardStart& guard);
+  [[nodiscard]] bool stops_at_static_limit(const SolverState& solver_state, std::size_t c,
+                                           const GuardStart& guard) const;
   [[nodiscard]] static bool has_clear_guards(const SolverState& solver_state, std::size_t c);
   void check_guard_start(SolverState& solver_state, std::size_t contact, const GuardForm& guard,
                          GuardStart& start) const;
   void finish(SolverState& solver_state);
   void record_released(const SolverState& solver_state, Decision& decision) const;
-  [[nodiscard]] Refusal held_at_rest(const SolverState& solver_state) const;
+  [[nodiscard]] Refusal refuse_undetermined_slip(const SolverState& solver_state) const;
   [[nodiscard]] std::vector<motion::BodySlide> slides(const motion::Forcing& forcing,
                                                       const Decision& decision) const;
 
   const Model& model_;
   motion::StateSystems& systems_;
   motion::JetMaker jets_;
-  std::optional<motion::LocalDerivatives> local_derivatives_;  // nullopt: the whole structure is used
-  const std::vector<std::size_t> all_contacts_;                // all contacts
+  std::optional<motion::LocalDerivatives> local_derivatives_;  // nullopt: jets of the whole structure
+  const std::vector<std::size_t> all_contacts_;                // indices of all contacts
   int max_rounds_;
   RigidContactSolver rigid_solver_;
   GuardCache guards_;
   ContactBlocks blocks_;
   CycleFallback cycle_fallback_;
-  bool decide_separately_ = false;  // true: contacts are decided one by one, except if states repeat
-  std::vector<MotionJet> scratch_;  // jets of the last decision, whose memory the next one reuses
+  bool decide_separately_ = false;  // true: contacts are decided one by one unless states repeat
+  std::vector<MotionJet> scratch_;  // memory for jets, reused by each decision
   RoundListener listener_;
 };
 

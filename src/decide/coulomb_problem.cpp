@@ -16,14 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Tolerance for the conditions of a solution, relative to the size of the problem's forces and responses.
+// Tolerance for the conditions of a solution, relative to the magnitude of the problem's forces and responses.
 constexpr double misses = rounding::elimination;
-// Two solutions are the same if their responses differ by less than this fraction of the problem's size, or by less than
-// `misses` times the condition number of their equations. Chosen value, far below the differences of solutions in Painleve's
-// paradox.
+// Two solutions are equal if their responses differ by less than this fraction of the magnitude of the responses, or by less
+// than `misses` times the condition number of their equations. Chosen value, far below the differences of the solutions in
+// Painleve's paradox.
 constexpr double same_solution = 1e-9;
-// Upper limit for that fraction, whatever the condition number. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a margin
-// of 1e-10; in Painleve's paradox responses differ by the size of the problem.
+// Upper limit of the tolerance `misses` times condition number. Chosen value: tests/unit/base/lcp.cpp needs 1e-4 at a margin
+// of 1e-10; in Painleve's paradox responses differ by their own magnitude.
 constexpr double max_same_solution = 1e-3;
 
 /// The problem in units in which the diagonal of W is one.
@@ -51,13 +51,13 @@ Scaled scaled(const CoulombProblem& p) {
   return s;
 }
 
-/// Number of covering vectors tried with Lemke's method. If W is semidefinite, each one leads to a solution in exact
-/// arithmetic. With rounding, and with many contacts on few motions, the method may end in a ray. Chosen value: 4 of 150
-/// seams need a second vector (tests/unit/base/lcp.cpp).
+/// Limit of the number of covering vectors for Lemke's method. If W is semidefinite, any covering vector leads to a solution in
+/// exact arithmetic. With rounding errors, and if many contacts constrain few motions, the method may end in a ray. Chosen
+/// value: 4 of 150 seams need a second vector (tests/unit/base/lcp.cpp).
 constexpr int max_covering_vectors = 12;
 
-/// Covering vector d: all ones for way = 0; otherwise irregular numbers from 1 to 2, from multiples of the golden section.
-VectorXd cover_of(Index size, int way) {
+/// Covering vector d number `way`: all ones for 0; otherwise irregular numbers from 1 to 2 (multiples of the golden section).
+VectorXd covering_vector(Index size, int way) {
   VectorXd d = VectorXd::Ones(size);
   for (Index i = 0; way > 0 && i < size; ++i) {
     const double turns = 0.6180339887498949 * static_cast<double>((i + 1) * way);
@@ -66,11 +66,10 @@ VectorXd cover_of(Index size, int way) {
   return d;
 }
 
-/// Solves the linear complementarity problem in the variables z by Lemke's method. Forces are F z plus given forces; w
-/// contains responses, or distances of forces from their friction cones. Returns the scaled forces; nullopt: no solution was
-/// found.
-std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const std::vector<bool>& kinetic,
-                                 int way) {
+/// Solves the problem by Lemke's method. The scaled forces are F z; w contains responses, or distances of forces from their
+/// friction cones. way: number of the covering vector. Returns the scaled forces; nullopt: no solution was found.
+std::optional<VectorXd> solve_by_lemke(const CoulombProblem& p, const Scaled& s,
+                                       const std::vector<bool>& kinetic, int way) {
   Index size = 0;
   for (const CoulombItem& item : p.items)
     size += item.kind == Kind::frictional ? 4 : item.kind == Kind::pressed ? 3 : 1;
@@ -78,7 +77,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   MatrixXd F = MatrixXd::Zero(n, size);  // forces per unit of each variable
   MatrixXd G = MatrixXd::Zero(size, n);  // w = G response + H z + h
   MatrixXd H = MatrixXd::Zero(size, size);
-  VectorXd h = VectorXd::Zero(size), given = VectorXd::Zero(n);
+  VectorXd h = VectorXd::Zero(size);
   Index at = 0;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
@@ -112,7 +111,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
         H(at, at + 2) = H(at + 1, at + 2) = 1.0;
         H(at + 2, at) = H(at + 2, at + 1) = -1.0;
         if (item.kind == Kind::pressed) {
-          // b already contains the effect of the given l; here l only limits friction.
+          // b already contains the effect of the given l. In this row l determines only the friction limit.
           h[at + 2] = f * item.applied_normal_force * s.unit[ni];
         }
         at += 3;
@@ -123,7 +122,7 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   const VectorXd q = G * s.b + h;
   const double size_of_q = q.cwiseAbs().maxCoeff();
   if (!(size_of_q > 0.0)) return VectorXd::Zero(n);
-  const auto z = base::solve_lcp(M, q / size_of_q, cover_of(size, way));
+  const auto z = base::solve_lcp(M, q / size_of_q, covering_vector(size, way));
   if (!z) return std::nullopt;
   return VectorXd(F * *z * size_of_q);
 }
@@ -138,7 +137,7 @@ int sign_of(TrialState state) {
 std::vector<TrialState> choices(const CoulombItem& item) {
   switch (item.kind) {
     case Kind::normal:
-      return {TrialState::open, TrialState::stick};  // stick: closed
+      return {TrialState::open, TrialState::stick};  // `stick` means closed
     case Kind::sliding:
       return {TrialState::open, item.sign > 0 ? TrialState::slip_plus : TrialState::slip_minus};
     case Kind::frictional:
@@ -146,12 +145,12 @@ std::vector<TrialState> choices(const CoulombItem& item) {
     case Kind::pressed:
       return {TrialState::stick, TrialState::slip_plus, TrialState::slip_minus};
     case Kind::limit:
-      return {TrialState::stick, TrialState::slip_plus};  // slip_plus: slip along item.sign
+      return {TrialState::stick, TrialState::slip_plus};  // `slip_plus` means slip in direction item.sign
   }
   return {};
 }
 
-/// Equations A x = c for one combination of states; x: the 2m scaled forces of the m items.
+/// Equations A x = c for one combination of states; x: the scaled forces at all places.
 struct Equations {
   MatrixXd A;
   VectorXd c;
@@ -190,7 +189,8 @@ Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vect
   return e;
 }
 
-/// Scaled forces of one combination of states, and its largest violation of a condition, relative to the size of the problem.
+/// Scaled forces for one combination of states. miss: largest violation of a condition, relative to the magnitude of forces and
+/// right-hand side.
 struct Attempt {
   VectorXd force;
   double miss = 0.0;
@@ -235,8 +235,8 @@ CoulombSolution finished(const CoulombProblem& p, const Scaled& s, const VectorX
   return solution;
 }
 
-/// True if the scaled forces x satisfy all conditions. With ties in its ratio test, Lemke's method may end in a basis that
-/// violates some.
+/// True if the scaled forces x satisfy all conditions. Lemke's method may return forces that violate a condition if there are
+/// ties in its ratio test.
 bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
@@ -260,13 +260,14 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
   return true;
 }
 
-/// Factor by which a relative residual of the equations is amplified in the solution: their condition number.
+/// Condition number of the equations: the factor by which the solution amplifies a relative residual.
 double amplification(const MatrixXd& equations) {
   const VectorXd values = base::singular_values(equations);
   return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
 }
 
-/// Marks items that slip in the solution but had the static coefficient. True: at least one item was marked.
+/// Marks as `kinetic` items that slip in the solution x, which was computed with their static coefficient. True: at least one
+/// item was marked.
 bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
@@ -300,7 +301,7 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
   std::vector<TrialState> states(p.items.size());
   for (std::size_t code = 0; code < combinations; ++code) {
     std::size_t rest = code;
-    // A slipping item has the kinetic coefficient, all other items have the static one.
+    // A slipping item has the kinetic coefficient, any other item the static coefficient.
     std::vector<bool> kinetic(p.items.size(), false);
     for (std::size_t i = 0; i < states.size(); ++i) {
       states[i] = options[i][rest % options[i].size()];
@@ -311,8 +312,8 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
     least = std::min(least, tried.miss);
     if (tried.miss > misses) continue;
     CoulombSolution solution = finished(p, s, tried.force, kinetic);
-    // Near the limit of Painleve's paradox, two solutions at a friction limit may be the same motion and differ by rounding
-    // only.
+    // Close to Painleve's paradox, two combinations of states may give one motion at a friction limit. Their solutions then
+    // differ only by rounding.
     const double condition = amplification(equations_of(p, s, states, kinetic).A);
     bool known = false;
     for (std::size_t k = 0; k < found.size() && !known; ++k) {
@@ -333,10 +334,10 @@ EnumerationResult all_solutions(const CoulombProblem& p) {
 std::optional<CoulombSolution> solve(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   std::vector<bool> kinetic(p.items.size(), false);
-  for (int way = 0; way < max_covering_vectors;) {  // ends: each round marks one more item or changes d
-    const auto x = by_lemke(p, s, kinetic, way);
+  for (int way = 0; way < max_covering_vectors;) {  // ends, because each round marks an item or changes `way`
+    const auto x = solve_by_lemke(p, s, kinetic, way);
     if (!x || !fulfils(p, s, *x, kinetic)) {
-      // With few contacts, all states are enumerated, which distinguishes Painleve's paradox from a failure by rounding.
+      // With few contacts all combinations of states are tried instead, which shows whether a solution exists.
       way = p.items.size() > max_enumerated ? way + 1 : max_covering_vectors;
       continue;
     }
@@ -368,11 +369,11 @@ namespace {
 
 using Kind = CoulombItem::Kind;
 
-constexpr double noise_of_solution =
-    2.0;  // relative to the noise of the right-hand side, because the solution adds the same amount of noise
+// Ratio of the noise of a result to the noise of the right-hand side, because solving adds noise of the same magnitude.
+constexpr double noise_of_solution = 2.0;
 
-/// Forces that act with zero response, and the responses to a unit of each. The tangential force k of a slipping contact is
-/// proportional to its l and is included in the column of l.
+/// rows: places of forces whose response is zero. columns: the responses to a unit of each of these forces. The tangential
+/// force k of a slipping contact is proportional to l and is included in the column of l.
 struct Acting {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd columns;

@@ -22,7 +22,7 @@ std::size_t ContactBlocks::max_rigid(const Model& model) const {
   return most;
 }
 
-/// Takes the best of all combinations of states of a block if that combination is acceptable; otherwise returns the refusal.
+/// Adopts the combination of states of a block with the smallest violation; returns a refusal if it is not acceptable.
 Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   StateEnumeration enumeration(systems_, jets_);
   std::vector<StateEnumeration::Choice> choices;
@@ -65,14 +65,14 @@ Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
   return {};
 }
 
-/// Lets massless parts leave the contact of the block that fails alone (massless_jump.hpp). False: several contacts fail, or
-/// the parts cannot leave the contact, or have left it before.
+/// If exactly one contact of the block fails, lets massless parts leave this contact (massless_jump.hpp). False: several
+/// contacts fail, or the parts cannot leave the contact, or have already left it.
 bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
-  std::vector<std::size_t> circling;
+  std::vector<std::size_t> repeating;
   for (const FailedGuard& f : solver_state.failed)
-    if (blocks_.of[f.contact] == block) circling.push_back(f.contact);
-  if (circling.size() != 1) return false;
-  const std::size_t c = circling.front();
+    if (blocks_.of[f.contact] == block) repeating.push_back(f.contact);
+  if (repeating.size() != 1) return false;
+  const std::size_t c = repeating.front();
   std::vector<std::size_t>& before = solver_state.decision.released;
   if (std::find(before.begin(), before.end(), c) != before.end()) return false;
   auto u = released(systems_, jets_, solver_state.after, solver_state.instant, solver_state.states, c);
@@ -86,9 +86,9 @@ bool CycleFallback::release(std::size_t block, SolverState& solver_state) {
   return true;
 }
 
-/// Continues a decision whose states repeat, by the first of three steps that was not taken before. First, noise and
-/// resolution are increased, because one sample of rounding may have separated equal zeros. Second, sliders are decided
-/// together with the rigid contacts. Third, all combinations of states are compared in each block with a failing guard.
+/// Takes the first step that was not taken before. First, noise and resolution are increased, because rounding errors may have
+/// separated zeros that are equal. Second, sliders are decided together with the rigid contacts. Third, in each block with a
+/// failing guard all combinations of states are compared; if none is acceptable, massless parts may leave a contact.
 Refusal CycleFallback::next_step(SolverState& solver_state) {
   if (solver_state.increase_noise()) {
     solver_state.tried_states.clear();
@@ -98,12 +98,12 @@ Refusal CycleFallback::next_step(SolverState& solver_state) {
     solver_state.impact_result.sliders = true;
     return {};
   }
-  std::vector<std::size_t> circling;
+  std::vector<std::size_t> repeating;
   for (const FailedGuard& f : solver_state.failed)
-    if (circling.empty() ||
-        std::find(circling.begin(), circling.end(), blocks_.of[f.contact]) == circling.end())
-      circling.push_back(blocks_.of[f.contact]);
-  for (const std::size_t block : circling)
+    if (repeating.empty() ||
+        std::find(repeating.begin(), repeating.end(), blocks_.of[f.contact]) == repeating.end())
+      repeating.push_back(blocks_.of[f.contact]);
+  for (const std::size_t block : repeating)
     if (Refusal why = enumerate(block, solver_state))
       if (!release(block, solver_state)) return why;
   return {};

@@ -1,10 +1,12 @@
 // cycle_fallback.hpp: continues a decision whose states repeat.
 //
-//   16 times the noise -> sliders decided with the rigid contacts -> all combinations of states of a block
-//                      -> massless parts leave a contact instantaneously
+//   1. increase the noise (rounding errors) by a factor of 16
+//   2. decide sliders together with the rigid contacts
+//   3. try all combinations of states of a block
+//   4. let massless parts leave a contact instantaneously
 //
-// States repeat if rounding separates the zeros of several guards that are zero at the same time. Each step is tried only if
-// states repeat after the previous step. If the last step fails, the decision is refused.
+// States repeat if several guards are zero at the same time but rounding separates their zeros. A step is taken only if states
+// still repeat after the previous step. If the last step fails, the decision is refused.
 #pragma once
 
 #include <vector>
@@ -17,7 +19,7 @@
 
 namespace signorini::decide {
 
-/// Groups of contacts that are decided together, and the block of each contact.
+/// Blocks: groups of contacts that are decided together. all: the blocks; of: index of the block of each contact.
 struct ContactBlocks {
   /// Blocks of the model: groups of contacts that are coupled (assembly/parts.hpp).
   explicit ContactBlocks(const Model& model)
@@ -25,9 +27,9 @@ struct ContactBlocks {
     for (std::size_t b = 0; b < all.size(); ++b)
       for (const std::size_t c : all[b]) of[c] = b;
   }
-  /// Largest number of rigidly sticking contacts in a block; the constraint rows of two of them may be linearly dependent. If
-  /// any contact takes impulses, the result is the largest std::size_t, because such a contact is always decided with its
-  /// block.
+  /// Largest number of contacts in a block that can stick rigidly; the constraint rows of two such contacts may be linearly
+  /// dependent. If any contact takes impulses, the result is the largest std::size_t, because such a contact is always decided
+  /// together with its block.
   [[nodiscard]] std::size_t max_rigid(const Model& model) const;
 
   std::vector<Block> all;
@@ -40,7 +42,7 @@ class CycleFallback {
   CycleFallback(motion::StateSystems& systems, motion::JetMaker& jets, const ContactBlocks& blocks)
       : model_(systems.model()), systems_(systems), jets_(jets), blocks_(blocks) {}
 
-  /// Takes the next step. If no step is left, returns a refusal.
+  /// Takes the next step of the list above. Returns a refusal if the last step fails.
   [[nodiscard]] Refusal next_step(SolverState& solver_state);
 
  private:
@@ -55,14 +57,14 @@ class CycleFallback {
 
 // Order of state changes if several contacts change their states at one instant.
 //
-//   p' = 0: the contact stops   ->   |T| <= f|N| in stick?   no: it slips, in either direction
+//   p' = 0: the contact stops   ->   |T| <= f|N| in stick: the contact sticks; otherwise it slips, in either direction
 //
-// A stopped contact is first tried as sticking. If it does not stick, its sticking force on other contacts does not exist. So
-// other contacts that only this force pushes beyond a limit keep their states until the stopped contact is decided.
+// A stopped contact is first tried in stick. Its force T may then be too large, and push other contacts beyond their limits.
+// These contacts keep their states until the stopped contact is decided.
 
-/// If a contact that can stick rigidly has changed its state and is beyond its friction limit, removes failures of other
-/// contacts in its block: those of contacts that have not changed yet and whose guards fail in value (order 0). visited:
-/// contacts that have changed; block_of: block of each contact.
+/// If a rigidly sticking contact that has changed its state exceeds its friction limit, removes from `failed` other contacts of
+/// its block: contacts that have not changed their state yet and whose guards are negative in value (order 0). visited: true
+/// for contacts that have changed their state; block_of: block of each contact.
 void defer_pushed_failures(const Model& model, const std::vector<bool>& visited,
                            const std::vector<std::size_t>& block_of, std::vector<FailedGuard>& failed);
 

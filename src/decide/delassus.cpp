@@ -90,9 +90,9 @@ Eigen::VectorXd impose_velocities(const Delassus& d, const std::vector<FixedVelo
 
 namespace {
 
-/// Fraction of the largest force; a larger noise is suspicious. Noise is 64 times 4 to 8 eps of the terms, times the
-/// condition number, so the check starts at condition numbers of about 1e10. Chosen value: it only selects cases; the
-/// singular value decides.
+/// Ratio of noise to the largest force above which the forces may not be unique. Noise is 64 times 4 to 8 eps of the terms,
+/// times the condition number, so the check begins at condition numbers of about 1e10. Chosen value: it only selects cases for
+/// forces_are_unique().
 constexpr double suspicious = 1e-3;
 
 bool holds(const Contact& contact, const ContactState& state) {
@@ -100,8 +100,8 @@ bool holds(const Contact& contact, const ContactState& state) {
   return contact.sticks_rigidly() && state.state == State::stick;
 }
 
-/// Matrix A of forces_are_unique(): rows of W for normals of closed contacts and tangents of sticking contacts; the column of
-/// a slipping contact's normal includes its friction.
+/// Matrix A of forces_are_unique(): rows and columns of W for normals of closed contacts and tangents of sticking contacts. The
+/// column for the normal of a slipping contact includes the effect of its friction.
 Eigen::MatrixXd constrained_block(const Model& model, const contact::ContactStates& states,
                                   const std::vector<std::size_t>& contacts, const Delassus& d) {
   std::vector<Eigen::Index> rows;
@@ -119,8 +119,8 @@ Eigen::MatrixXd constrained_block(const Model& model, const contact::ContactStat
 }
 
 /// Adds the entries s Z (D Y)' of linear/redundant_rows.hpp, which make the forces of several feet of one body unique.
-void add_shares(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
-                const std::vector<std::size_t>& contacts, Delassus& d) {
+void add_sharing_entries(const ForceLayout& layout, const std::vector<linear::SharedForces>& shared,
+                         const std::vector<std::size_t>& contacts, Delassus& d) {
   const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
     const auto at = std::find(contacts.begin(), contacts.end(), layout.contact_of(row));
     if (at == contacts.end()) return std::nullopt;
@@ -158,12 +158,12 @@ bool forces_are_unique(motion::StateSystems& systems, const contact::ContactStat
       contacts.push_back(c);
       free[c] = {State::open, 0.0};
     }
-  if (contacts.size() < 2) return true;  // rows of a single contact are independent
+  if (contacts.size() < 2) return true;  // the rows of a single contact are linearly independent
   const motion::StateSystemPtr system = systems.system_of(free);
   if (!system) return true;
   Delassus d = delassus(model, *system, contacts);
   if (const motion::StateSystemPtr held = systems.system_of(states))
-    add_shares(model.layout, held->factorised().shared, contacts, d);
+    add_sharing_entries(model.layout, held->factorised().shared, contacts, d);
   Eigen::MatrixXd a = constrained_block(model, states, contacts, d);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's paradox is checked elsewhere
@@ -178,15 +178,15 @@ namespace {
 
 using Kind = CoulombItem::Kind;
 
-/// Forces that may change without an effect on the responses: their rows, item by item, and the admissible set of the forces
-/// of each item.
+/// Forces of items at rest, among which friction and compression may be shared in different ways: rows of these forces, and
+/// the admissible set of each item's forces.
 struct Shares {
   std::vector<Eigen::Index> rows;
   std::vector<base::ConvexSet> sets;
   std::vector<std::size_t> resting;  ///< items that may stick
 };
 
-Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, const CoulombSolution& s) {
+Shares resting_forces(const CoulombProblem& p, const std::vector<bool>& may_share, const CoulombSolution& s) {
   Shares shares;
   const Eigen::VectorXd size = p.W.cwiseAbs() * s.force.cwiseAbs() + p.b.cwiseAbs();
   const auto rests = [&](Eigen::Index row) {
@@ -228,9 +228,9 @@ Shares shares_of(const CoulombProblem& p, const std::vector<bool>& may_share, co
 
 void min_norm_forces(const CoulombProblem& problem, const std::vector<bool>& may_share,
                      CoulombSolution& solution) {
-  const Shares shares = shares_of(problem, may_share, solution);
+  const Shares shares = resting_forces(problem, may_share, solution);
   if (shares.rows.size() < 2 || shares.resting.empty()) return;
-  const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // no response
+  const Eigen::MatrixXd open = linear::null_of_columns(problem.W(Eigen::all, shares.rows));  // W f = 0
   if (open.cols() == 0) return;
   const Eigen::VectorXd given = solution.force(shares.rows);
   const Eigen::MatrixXd kept = base::orthogonal_complement(open).transpose();

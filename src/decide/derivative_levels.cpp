@@ -15,13 +15,14 @@ namespace {
 
 using Kind = CoulombItem::Kind;
 
-constexpr std::size_t most_compared = 5;  // largest number of contacts for which all solutions are compared
+// Limit of the number of contacts for which all solutions are compared.
+constexpr std::size_t max_compared_contacts = 5;
 
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
-/// Removes the normal of items at their friction limit from the problem: the normal is already a constraint row, so its
-/// entries in W contain only rounding.
-void hold_normals(CoulombProblem& p) {
+/// Sets the entries for the normals of items at their friction limit to zero: the normal of such an item is already a
+/// constraint, so its entries in W contain only rounding errors.
+void clear_limit_normals(CoulombProblem& p) {
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     if (p.items[i].kind != Kind::limit) continue;
     const Eigen::Index n = p.normal(i);
@@ -31,7 +32,7 @@ void hold_normals(CoulombProblem& p) {
   }
 }
 
-// open: undecided; limit: undecided and at its friction limit.
+/// Decision about one contact. open: undecided; limit: undecided and at the friction limit.
 enum class Verdict : unsigned char { open, limit, decided };
 
 void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
@@ -39,9 +40,10 @@ void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& g
   guards.sliding = {order + 1, true};
 }
 
-/// Decides a contact whose friction is at its limit: its force returns into the cone, it slips, or it stays undecided.
-Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t i, ContactState& state,
-                    KnownGuards& guards) {
+/// Decides a contact at its friction limit: it sticks because its force returns into the friction cone, or slips, or stays
+/// undecided.
+Verdict decide_at_limit(const CoulombSignificance& r, std::size_t order, std::size_t i, ContactState& state,
+                        KnownGuards& guards) {
   const int sign = r.item(i).sign;
   const Eigen::Index t = r.tangent(i);
   if (sign * r.force(t) > r.force_tolerance(t)) {
@@ -54,8 +56,8 @@ Verdict leave_limit(const CoulombSignificance& r, std::size_t order, std::size_t
   return Verdict::decided;
 }
 
-/// Decides the friction of a contact that presses and has not slipped before this order.
-Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::size_t i,
+/// Decides about stick or slip of a contact that has a compressive force and does not slip at lower orders.
+Verdict decide_friction(const CoulombSignificance& r, std::size_t order, std::size_t i,
                         Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index t = r.tangent(i);
@@ -66,7 +68,7 @@ Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::si
     return Verdict::decided;
   }
   const bool two = item.static_friction != item.kinetic_friction;
-  if ((two && !participant.bears_limit) || std::abs(r.force(t)) <= r.force_tolerance(t))
+  if ((two && !participant.stays_at_limit) || std::abs(r.force(t)) <= r.force_tolerance(t))
     return Verdict::decided;
   // The contact is at its friction limit. If static and kinetic coefficient are equal, the next derivative decides. Otherwise
   // the contact sticks until the guard of the static limit fails; it then stays at that limit if other contacts prevent slip.
@@ -75,8 +77,8 @@ Verdict settle_friction(const CoulombSignificance& r, std::size_t order, std::si
   return Verdict::limit;
 }
 
-/// Decides one contact. If its force is not zero, its response is treated as zero, although it may contain rounding.
-Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
+/// Decides one contact. If its normal force is not zero, its normal response is treated as zero; it may contain rounding.
+Verdict decide_contact(const CoulombSignificance& r, std::size_t order, std::size_t i,
                        Participant& participant, ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
   const Eigen::Index n = r.normal(i), t = r.tangent(i);
@@ -100,10 +102,10 @@ Verdict settle_contact(const CoulombSignificance& r, std::size_t order, std::siz
     state.state = contact::slip_state(item.sign);
     return Verdict::decided;
   }
-  return settle_friction(r, order, i, participant, state, guards);
+  return decide_friction(r, order, i, participant, state, guards);
 }
 
-/// Participants that are closed in `states`, so their rows are constraints.
+/// Participants that are closed in `states`, so that their rows are constraints.
 std::vector<std::size_t> in_force(const std::vector<Participant>& participants,
                                   const contact::ContactStates& states) {
   std::vector<std::size_t> result;
@@ -116,12 +118,13 @@ std::vector<std::size_t> in_force(const std::vector<Participant>& participants,
 
 Refusal dependent_rows(std::vector<std::size_t> contacts) {
   return {Refusal::Kind::dependent,
-          "the constraints of the contacts that stick are linearly dependent, so their forces are not unique",
+          "the constraints of the contacts that stick are linearly dependent, so the contact forces are not "
+          "unique",
           std::move(contacts), std::numeric_limits<double>::infinity()};
 }
 
-std::string holds_no_mass(const Model& model, const Contact& contact) {
-  if (!contact.holds_tangent_only()) return {};
+std::string massless_stick_error(const Model& model, const Contact& contact) {
+  if (!contact.constrains_tangent_only()) return {};
   const auto moves_mass = [&](const auto& term) {
     return term.second != 0.0 && !model.dofs[static_cast<std::size_t>(term.first)].massless;
   };
@@ -154,13 +157,13 @@ CoulombItem DerivativeLevels::item_of(const Entry& entry, const motion::Forcing&
 Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& all) const {
   const CoulombProblem& problem = level.problem;
   const bool several = all.solutions.size() > 1;
-  Refusal result{several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
-                 several
-                     ? "several motions continue this one (Painleve's paradox: friction is so strong that "
-                       "a contact may either press or open)"
-                     : "no motion continues this one (Painleve's paradox: friction is so strong that "
-                       "pressing a sliding contact pushes it into its surface)",
-                 level.contacts, condition_number(problem), all.min_violation};
+  Refusal result{
+      several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
+      several ? "several motions continue from this instant (Painleve's paradox: friction is so strong that "
+                "a contact may either press or open)"
+              : "no motion continues from this instant (Painleve's paradox: friction is so strong that "
+                "pressing a sliding contact pushes it into its surface)",
+      level.contacts, condition_number(problem), all.min_violation};
   const double acceleration = model::in_scene_units(model_, 1.0, unit::acceleration);
   const double per_force = acceleration / model::in_scene_units(model_, 1.0, unit::force);
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
@@ -176,13 +179,14 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
       result.reason += fmt::format(", and {:.6g} together with friction in {}", sliding * per_force,
                                    to_string(contact::slip_state(item.sign)));
     else if (item.kind == Kind::frictional)
-      result.reason += fmt::format(", one unit of -T adds {:.6g}, the coefficient of friction is {:.6g}",
-                                   problem.W(n, t) * per_force, item.static_friction);
+      result.reason +=
+          fmt::format(", one unit of -T adds {:.6g} to g'', the coefficient of friction is {:.6g}",
+                      problem.W(n, t) * per_force, item.static_friction);
   }
   return result;
 }
 
-/// Fills in the items, the right-hand side and its noise, from the motion under the forces that are already decided.
+/// Sets the items of the problem, its right-hand side b and the noise of b, from the motion with the contacts decided so far.
 void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forcing,
                             const std::vector<Entry>& entries, const std::vector<MotionJet>& jets,
                             Level& level) const {
@@ -205,8 +209,8 @@ void DerivativeLevels::fill(const Instant& instant, const motion::Forcing& forci
   }
 }
 
-/// Sets up the problems of the given levels (order, block) for all undecided contacts. False: constraint rows are linearly
-/// dependent.
+/// Sets up the problem of each given level, which has an order and a block, for all undecided contacts of the block. False:
+/// constraint rows are linearly dependent.
 bool DerivativeLevels::set_up_levels(const Instant& instant, const motion::Forcing& forcing,
                                      const std::vector<Entry>& entries, const contact::ContactStates& states,
                                      std::vector<Level>& levels) {
@@ -234,21 +238,20 @@ bool DerivativeLevels::set_up_levels(const Instant& instant, const motion::Forci
   return true;
 }
 
-/// Solves the problem of a level. If all right-hand sides are zero at this order, `solution` stays empty and there is no
-/// refusal.
+/// Solves the problem of a level. If its right-hand side is zero, `solution` stays empty and there is no refusal.
 Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
   CoulombProblem& problem = level.problem;
   const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
                                    [](const CoulombItem& item) { return item.kind == Kind::pressed; });
   if (problem.b.isZero(0.0) && !pressed) return {};
   problem.W = delassus(model_, *level.system, level.contacts).W;
-  hold_normals(problem);
+  clear_limit_normals(problem);
   solution = solve(problem);
   if (!solution) return refusal(level, all_solutions(problem));
   std::vector<bool> may_share;
   for (const std::size_t c : level.contacts) may_share.push_back(systems_.may_share(c));
   min_norm_forces(problem, may_share, *solution);
-  if (level.entries.size() > most_compared || !may_be_nonunique(problem)) return {};
+  if (level.entries.size() > max_compared_contacts || !may_be_nonunique(problem)) return {};
   // If a force lies between kinetic and static friction, the contact could stick or slip. The friction law makes it stick, so
   // this is not Painleve's paradox.
   CoulombProblem settled = problem;
@@ -260,7 +263,7 @@ Refusal DerivativeLevels::solve_level(Level& level, std::optional<CoulombSolutio
   return all.solutions.size() > 1 ? refusal(level, all) : Refusal{};
 }
 
-/// Applies the decisions of the solution. True: at least one contact was decided.
+/// Decides contacts by the forces and responses in the solution. True: at least one contact was decided.
 bool DerivativeLevels::apply_solution(const Level& level, const CoulombSolution& solution,
                                       std::vector<Entry>& entries, contact::ContactStates& states,
                                       std::vector<KnownGuards>& known) const {
@@ -271,8 +274,8 @@ bool DerivativeLevels::apply_solution(const Level& level, const CoulombSolution&
     ContactState& state = states[entry.participant.contact];
     KnownGuards& guards = known[entry.participant.contact];
     const Verdict verdict = level.problem.items[i].kind == Kind::limit
-                                ? leave_limit(reading, level.order, i, state, guards)
-                                : settle_contact(reading, level.order, i, entry.participant, state, guards);
+                                ? decide_at_limit(reading, level.order, i, state, guards)
+                                : decide_contact(reading, level.order, i, entry.participant, state, guards);
     if (verdict == Verdict::open) continue;
     entry.status = verdict == Verdict::limit ? Status::limit : Status::decided;
     decides = true;
@@ -294,8 +297,8 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
     for (const Participant& participant : participants)
       if (levels.empty() || levels.back().block != participant.block)
         levels.push_back({order, participant.block, {}, {}, {}, {}, {}});
-    // Each order of a block is solved again as long as it decides a contact: once large forces are constraints, smaller
-    // forces exceed the rounding error.
+    // The problem of a block at one order is solved again as long as it decides a contact: when contacts with large forces
+    // have become constraints, smaller forces exceed the rounding error.
     while (!levels.empty()) {
       if (!set_up_levels(instant, forcing, entries, states, levels))
         return dependent_rows(in_force(participants, states));
@@ -310,12 +313,12 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
       levels = std::move(again);
     }
   }
-  // No derivative decides the remaining contacts: those that only touch keep their states, those at their friction limit
-  // stick.
+  // No derivative decides the remaining contacts. Contacts that touch without force keep their states; contacts at their
+  // friction limit stick.
   for (const Entry& entry : entries) {
     if (entry.status == Status::limit &&
         systems_.held_by_others(entry.participant.contact, states, forcing, instant.t)) {
-      known[entry.participant.contact].sliding = Known::at_limit();  // it stays at the limit without slip
+      known[entry.participant.contact].sliding = Known::at_limit();  // stays at its limit without slip
     } else if (entry.status == Status::limit) {
       states[entry.participant.contact].state = State::stick;
       KnownGuards& guards = known[entry.participant.contact];

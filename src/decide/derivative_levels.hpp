@@ -1,16 +1,16 @@
-// derivative_levels.hpp: decides, at one instant, the next states of all contacts whose forces may jump.
+// derivative_levels.hpp: decides the next states of all contacts whose forces may jump at an instant.
 //
 //   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)      r: g'' and ut'' of undecided contacts; f: their forces
 //
 // Rigid contacts with g = g' = 0 and rigidly sticking sliders are coupled through M. At order 0 (accelerations) this is a
 // Coulomb problem (decide/coulomb_problem.hpp) with the forces as unknowns. A contact stays undecided if its force and its
-// acceleration are both zero, or if its friction is exactly at its limit. It then enters the same problem for the next
-// derivative, with all decided contacts as constraints. A contact that is undecided after the last known derivative keeps its
-// state. There is one problem for each block of coupled contacts.
+// acceleration are both zero, or if its friction is exactly at its limit. An undecided contact enters the same problem for the
+// next derivative, with all decided contacts as constraints. A contact that is undecided after the last known derivative keeps
+// its state. There is one problem for each block of coupled contacts.
 //
-// If a problem has no solution, or several with different accelerations, this is Painleve's paradox: friction couples tangent
-// and normal so strongly that pressing a sliding contact pushes it into the ground. The decision is then refused with the
-// numbers of the problem.
+// If a problem has no solution, or several solutions with different accelerations, this is Painleve's paradox: friction couples
+// tangent and normal so strongly that pressing a sliding contact pushes it into the ground. The decision is then refused; the
+// message contains the numbers of the problem.
 // Source: Glocker 2001, chapters 4 to 6; Painleve 1895.
 #pragma once
 
@@ -24,15 +24,15 @@
 
 namespace signorini::decide {
 
-/// A contact that is decided together with others, and its known data.
+/// A contact that is decided together with other contacts, and known data of this contact.
 struct Participant {
   std::size_t contact = 0;
-  bool slipping = false;  ///< t . v differs from the velocity of the surface: the contact slides along `sign`
+  bool slipping = false;  ///< true: the slip rate is not zero; the contact slides in direction `sign`
   int sign = 0;
   double sliding_friction = 0.0;  ///< coefficient of friction at the contact's slip rate
-  bool kinetic = false;      ///< slip has begun at this instant: the static coefficient no longer applies
-  bool bears_limit = false;  ///< its static limit is exceeded, but other contacts prevent slip
-  std::size_t block = 0;     ///< contacts of different blocks are not coupled
+  bool kinetic = false;  ///< true: slip begins at this instant, so the static coefficient does not apply
+  bool stays_at_limit = false;  ///< true: the static limit is exceeded, but other contacts prevent slip
+  std::size_t block = 0;        ///< number of the block; contacts of different blocks are not coupled
 };
 
 class DerivativeLevels {
@@ -40,8 +40,8 @@ class DerivativeLevels {
   DerivativeLevels(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Decides the states of the participants and writes them to `states`. A contact that no derivative decides keeps its state
-  /// in `old`, the states before. known: receives the signs of the participants' guards, one entry per contact.
+  /// Decides the states of the participants and writes them to `states`. A participant that no derivative decides keeps its
+  /// state in `old`. known: receives the signs of the participants' guards; one entry per contact.
   [[nodiscard]] Refusal decide(const Instant& instant, const motion::Forcing& forcing,
                                const std::vector<Participant>& participants,
                                const contact::ContactStates& old, contact::ContactStates& states,
@@ -80,7 +80,7 @@ class DerivativeLevels {
 
 /// Refusal for sticking contacts whose forces are not unique because their constraint rows are linearly dependent.
 [[nodiscard]] Refusal dependent_rows(std::vector<std::size_t> contacts = {});
-/// Message if a rigidly sticking contact has no unique force because its tangent moves no mass; otherwise an empty text.
-[[nodiscard]] std::string holds_no_mass(const Model& model, const Contact& contact);
+/// Message if the force of a rigidly sticking contact is not unique, because its tangent moves no mass; otherwise empty.
+[[nodiscard]] std::string massless_stick_error(const Model& model, const Contact& contact);
 
 }  // namespace signorini::decide

@@ -9,11 +9,11 @@
 namespace signorini::decide {
 namespace {
 
-constexpr double same_value = 1e-12;  // relative difference up to which two pieces of a history meet smoothly
+constexpr double same_value = 1e-12;  // relative difference up to which values of two pieces are equal
 
-/// Magnitude of the terms of a form of x, to which its rounding error is relative. For every translation the largest
-/// translation is used, but at least `own`; for every rotation the largest rotation, but at least `min_rotation`. Final values
-/// in a file have this accuracy.
+/// Magnitude of the terms of a form of x, to which the rounding error of its value is proportional. Each translation is
+/// replaced by the largest translation in x, but at least `own`; each rotation by the largest rotation, but at least
+/// `min_rotation`, because states that are read from a file have this accuracy.
 double rounding_scale(const Model& model, const Combination& form, const Vector& x, double own,
                       double min_rotation) {
   double greatest[2] = {own, min_rotation}, sum = 0.0;
@@ -65,7 +65,7 @@ contact::ContactStates initial_states(const Model& model, const motion::Forcing&
     ContactMotion m;
     contact::set_displacement(contact, u, forcing.surface(c, t, 0), m);
     contact::set_velocity(contact, v, forcing.surface(c, t, 1), m);
-    // Touching rigid contacts are decided later, all together.
+    // Rigid contacts are open in this guess; touching ones are decided later, together.
     const bool carries =
         contact.normal_force_given() ? !forcing.is_unloaded(c) : contact.normal_spring() && m.gap < 0.0;
     if (carries) {
@@ -121,7 +121,7 @@ void apply_forcing_jump(const Model& model, const Instant& instant, const motion
       s = {State::open, 0.0};
       continue;
     }
-    // Pieces of smooth tables meet up to rounding; this is not a jump.
+    // Adjacent pieces of a smooth table differ by rounding; this is not a jump.
     const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
     if (std::abs(surface_jump) <= same_value * (speed + model.scales.velocity)) surface_jump = 0.0;

@@ -8,7 +8,7 @@
 namespace signorini::decide {
 namespace {
 
-/// Derivative of order k and its noise, for any guard and for the QuickForm of a linear guard.
+/// Derivative of order k, and noise of this derivative, for any guard and for the QuickForm of a linear guard.
 double derivative(const GuardForm& guard, const MotionJet& jet, std::size_t k) {
   return guard.derivative(jet.motion.data(), k);
 }
@@ -33,15 +33,15 @@ double zero_of(const GuardForm& guard, const MotionJet& jet, const Instant& inst
   return zero_of(guard, jet, instant.noise_factor, instant.resolution, k);
 }
 
-/// True if derivatives of orders below `orders` determine the sign of the guard.
+/// True if derivatives of the guard of orders `first` to `orders` - 1 determine its sign. blur: factor on the noise.
 template <class F>
-bool decided_by_orders(const F& guard, const MotionJet& jet, std::size_t first, std::size_t orders,
-                       bool triggered, double blur, double resolution) {
+bool sign_is_decided(const F& guard, const MotionJet& jet, std::size_t first, std::size_t orders,
+                     bool triggered, double blur, double resolution) {
   for (std::size_t k = first; k < orders; ++k) {
     const double d = derivative(guard, jet, k);
     if (!(std::abs(d) > zero_of(guard, jet, blur, resolution, k)) || (triggered && k == 1 && d > 0.0))
       continue;
-    // If a guard fails in value, the other orders are computed as well, because next_state() and crossing() use them.
+    // If a guard is negative in value, all derivatives are needed, because next_state() and crossing() use them.
     return !(d < 0.0 && orders == 1);
   }
   return false;
@@ -50,30 +50,33 @@ bool decided_by_orders(const F& guard, const MotionJet& jet, std::size_t first, 
 /// The guard of a contact that fails first; nullopt: no guard fails.
 std::optional<FailedGuard> failure_of(const Contact& contact, std::size_t c, const MotionJet& jet,
                                       const ContactState& state, const Instant& instant, bool before,
-                                      const KnownGuards& known, const MotionJet* so_far) {
+                                      const KnownGuards& known, const MotionJet* motion_up_to_instant) {
   const auto all = contact::guards(contact, state);
   std::optional<FailedGuard> soonest;
   for (const GuardForm& guard : all) {
     if (guard.kind == Guard::none) continue;
-    // A guard located by the integrator is zero even if rounding makes the last value positive. Since it was decreasing, a
-    // positive rate is zero within the integrator's errors.
+    // A guard located by the engine is zero even if rounding makes its value positive. Since the guard was decreasing, a
+    // positive rate is treated as zero: it is an error of the integration.
     const bool triggered = before && instant.has_triggered(c, guard.kind);
     Known guard_known = known.of(guard.kind);
     if (triggered && guard.value(jet.motion[0]) > 0.0)
       guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
-    const MotionJet* base = so_far ? resting_reference(contact, c, state, guard, *so_far, instant) : nullptr;
+    const MotionJet* base = motion_up_to_instant
+                                ? resting_reference(contact, c, state, guard, *motion_up_to_instant, instant)
+                                : nullptr;
     Sign sign = sign_of_guard(guard, jet, instant, guard_known, base);
     if (triggered && !instant.jump && sign.sign > 0 && sign.order == 1) {
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
       sign = sign_of_guard(guard, jet, instant, guard_known);
     }
     // The guard with the lowest failing order decides: a friction limit that is exceeded now comes before a compression that
-    // ends later. In a tie, separation (the first guard) decides, because with N = 0 the friction limit is zero, too.
+    // ends later. If orders are equal, separation (the first guard) decides, because with N = 0 the friction limit is zero,
+    // too.
     if (sign.sign >= 0 || (soonest && sign.order >= soonest->sign.order)) continue;
     soonest = FailedGuard{c, guard.kind, guard, sign};
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
-  // In a vertical lift-off, friction limit and compression become zero together: this is one event, a separation.
+  // If a contact opens without slip, friction limit and compression become zero together: this is one event, a separation.
   if (contact::is_friction_limit(soonest->guard)) {
     const GuardForm& separation = all[0];
     if (separation.kind == Guard::separation && starts_at_zero(separation, jet, instant) &&
@@ -88,9 +91,11 @@ std::optional<FailedGuard> failure_of(const Contact& contact, std::size_t c, con
 }  // namespace
 
 const MotionJet* resting_reference(const Contact& contact, std::size_t c, const ContactState& state,
-                                   const GuardForm& guard, const MotionJet& so_far, const Instant& instant) {
+                                   const GuardForm& guard, const MotionJet& motion_up_to_instant,
+                                   const Instant& instant) {
   const auto rests = [&](const GuardForm& limit) {
-    const bool is_zero = limit.value(so_far.motion[0]) <= zero_of(limit, so_far, instant, 0);
+    const bool is_zero =
+        limit.value(motion_up_to_instant.motion[0]) <= zero_of(limit, motion_up_to_instant, instant, 0);
     return is_zero && instant.is_resting_limit(c, limit.kind);
   };
   bool any = rests(guard);
@@ -98,11 +103,11 @@ const MotionJet* resting_reference(const Contact& contact, std::size_t c, const 
     for (const GuardForm& limit : contact::guards(contact, ContactState{State::stick, state.anchor}))
       any = any || (limit.kind == (slip_sign(state.state) > 0 ? Guard::slip_plus : Guard::slip_minus) &&
                     rests(limit));
-  return any ? &so_far : nullptr;
+  return any ? &motion_up_to_instant : nullptr;
 }
 
-Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant, std::size_t first,
-                const MotionJet* base) {
+Sign leading_sign(const GuardForm& form, const MotionJet& jet, const Instant& instant, std::size_t first,
+                  const MotionJet* base) {
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
     const double d = derivative(form, jet, k) - (base ? derivative(form, *base, k) : 0.0);
     const double zero = zero_of(form, jet, instant, k);
@@ -113,7 +118,7 @@ Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& inst
 
 Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant, const Known& known,
                    const MotionJet* base) {
-  const Sign sign = sign_after(form, jet, instant, known.zeros, base);
+  const Sign sign = leading_sign(form, jet, instant, known.zeros, base);
   if (!known.rises || (sign.sign < 0 && sign.order == static_cast<int>(known.zeros))) return sign;
   return {1, static_cast<int>(known.zeros), sign.order == static_cast<int>(known.zeros) ? sign.excess : 1.0};
 }
@@ -132,21 +137,22 @@ const GuardsOfState& GuardCache::of(std::size_t c, const ContactState& state) {
   return forms_[c];
 }
 
-bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
-                const Instant& instant, const KnownGuards& known, double most_blur) {
+bool signs_are_decided(const GuardsOfState& guards, std::size_t c, const MotionJet& jet, std::size_t orders,
+                       const Instant& instant, const KnownGuards& known, double max_noise_factor) {
   if (orders == MotionJet::orders) return true;
-  // The sign of a resting limit depends on the motion up to the instant, see resting_reference().
+  // The sign of a resting limit depends on the motion up to the instant (resting_reference()), which is not available here.
   if (instant.is_resting_limit(c, Guard::slip_plus) || instant.is_resting_limit(c, Guard::slip_minus))
     return false;
-  const double blur = most_blur * instant.noise_factor, resolution = most_blur * instant.resolution;
+  const double blur = max_noise_factor * instant.noise_factor,
+               resolution = max_noise_factor * instant.resolution;
   for (const GuardForm& guard : guards) {
     if (guard.kind == Guard::none) continue;
-    // A located guard is zero, and a positive rate is treated as zero, as in failure_of().
+    // A guard located by the engine is zero, and its positive rate is treated as zero, as in failure_of().
     const bool triggered = instant.has_triggered(c, guard.kind);
     const std::size_t first = std::max<std::size_t>(triggered ? 1 : 0, known.of(guard.kind).zeros);
     if (!(guard.is_linear()
-              ? decided_by_orders(QuickForm(guard.form), jet, first, orders, triggered, blur, resolution)
-              : decided_by_orders(guard, jet, first, orders, triggered, blur, resolution)))
+              ? sign_is_decided(QuickForm(guard.form), jet, first, orders, triggered, blur, resolution)
+              : sign_is_decided(guard, jet, first, orders, triggered, blur, resolution)))
       return false;
   }
   return true;
@@ -166,12 +172,12 @@ double relative_violation(const GuardForm& form, const MotionJet& jet, const Ins
 std::vector<FailedGuard> find_failed_guards(const Model& model, const std::vector<MotionJet>& jets,
                                             const contact::ContactStates& states, const Instant& instant,
                                             bool before, const std::vector<KnownGuards>& known,
-                                            const std::vector<MotionJet>& so_far,
+                                            const std::vector<MotionJet>& motion_up_to_instant,
                                             const std::vector<std::size_t>& asked) {
   std::vector<FailedGuard> result;
   for (const std::size_t c : asked)
     if (auto failed = failure_of(model.contacts[c], c, jets[c], states[c], instant, before, known[c],
-                                 so_far.empty() ? nullptr : &so_far[c]))
+                                 motion_up_to_instant.empty() ? nullptr : &motion_up_to_instant[c]))
       result.push_back(std::move(*failed));
   return result;
 }

@@ -2,8 +2,8 @@
 //
 //   g, g', g'', ...  lexicographically nonnegative; an entry is zero if it is within its rounding error
 //
-// A derivative is also treated as zero if the next one would compensate it within the resolution of time. A quantity that a
-// decision has set to zero is zero, although an elimination may leave rounding in it.
+// A derivative is also treated as zero if the next derivative would compensate it within the resolution of time. A quantity
+// that a decision has set to zero is treated as zero, although it may contain rounding errors of an elimination.
 #pragma once
 
 #include <algorithm>
@@ -19,19 +19,19 @@
 
 namespace signorini::decide {
 
-// Fast evaluation of forms with at most six terms, which most forms are.
+// Fast evaluation of forms with at most six terms; most forms have no other terms.
 //
 //   f = c + N N + T T + gap g + ut ut + vn g' + vt ut'        other terms of the form are zero
 //
 // For finite motions the values agree with Form to the last bit, because omitting zero terms does not change a sum.
 
-/// True if all terms besides these six are zero.
+/// True if all terms of the form other than c, N, T, gap, ut, vn and vt are zero.
 [[nodiscard]] inline bool is_plain(const Form& f) {
   return f.an == 0.0 && f.at == 0.0 && f.applied_normal_force == 0.0 && f.applied_normal_force_rate == 0.0 &&
          f.limit == 0.0 && f.limit_rate == 0.0;
 }
 
-/// Evaluates a form by the short sum if the form is plain. The form must outlive the object. Functions as in Form.
+/// Evaluates a form, by the short sum if is_plain(form). The form must outlive the object. Functions: see Form.
 class QuickForm {
  public:
   explicit QuickForm(const Form& form) : f_(form), plain_(is_plain(form)) {}
@@ -58,16 +58,16 @@ struct Known {
   std::size_t zeros = 0;
   bool rises = false;
 
-  /// For a guard that is zero with all available derivatives.
+  /// Known signs of a guard that is zero with all available derivatives.
   [[nodiscard]] static Known at_limit() { return {MotionJet::orders, false}; }
 };
 
 /// Known signs of the guards of a contact that is decided together with other contacts.
 struct KnownGuards {
-  bool touches = false;  ///< g = 0
+  bool touches = false;  ///< true: g = 0
   Known closing, separation, slip_plus, slip_minus, sliding;
 
-  /// The part that is valid in any state of the contact: zeros of g, g' and the slip rate.
+  /// The known signs that are valid in every state of the contact: zeros of g, g' and the slip rate.
   [[nodiscard]] KnownGuards of_motion() const {
     KnownGuards result;
     result.touches = touches;
@@ -101,48 +101,50 @@ struct KnownGuards {
 /// Sign of a guard just after an instant.
 struct Sign {
   int sign = 0;         // -1, 0, +1
-  int order = 0;        // order of the first nonzero derivative; number of orders if all are zero
-  double excess = 0.0;  // magnitude of that derivative / magnitude up to which it is treated as zero
+  int order = 0;        // order of the first nonzero derivative; MotionJet::orders if all are zero
+  double excess = 0.0;  // that derivative's magnitude / limit up to which it is treated as zero
 };
 
-/// Returns `so_far`, the motion of the contact up to the instant, if the guard was a resting limit (Instant::resting_limits)
-/// and is still zero; otherwise nullptr. For the slip rate p' = -(fs |N| - T)' / kt of a slipping state the friction limit
-/// that the contact has left is tested instead.
+/// Returns `motion_up_to_instant`, the motion of the contact up to the instant, if the guard is a friction limit in Instant::resting_limits
+/// and is still zero; otherwise nullptr. The guard of the slip rate is treated like the friction limit in the direction of
+/// slip, because p' = -(fs |N| - T)' / kt.
 [[nodiscard]] const MotionJet* resting_reference(const Contact& contact, std::size_t c,
                                                  const ContactState& state, const GuardForm& guard,
-                                                 const MotionJet& so_far, const Instant& instant);
-/// Sign of the first derivative of the form, from order `first` on, that is not zero within its rounding error. base: a
-/// motion in which the form is exactly zero; the difference of the derivatives from those in `base` is then used.
-[[nodiscard]] Sign sign_after(const GuardForm& form, const MotionJet& jet, const Instant& instant,
-                              std::size_t first, const MotionJet* base = nullptr);
+                                                 const MotionJet& motion_up_to_instant,
+                                                 const Instant& instant);
+/// Sign of the first derivative of the form, from order `first` on, that is not zero within its rounding error. base: a motion
+/// for which the form is exactly zero; its computed derivatives are subtracted, to remove accumulated rounding errors.
+[[nodiscard]] Sign leading_sign(const GuardForm& form, const MotionJet& jet, const Instant& instant,
+                                std::size_t first, const MotionJet* base = nullptr);
 /// True if the form's value is zero within its rounding error and the resolution of time.
 [[nodiscard]] bool starts_at_zero(const GuardForm& form, const MotionJet& jet, const Instant& instant);
-/// Factor by which the rounding errors of the form's derivatives would have to be multiplied to make the form
-/// lexicographically nonnegative. 0: it is nonnegative.
+/// Smallest factor on the rounding errors of the form's derivatives for which the form is lexicographically nonnegative; 0: the
+/// form is nonnegative without a factor.
 [[nodiscard]] double relative_violation(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                         std::size_t first);
-/// Sign of a guard with known signs of derivatives. A guard that is known to rise is positive, unless its derivative of order
-/// `zeros` is clearly negative.
+/// Sign of a guard with known signs of derivatives. If known.rises, the guard is positive unless its derivative of order
+/// known.zeros is negative by more than rounding.
 [[nodiscard]] Sign sign_of_guard(const GuardForm& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
 using GuardsOfState = ContactLaw::Guards;
 
-/// True if derivatives of orders below `orders` determine the signs of all guards of a contact that is decided separately,
-/// even if noise and resolution are `most_blur` times as large. known: known signs of the guards.
-[[nodiscard]] bool decided_by(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
-                              std::size_t orders, const Instant& instant, const KnownGuards& known,
-                              double most_blur);
+/// True if derivatives of orders below `orders` determine the signs of all guards of contact c, even if noise and resolution
+/// are `max_noise_factor` times as large. Only for contacts that are decided separately. known: known signs of the guards.
+[[nodiscard]] bool signs_are_decided(const GuardsOfState& guards, std::size_t c, const MotionJet& jet,
+                                     std::size_t orders, const Instant& instant, const KnownGuards& known,
+                                     double max_noise_factor);
 
 /// Guards of every contact. Copies share the guards of contacts whose states do not change.
 using GuardForms = base::CopyOnWriteVector<GuardsOfState>;
 
-/// Cache of the guards of contacts in their last states; most states do not change between two decisions.
+/// Cache of the guards of each contact in its last state; most states do not change between two decisions.
 class GuardCache {
  public:
   /// The model must outlive the object.
   explicit GuardCache(const Model& model)
       : model_(model), states_(model.contacts.size()), forms_(model.contacts.size()) {}
+  /// Guards of the contact in this state; computed only if the state has changed.
   [[nodiscard]] const GuardsOfState& of(std::size_t contact, const ContactState& state);
   /// Guards of all contacts in the cache.
   [[nodiscard]] const GuardForms& all() const { return forms_; }
@@ -153,7 +155,7 @@ class GuardCache {
   GuardForms forms_;
 };
 
-/// A guard that is negative just after the instant, so sign.sign = -1.
+/// A guard that is negative just after the instant; sign.sign is -1.
 struct FailedGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
@@ -161,12 +163,12 @@ struct FailedGuard {
   Sign sign = {};
 };
 
-/// The guard that fails first, for each contact with a failing guard. before: true if the states are those of the motion up
-/// to the instant, so that located guards are zero. known: one entry per contact. so_far: the motion up to the instant, one
-/// entry per contact; needed only if there are resting limits. asked: contacts to examine, ascending.
+/// Returns, for each contact with a failing guard, the guard that fails first. before: true if `states` are the states before
+/// the instant, so that the guards located by the engine are zero. known: one entry per contact. motion_up_to_instant: motion up to the
+/// instant, one entry per contact; empty if there are no resting limits. asked: contacts to examine, ascending.
 [[nodiscard]] std::vector<FailedGuard> find_failed_guards(
     const Model& model, const std::vector<MotionJet>& jets, const contact::ContactStates& states,
     const Instant& instant, bool before, const std::vector<KnownGuards>& known,
-    const std::vector<MotionJet>& so_far, const std::vector<std::size_t>& asked);
+    const std::vector<MotionJet>& motion_up_to_instant, const std::vector<std::size_t>& asked);
 
 }  // namespace signorini::decide

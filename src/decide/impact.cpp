@@ -16,12 +16,12 @@
 namespace signorini::decide {
 namespace {
 
-// Energy gains below this fraction of the largest energy term are rounding of velocities and impulses; real gains by Newton's
-// law are larger. Chosen value.
-constexpr double no_gain = 1e-9;
+// Energy gains below this fraction of the largest energy term are rounding errors of velocities and impulses. Real gains by
+// Newton's law are larger. Chosen value.
+constexpr double negligible_gain = 1e-9;
 
-/// The states with all contacts open that take impulses or can stick rigidly. Only the system of these states gives the
-/// effect of a single impulse.
+/// The states in which all contacts that take impulses or can stick rigidly are open. The system of equations in these states
+/// gives the effect of a single impulse, without reactions at other contacts.
 contact::ContactStates released(const Model& model, contact::ContactStates states) {
   for (std::size_t c = 0; c < states.size(); ++c)
     if (const Contact& contact = model.contacts[c]; contact.takes_impulses() || contact.sticks_rigidly())
@@ -74,7 +74,7 @@ ImpactSolver::ImpactProblem ImpactSolver::set_up(const motion::Forcing& forcing,
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
     item.static_friction = contact::static_friction(contact);
     item.kinetic_friction = contact::kinetic_friction(contact);
-    // In an impact, friction that rises with the slip rate has its value at the slip rate just before.
+    // Friction that rises with the slip rate has, during an impact, the value at the slip rate just before the impact.
     if (contact.friction.is_rate_strengthening())
       item.static_friction = item.kinetic_friction =
           contact::sliding_friction(contact, std::abs(hit.before[tangent_place(layout, i)]));
@@ -83,14 +83,14 @@ ImpactSolver::ImpactProblem ImpactSolver::set_up(const motion::Forcing& forcing,
   return hit;
 }
 
-/// Computes the velocities after the impact. A contact that rebounds slower than capture_velocity is captured: its
-/// restitution is set to zero. False: there is no solution.
+/// Computes the velocities after the impact. If a contact rebounds slower than capture_velocity, its restitution is set to zero
+/// and the impact is computed again. False: there is no solution.
 bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProblem& hit) const {
   const Eigen::Index m = hit.restitution.size();
   hit.rebound = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::quiet_NaN());
   std::vector<bool> may_share;
   for (const std::size_t c : touching) may_share.push_back(systems_.may_share(c));
-  for (bool captured = true; captured;) {  // ends, because each round captures one more contact
+  for (bool captured = true; captured;) {  // ends, because each round captures at least one more contact
     captured = false;
     hit.problem.b = hit.before;
     for (Eigen::Index i = 0; i < m; ++i)
@@ -113,8 +113,8 @@ bool ImpactSolver::rebound(const std::vector<std::size_t>& touching, ImpactProbl
   return true;
 }
 
-/// Sets the velocities that the solution determines to their exact values: zero, the surface's velocity, or the rebound
-/// velocity.
+/// Sets velocities of contacts with an impulse to their exact values, without rounding errors: along n to zero or the rebound
+/// velocity, along t, if the contact sticks, to the velocity of the surface.
 void ImpactSolver::come_to_rest(const motion::Forcing& forcing, double t,
                                 const std::vector<std::size_t>& touching, ImpactProblem& hit,
                                 Impact& impact) const {
@@ -137,7 +137,7 @@ void ImpactSolver::come_to_rest(const motion::Forcing& forcing, double t,
   impact.correction_impulses = impose_velocities(hit.d, fixed, impact.v);
 }
 
-/// Computes the impulses on all contacts and the energies.
+/// Computes the impulse of each contact, the dissipated energy, and the work of moving surfaces.
 void ImpactSolver::balance(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                            const std::vector<std::size_t>& touching, const ImpactProblem& hit,
                            Impact& impact) const {
@@ -160,7 +160,7 @@ void ImpactSolver::balance(const motion::Forcing& forcing, double t, const conta
     greatest = std::max({greatest, std::abs(n * hit.before[normal_place(hit.d.layout, i)]),
                          std::abs(k * hit.before[tangent_place(hit.d.layout, i)])});
   }
-  impact.gains = impact.loss < -no_gain * greatest;
+  impact.gains = impact.loss < -negligible_gain * greatest;
 }
 
 Impact ImpactSolver::solve(const motion::Forcing& forcing, double t, const contact::ContactStates& states,

@@ -6,8 +6,9 @@
 //   loss = -sum ( Pn (vn- + vn+) + Pt (vt- + vt+) )/2           vt relative to the surface
 //
 // M couples all contacts, so all impulses are computed together (decide/coulomb_problem.hpp). If a contact rebounds slower
-// than capture_velocity, the impact is computed again with e = 0 for that contact. The contact then rests, so that the
-// infinitely many bounces of a ball end after a finite number. Sliders and contacts with springs take no impulse.
+// than capture_velocity, the impact is computed again with e = 0 for that contact. The contact then stays closed, so
+// that the infinite sequence of rebounds of a ball ends after a finite number. Sliders and contacts with springs take no
+// impulse.
 // Source: Newton 1687; Moreau 1988 for the simultaneous problem; Glocker 2001, chapter 8.
 #pragma once
 
@@ -25,10 +26,11 @@ namespace signorini::decide {
 
 /// Sum of the impulses on one contact at an instant. Unit: force * time.
 struct Impulse {
-  bool hit = false;  ///< the contact was open and takes an impulse; closed contacts may also take an impulse
+  /// True: the contact was open and takes an impulse. False for an impulse on a closed contact.
+  bool hit = false;
   double normal = 0.0, tangent = 0.0;
-  bool rests = false, sticks = false;  ///< true: the solution has vn+ = 0 (rests), vt+ = 0 (sticks)
-  /// Rebound velocity / capture_velocity; below one the contact was captured. NaN: the contact does not rebound.
+  bool rests = false, sticks = false;  ///< true: vn+ = 0 (rests), vt+ = 0 (sticks)
+  /// Rebound velocity / capture_velocity; below 1: the contact was captured and stays closed. NaN: there is no rebound.
   double rebound = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -46,7 +48,7 @@ struct Impact {
   std::vector<Impulse> impulses;  ///< one entry per contact of the model
   double loss = 0.0;              ///< dissipated energy
   double surface_work = 0.0;      ///< work of moving surfaces
-  bool gains = false;             ///< the loss is negative, which is possible for Newton's law with friction
+  bool gains = false;  ///< true: the loss is negative, which Newton's law with friction makes possible
   /// Impulses that set known velocities to their exact values; rows as in Delassus. Empty: none.
   Eigen::VectorXd correction_impulses = {};
 };
@@ -56,11 +58,12 @@ class ImpactSolver {
   ImpactSolver(motion::StateSystems& systems, double capture_velocity)
       : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
-  /// Returns u after the gaps of all touching contacts have been closed, by the smallest change of u in the norm of M.
-  /// states: states of all other contacts.
+  /// Returns u with the gaps of all touching contacts closed, by the smallest change of u in the norm of M. states: states of
+  /// all other contacts.
   [[nodiscard]] Vector close_gaps(const contact::ContactStates& states,
                                   const std::vector<std::size_t>& touching, Vector u);
-  /// Computes an impact. v: velocities before; touching: rigid contacts with g = 0; states: states of all other contacts.
+  /// Computes an impact. v: velocities before the impact; touching: rigid contacts with g = 0; states: states of all other
+  /// contacts.
   [[nodiscard]] Impact solve(const motion::Forcing& forcing, double t, const contact::ContactStates& states,
                              const std::vector<std::size_t>& touching, const Vector& v);
 
@@ -84,21 +87,22 @@ class ImpactSolver {
 
   const Model& model_;
   motion::StateSystems& systems_;
-  double capture_velocity_;  // for contacts that do not specify one
+  double capture_velocity_;  // value for contacts without their own value
 };
 
-/// States during an impact. A contact that takes an impulse is closed, sticks or slips as the impulse requires; all other
-/// contacts that take impulses or can stick rigidly are open. impulses: one entry per contact.
+/// States during an impact. A contact with an impulse is closed, sticks or slips, according to the impulse. Other rigid
+/// contacts, and other contacts that can stick rigidly, are open. impulses: one entry per contact.
 [[nodiscard]] contact::ContactStates states_of_impact(const Model& model, contact::ContactStates states,
                                                       const std::vector<Impulse>& impulses);
 
 // Order of the impacts of rigid contacts at one instant.
 //
-//   impact 1, 2, ...   closing contacts meet after g / |g'|; the first ones are hit, and touching ones at rest
+//   impact 1, 2, ...   closing contacts touch after the time g / |g'|; the first of them are hit, together with contacts
+//                      that touch and are at rest
 //
-// A leaving contact (g' > 0) takes no impulse: an impact at its neighbour does not stop it, and an impulse on it would add
-// energy. If a later impact makes it close again, the contact is hit again, as a moment later in reality. Contacts that meet
-// at the same time are hit together.
+// A leaving contact (g' > 0) takes no impulse: an impact at another contact does not stop it, and an impulse on it would add
+// energy. If a later impact makes it close again, the contact is hit again. Contacts that close at the same time are hit
+// together.
 
 /// A rigid contact at an instant with impacts. Units: length, length/time.
 struct Approach {
@@ -107,7 +111,7 @@ struct Approach {
   double rate = 0.0;  ///< g'
   double rest = 0.0;  ///< limit of g' above which the contact leaves
   double hit = 0.0;   ///< limit of -g' above which the contact is hit
-  bool open = false;  ///< false: the contact is already closed and presses
+  bool open = false;  ///< false: the contact is already closed, with a compressive force
 
   [[nodiscard]] bool is_closing() const { return open && rate < -hit; }
 };

@@ -1,4 +1,4 @@
-// instant.hpp: input of a decision: the motion just before an instant, and the guards that triggered the instant.
+// instant.hpp: input of a decision: the motion just before an instant, and the guards that the engine located at zero.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 
 namespace signorini::decide {
 
-/// A guard that the integrator located at zero.
+/// A guard that the engine located at zero.
 struct TriggeredGuard {
   std::size_t contact = 0;
   Guard guard = Guard::none;
-  /// The guard is zero at the segment's beginning and never exceeded its rounding error.
+  /// True: the guard was zero at the beginning of the segment and never exceeded its rounding error.
   bool never_positive = false;
 };
 
@@ -27,19 +27,20 @@ struct Instant {
   Vector u, v;
   contact::ContactStates states;  ///< contact states just before the instant
   std::vector<TriggeredGuard> triggered;
-  /// Friction limits that were zero with all their derivatives at the beginning of the segment, and have not failed since.
-  /// They stay zero under the forcing up to this instant, although rounding has accumulated in them.
+  /// Friction limits that were zero with all their derivatives at the beginning of the segment, and have not failed since then.
+  /// They are zero up to this instant, although their computed values contain accumulated rounding errors.
   std::vector<TriggeredGuard> resting_limits = {};
-  /// For each contact the last time with g = 0; the start of the run if there was none. Empty: unknown.
+  /// For each contact, the last time at which g was zero; the start of the run if there was no such time. Empty: unknown.
   std::vector<double> last_touch = {};
-  bool jump = false;          ///< the forcing is not smooth here
-  double noise_factor = 1.0;  ///< entries of a jet below this factor times their noise are zero
-  bool start = false;  ///< start of the run: touching rigid contacts are decided although no guard fails
+  bool jump = false;          ///< true: the forcing is not smooth at this instant
+  double noise_factor = 1.0;  ///< an entry of a jet is zero if it is below this factor times its noise
+  /// True: start of the run; touching rigid contacts are then decided although no guard fails.
+  bool start = false;
   /// Value of Stepper::resolves_low_flights of the engine.
   bool resolves_low_flights = false;
-  /// Slip rates up to this value are treated as rest, in addition to their rounding error.
+  /// Slip rates up to this value plus their rounding error are treated as zero; length/time.
   double rest_speed = 0.0;
-  /// True: flights are computed although their height or speed is so small that they are otherwise treated as rest.
+  /// True: flights are computed even if their height or speed is so small that they would otherwise be replaced by rest.
   bool keep_low_flights = false;
 
   [[nodiscard]] bool has_triggered(std::size_t contact, Guard guard) const {
@@ -56,7 +57,8 @@ struct Instant {
   }
 };
 
-/// Names of contacts and guards as text, from a list of any type with both: "'first' (compression) and 'second' (gap)".
+/// Names of contacts and guards as text: "'first' (compression) and 'second' (gap)". Guarded: a type with members `contact` and
+/// `guard`.
 template <class Guarded>
 [[nodiscard]] std::string names_of(const Model& model, const std::vector<Guarded>& list) {
   std::vector<std::string> names;

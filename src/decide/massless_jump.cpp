@@ -9,7 +9,7 @@ namespace signorini::decide {
 namespace {
 
 /// Position x on the path at which the gap of the failing contact closes; nullopt: the gap does not close on the path.
-std::optional<double> touched_at(const Model& model, const MasslessPath& way, const FailedGuard& f) {
+std::optional<double> closing_position(const Model& model, const MasslessPath& way, const FailedGuard& f) {
   if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
   const Contact& contact = model.contacts[f.contact];
   const double from = contact.gap_at(way.from), to = contact.gap_at(way.to);
@@ -23,11 +23,12 @@ std::optional<PathTouch> first_touch(const Model& model, const MasslessPath& way
                                      std::vector<FailedGuard>& failed) {
   std::optional<PathTouch> first;
   for (const FailedGuard& f : failed)
-    if (const auto x = touched_at(model, way, f); x && (!first || *x < first->fraction))
+    if (const auto x = closing_position(model, way, f); x && (!first || *x < first->fraction))
       first = PathTouch{f.contact, *x, 0.0};
   if (!first) return std::nullopt;
-  std::erase_if(
-      failed, [&](const FailedGuard& f) { return f.contact != first->contact && touched_at(model, way, f); });
+  std::erase_if(failed, [&](const FailedGuard& f) {
+    return f.contact != first->contact && closing_position(model, way, f);
+  });
   const Vector all = way.to - way.from;
   first->ut = model.contacts[first->contact].tangent.dot(all) * (first->fraction - 1.0);
   return first;

@@ -1,9 +1,9 @@
-// massless_jump.hpp: massless parts that move instantaneously during a decision: the first contact that closes on their path,
-// and their end position.
+// massless_jump.hpp: massless parts that move instantaneously during a decision: the first contact that closes on the path of
+// these parts, and the end of the path.
 //
 //   u(x) = (1 - x) u_from + x u_to,   0 <= x <= 1:   a gap closes at (1 - x) g_from + x g_to = 0
 //
-// No time passes on such a path. Contacts that close on it are ordered by their positions x.
+// No time passes on such a path. Contacts that close on the path are ordered by the position x at which they close.
 #pragma once
 
 #include <optional>
@@ -16,6 +16,7 @@
 
 namespace signorini::decide {
 
+/// Displacements at the beginning and at the end of an instantaneous motion of massless parts.
 struct MasslessPath {
   const Vector &from, &to;
 };
@@ -23,7 +24,7 @@ struct MasslessPath {
 /// The first contact that closes on the path.
 struct PathTouch {
   std::size_t contact;
-  double fraction;  ///< position x on the path
+  double fraction;  ///< position x at which the contact closes
   double ut;        ///< ut at the position x minus ut at the end of the path
 };
 
@@ -32,24 +33,24 @@ struct PathTouch {
 [[nodiscard]] std::optional<PathTouch> first_touch(const Model& model, const MasslessPath& way,
                                                    std::vector<FailedGuard>& failed);
 
-/// Removes failed slip rates on massless parts from `failed`, if another guard on massless parts fails in value. The parts
-/// have then not reached the equilibrium of the tried states yet, and their slip rates are known only in equilibrium.
+/// If another guard of a contact on massless parts is negative in value, removes guards of slip rates on massless parts from
+/// `failed`: the parts have not reached their equilibrium yet, and slip rates are known only in equilibrium.
 void defer_slip_failures(const Model& model, std::vector<FailedGuard>& failed);
 
-/// True if a contact whose slip rate fails has slid instantaneously in its slip direction, and stops at the end of the path.
-/// noise: noise of ut.
+/// True if the guard of the slip rate fails, and the contact has moved on the path in its slip direction: it stops at the end
+/// of the path. slip: state of the contact; noise: noise of ut.
 [[nodiscard]] bool stops_on_path(const Contact& contact, const FailedGuard& failure, State slip,
                                  const MasslessPath& way, double noise);
 
 // Massless parts that leave a contact instantaneously.
 //
-//   |T| = f|N| in stick; slip at the rate a changes f|N| - |T| at the rate h' = h0' + c a,   h0' < 0,  c <= 0
+//   |T| = f|N| in stick, h = f|N| - |T|;   with the slip rate a:  h' = h0' + c a,   h0' < 0,  c <= 0
 //
-// If h0' < 0 and c <= 0, neither stick (h' = h0' < 0) nor slip (a = -h0'/c < 0) continues the motion, because slip reduces
-// f|N| more than |T|. No continuous motion exists. With a small mass, the slip would accelerate until N = 0, the contact
-// would open, and the parts would move to their equilibrium without the contact. In the limit of zero mass this takes no
-// time. The same happens if friction drops to its kinetic value, or if the data at the start require a tensile force. A
-// contact with a dashpot cannot close again during the jump, so the jump must open its gap.
+// If h0' < 0 and c <= 0, neither stick (h' = h0' < 0) nor slip (a = -h0'/c < 0) is possible, because slip reduces f|N| more
+// than |T|. No continuous motion exists. With a small mass, the slip would accelerate until N = 0, the contact would open, and
+// the parts would move to their equilibrium without the contact. In the limit of zero mass this motion takes no time. The jump
+// also occurs if friction drops to its kinetic value, or if the data at the start require a tensile force. The jump must open
+// the gap.
 
 /// True if the normal or the tangent of the contact moves a massless degree of freedom.
 [[nodiscard]] bool acts_on_massless(const Model& model, const Contact& contact);

@@ -14,11 +14,11 @@
 namespace signorini::decide {
 namespace {
 
-/// Fraction of the scale of velocities. Motions that differ by more are not separated by rounding alone, because no engine
-/// loses half of its digits: sqrt(eps).
+/// sqrt(eps), as a fraction of the scale of velocities. A larger difference of two velocities is not a rounding error, because
+/// no engine loses half of its digits.
 constexpr double sqrt_eps = 0x1p-26;
-/// Limit for successive impacts at one instant. Unless e is almost one, capture_velocity ends a sequence of rebounds long
-/// before.
+/// Limit of the number of successive impacts at one instant. Unless e is almost one, capture_velocity ends a sequence of
+/// rebounds after far fewer impacts.
 constexpr int max_impacts_at_instant = 1000;
 
 double norm_of(const Combination& form) {
@@ -27,8 +27,8 @@ double norm_of(const Combination& form) {
   return std::sqrt(squared);
 }
 
-/// Rounding error of a form of the velocities: eps |form| |v|, with the velocities v in the form. Velocities that are held at
-/// zero contain the rounding of corrections, which is relative to all velocities (`rest`).
+/// Rounding error of a form of the velocities: 64 eps |form| |v|, where |v| includes only velocities in the form. Velocities
+/// that are constrained to zero contain rounding errors of corrections, which are relative to all velocities (`rest`).
 double rounding_of(const Combination& form, const Vector& v) {
   const double rest = rounding::eps * v.norm();
   double v_squared = 0.0;
@@ -36,7 +36,7 @@ double rounding_of(const Combination& form, const Vector& v) {
   return rounding::many_operations * norm_of(form) * (std::sqrt(v_squared) + rest);
 }
 
-/// Norm of all translational velocities; rotations have another unit and are left out.
+/// Norm of all translational velocities; angular velocities have another unit and are omitted.
 double speed_of(const Model& model, const Vector& v) {
   double squared = 0.0;
   for (Eigen::Index i = 0; i < v.size(); ++i)
@@ -44,8 +44,8 @@ double speed_of(const Model& model, const Vector& v) {
   return std::sqrt(squared);
 }
 
-/// Energy lost by capture impulses: -sum of impulse times mean velocity. before, now: capture impulses before and after the
-/// step; twice: velocities before plus velocities after.
+/// Energy dissipated by capture impulses: -sum of impulse times mean velocity. before, now: sums of capture impulses before and
+/// after a step, whose difference is the impulse of the step; twice: velocities before plus velocities after the step.
 double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd& before,
                const Eigen::VectorXd& now, const Vector& twice) {
   double loss = 0.0;
@@ -87,10 +87,10 @@ RigidContactSolver::RigidContactSolver(motion::StateSystems& systems, motion::Je
       impacts_(systems, capture_velocity),
       levels_(systems, jets) {}
 
-/// Bound up to which the slip rate t.v minus surface velocity is zero: rounding error plus Instant::rest_speed. At the start
-/// it is at least the rounding error of the scene's velocities.
-double RigidContactSolver::rounding_of_slide(std::size_t c, const motion::Forcing& forcing,
-                                             const Instant& instant) const {
+/// Slip rate (t.v minus surface velocity) up to which the contact is at rest: rounding error plus Instant::rest_speed. At the
+/// start, the rounding error of the given velocities is included.
+double RigidContactSolver::slip_rate_tolerance(std::size_t c, const motion::Forcing& forcing,
+                                               const Instant& instant) const {
   const double given = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
   return given + rounding_of(model_.contacts[c].tangent, instant.v) +
          rounding::many_operations * std::abs(forcing.surface(c, instant.t, 1)) +
@@ -101,17 +101,17 @@ double RigidContactSolver::min_flight_speed(std::size_t c) const {
   return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
 }
 
-/// Decides whether a contact with g = 0 leaves. It stays if its flight would be shorter than the resolution of time. A flight
-/// is low if its speed is below capture_velocity, or if its height is below the rounding error of the gap and the engine does
-/// not resolve such flights. pull_before: -g'' just before the instant. The larger of -g'' before and after is the pull,
-/// because all touching bodies may fall freely together.
+/// Decides whether a contact with g = 0 leaves. The contact stays if its flight would be shorter than the resolution of time. A
+/// flight is low if its speed is below capture_velocity, or if its height is below the rounding error of the gap and the engine
+/// does not resolve such flights. The pull, which closes the gap again, is the larger of -g'' before and after the instant:
+/// after the instant g'' may be zero, because all touching bodies fall freely together. pull_before: -g'' before the instant.
 RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const MotionJet& free,
                                                             double pull_before,
                                                             const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &m = free.motion[0], &noise = free.noise[0];
   const double pull = std::max(-m.an, pull_before);
-  // For a body at rest g' contains the rounding errors of its equilibrium, which exceed those of its velocity.
+  // For a body at rest, g' contains rounding errors of the equilibrium, which exceed the rounding error of the velocity.
   const double rounding = instant.noise_factor * noise.vn + rounding_of(contact.normal, instant.v) +
                           instant.resolution * std::abs(pull);
   if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::Type::stays : Departure::Type::leaves};
@@ -123,13 +123,14 @@ RigidContactSolver::Departure RigidContactSolver::departure(std::size_t c, const
   return {m.vn <= rounding + low ? Departure::Type::low : Departure::Type::leaves, ratio};
 }
 
-/// True if a dashpot makes the compression of a contact jump up, by -cn n . (v+ - v-). Velocities that do not jump contain
-/// rounding errors relative to all jumps of velocities.
-bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
+/// True if a dashpot makes the compressive force of a contact increase by a jump, -cn n . (v+ - v-) > 0. Velocities that do not
+/// jump contain rounding errors relative to the jumps of all velocities.
+bool RigidContactSolver::compression_jumps_up(std::size_t c, const Vector& before,
+                                              const Vector& after) const {
   const Contact& contact = model_.contacts[c];
   if (!(contact.normal_damping > 0.0)) return false;
-  // The effect of an impact decays by a factor of 0.3 per node of a beam; below the rounding error of an elimination it is
-  // not a jump.
+  // In a beam the effect of an impact decays by a factor of 0.3 per node. An effect below the rounding error of an elimination
+  // is not a jump.
   const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
                           4.0 * rounding::elimination * norm_of(contact.normal) *
                               (speed_of(model_, before) + speed_of(model_, after));
@@ -139,29 +140,29 @@ bool RigidContactSolver::presses_harder(std::size_t c, const Vector& before, con
 /// Changes states according to the velocities after an impact. Rigidly sticking sliders slip if their slip rate is not zero.
 /// If a dashpot makes |N| jump up, T is continuous and below its new limit, so the contact sticks. If |N| jumps down, T
 /// follows its limit. If N does not jump, slip continues until the guard of slip fails.
-void RigidContactSolver::follow_velocity(const Instant& instant, const Vector& before,
-                                         const motion::Forcing& after, const Block& block,
-                                         const std::vector<ContactMotion>& motion,
-                                         contact::ContactStates& states) const {
+void RigidContactSolver::update_states_after_impact(const Instant& instant, const Vector& before,
+                                                    const motion::Forcing& after, const Block& block,
+                                                    const std::vector<ContactMotion>& motion,
+                                                    contact::ContactStates& states) const {
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (contact.tangential_stiffness && slip_sign(states[c].state) != 0 &&
-        presses_harder(c, before, instant.v))
+        compression_jumps_up(c, before, instant.v))
       states[c] = {State::stick, contact::slip_of(contact, motion[c])};
-    if (!contact.holds_tangent_only() || states[c].is_open()) continue;
+    if (!contact.constrains_tangent_only() || states[c].is_open()) continue;
     const double vt = contact::along_surface(contact, instant.v, after.surface(c, instant.t, 1));
-    // Same rounding error as in presses_harder(): a sticking contact is at rest up to the rounding of all velocity jumps.
+    // A sticking contact is at rest up to rounding errors relative to all velocity jumps, as in compression_jumps_up().
     const double of_jump =
         slip_sign(states[c].state) == 0
             ? rounding::elimination * norm_of(contact.tangent) * speed_of(model_, instant.v - before)
             : 0.0;
-    if (std::abs(vt) > of_jump + rounding_of_slide(c, after, instant))
+    if (std::abs(vt) > of_jump + slip_rate_tolerance(c, after, instant))
       states[c].state = contact::slip_state(vt);
   }
 }
 
-/// Sets the velocities of resting participants to zero, for all contacts at once because each change affects the others.
-/// False: these velocities are already zero.
+/// Sets velocities of participants at rest to zero: g' and, without slip, the slip rate. All are set together, because each
+/// change affects the other velocities. False: these velocities are already exactly zero.
 bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::Forcing& forcing,
                                                 const motion::StateSystem& free, const TouchingContacts& met,
                                                 ImpactResult& found) const {
@@ -185,7 +186,7 @@ bool RigidContactSolver::set_resting_velocities(Instant& instant, const motion::
   return true;
 }
 
-/// Updates the slip directions after other velocities were set to zero. True: at least one more contact is at rest.
+/// Updates slip directions after set_resting_velocities() has changed velocities. True: at least one more contact is at rest.
 bool RigidContactSolver::update_slip_directions(const Instant& instant, const motion::Forcing& forcing,
                                                 const TouchingContacts& met, ImpactResult& found) const {
   bool rests = false;
@@ -196,20 +197,20 @@ bool RigidContactSolver::update_slip_directions(const Instant& instant, const mo
     const double vt = contact::along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     participant.sign = vt > 0.0 ? 1 : -1;
     participant.sliding_friction = contact::sliding_friction(contact, std::abs(vt));
-    if (std::abs(vt) > rounding_of_slide(c, forcing, instant)) continue;
+    if (std::abs(vt) > slip_rate_tolerance(c, forcing, instant)) continue;
     participant.slipping = false;
     rests = true;
   }
   return rests;
 }
 
-/// Rounding accumulated in g and g'. Since the beginning, an error da of g'' gives dv = t da in all velocities and du = t^2/2
-/// da in displacements. At the last touch g and g' were known exactly. In the time s since then, dv has changed g, da has
-/// changed g', and du has changed both through the stiffness of the structure: by du min(1, (w s)^2/2) and du w min(1, w s),
-/// w being the highest frequency. This upper bound is useless for stiff structures after long times, so it is limited:
-/// velocities that differ by sqrt_eps of their scale are always different.
-RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double da,
-                                                           const Instant& instant) const {
+/// Rounding errors accumulated in g and g'. From the start of the run to time t, an error da of g'' gives an error dv = t da of
+/// all velocities and du = t^2/2 da of displacements. At the last touch g and g' were known exactly. In the time s since then,
+/// dv has changed g, and da has changed g'. Through the stiffness of the structure, du has changed g by du min(1, (w s)^2/2)
+/// and g' by du w min(1, w s); w: highest frequency. For stiff structures and long times this bound is too large, so it is
+/// limited: velocities that differ by more than sqrt_eps of their scale are different.
+RigidContactSolver::AccumulatedRounding RigidContactSolver::accumulated_rounding(
+    std::size_t c, double da, const Instant& instant) const {
   if (instant.last_touch.empty()) return {};
   const double t = instant.t, s = t - instant.last_touch[c], w = model_.omega_max, du = 0.5 * t * t * da;
   const double angle = std::min(1.0, w * s);
@@ -217,8 +218,8 @@ RigidContactSolver::Carried RigidContactSolver::carried_by(std::size_t c, double
   return {std::min(t * da * s + du * 0.5 * angle * angle, most * s), std::min(da * s + du * w * angle, most)};
 }
 
-/// Rounding error of a gap. A flight begins with g = 0, so its gap is as accurate as the sum g0 + n . u. If the contact has
-/// never touched, the result is of_data, because the terms of the sum also have errors.
+/// Rounding error of a gap. If the contact has touched before, its gap was exactly zero then, and only the sum g0 + n . u has a
+/// rounding error. Otherwise the result is of_data, because the terms of the sum also have errors.
 double RigidContactSolver::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
   const bool flew = !instant.last_touch.empty() && instant.last_touch[c] > 0.0;
   const Contact& contact = model_.contacts[c];
@@ -232,7 +233,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
-  // At the start, given values are only as accurate as the scales of the scene, even if the values are very small.
+  // At the start, the rounding errors of given values are relative to the scales of the scene, even for very small values.
   const double given = instant.start ? rounding::few_operations * model_.scales.displacement : 0.0;
   const double given_rate = instant.start ? rounding::few_operations * model_.scales.velocity : 0.0;
   TouchingContacts met;
@@ -242,13 +243,13 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
     const bool open = states[c].is_open();
-    const Carried carried = carried_by(c, noise.an, instant);
+    const AccumulatedRounding carried = accumulated_rounding(c, noise.an, instant);
     const double known = rounding_of_gap(c, noise.gap, instant) + given;
-    // A contact that closes faster than min_flight_speed() is hit, whatever rounding errors have accumulated.
+    // A contact that closes faster than min_flight_speed() is hit even if accumulated rounding errors are larger.
     const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), min_flight_speed(c));
     Approach a{c,   0.0, m.vn, noise.vn + given_rate + min_flight_speed(c), noise.vn + unsure + given_rate,
                open};
-    // A contact whose gap has become negative also touches: it closed together with others, within the resolution of time.
+    // A contact whose gap has become negative may touch, too: it closes together with other contacts, within the resolution.
     const bool pull_before =
         std::any_of(failed.begin(), failed.end(), [&](const FailedGuard& f) { return f.contact == c; });
     const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known;
@@ -263,8 +264,8 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     met.approaches.push_back(a);
     met.apart = met.apart || m.gap != 0.0;
     met.hit = met.hit || a.is_closing();
-    // If several contacts close within the rounding errors of their gaps, their order is unresolved and they are hit
-    // together.
+    // Several contacts that close within the rounding errors of their gaps are hit together, because rounding hides their
+    // order.
     const double own =
         rounding::few_operations * (model_.contacts[c].normal.magnitude(instant.u) +
                                     std::abs(model_.contacts[c].gap) + instant.t * std::abs(m.vn));
@@ -276,7 +277,7 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
   return met;
 }
 
-/// True if the contact is at rest, or moves like another contact of the block that closes now, up to rounding.
+/// True if the contact is at rest, or has the same gap rate, up to rounding, as another contact of the block that closes now.
 bool RigidContactSolver::closes_with_others(const Approach& a, const Instant& instant,
                                             const std::vector<MotionJet>& jets,
                                             const std::vector<FailedGuard>& failed,
@@ -310,7 +311,7 @@ Refusal RigidContactSolver::apply_impacts(Instant& instant, const motion::Forcin
       if (!(a.rate > a.rest)) continue;
       states[a.contact] = {State::open, 0.0};
       a.open = true;
-      // A contact that an earlier impact stopped now leaves. A rebound by an impact on the contact itself stays recorded.
+      // A contact that an earlier impact stopped now leaves, so its record must not say that it rests.
       if (Impulse& sum = decision.impulses[a.contact]; sum.rests) sum.rests = sum.sticks = false;
     }
   }
@@ -335,7 +336,7 @@ Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing
   }
   decision.impact_loss += result.loss;
   decision.impact_surface_work += result.surface_work;
-  decision.impact_gains = decision.impact_gains || result.gains;
+  decision.impact_gains_energy = decision.impact_gains_energy || result.gains;
   if (decision.impulses.empty()) decision.impulses.resize(states.size());
   const int impact_number =
       decision.single_impacts.empty() ? 1 : decision.single_impacts.back().impact_number + 1;
@@ -350,14 +351,14 @@ Refusal RigidContactSolver::apply_impact(Instant& instant, const motion::Forcing
     sum.sticks = result.impulses[c].sticks;
     sum.rebound = result.impulses[c].rebound;
   }
-  follow_velocity(instant, before, forcing, block, decision.before, states);
+  update_states_after_impact(instant, before, forcing, block, decision.before, states);
   return {};
 }
 
-/// Adds touching contacts that do not leave to the participants. free: motion with all touching contacts open.
-void RigidContactSolver::add_staying(const Instant& instant, const motion::Forcing& forcing,
-                                     const TouchingContacts& met, const std::vector<MotionJet>& free,
-                                     const Decision& decision, ImpactResult& found) const {
+/// Adds the touching contacts that do not leave to found.participants. free: motion with all touching contacts open.
+void RigidContactSolver::add_staying_contacts(const Instant& instant, const motion::Forcing& forcing,
+                                              const TouchingContacts& met, const std::vector<MotionJet>& free,
+                                              const Decision& decision, ImpactResult& found) const {
   for (const std::size_t c : met.contacts) {
     const Contact& contact = model_.contacts[c];
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
@@ -375,7 +376,7 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
     }
     found.stays[c] = true;
     const double zero =
-        noise.vt + rounding_of_slide(c, forcing, instant) + instant.resolution * std::abs(m.at);
+        noise.vt + slip_rate_tolerance(c, forcing, instant) + instant.resolution * std::abs(m.at);
     const bool rests = struck.sticks || found.rests[c] ||
                        (!met.hit && instant.has_triggered(c, Guard::sliding)) || std::abs(m.vt) <= zero;
     Participant participant{c};
@@ -383,13 +384,13 @@ void RigidContactSolver::add_staying(const Instant& instant, const motion::Forci
     participant.sign = m.vt > 0.0 ? 1 : -1;
     participant.sliding_friction = contact::sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
     participant.kinetic = found.kinetic[c];
-    participant.bears_limit = found.bears_limit[c];
+    participant.stays_at_limit = found.stays_at_limit[c];
     found.participants.push_back(participant);
   }
 }
 
-/// Feet of one body: sets participants to rest if other resting participants constrain their motion, although rounding is
-/// left in their slip rate.
+/// For several feet of one body: marks participants as not slipping if other participants at rest constrain their motion,
+/// because their slip rate is then only rounding.
 void RigidContactSolver::stop_constrained_participants(const Instant& instant, const motion::Forcing& forcing,
                                                        const contact::ContactStates& states,
                                                        ImpactResult& found) const {
@@ -409,8 +410,8 @@ void RigidContactSolver::stop_constrained_participants(const Instant& instant, c
   }
 }
 
-/// Sliders at rest in groups of contacts that may constrain the same motion; only groups with a contact that has changed its
-/// state.
+/// Sliders at rest that may share forces with other contacts, because several contacts of a group may constrain the same
+/// motion. Only groups in which a contact has changed its state are examined.
 std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, const motion::Forcing& forcing,
                                                      const contact::ContactStates& states,
                                                      const Decision& decision) const {
@@ -426,9 +427,10 @@ std::vector<std::size_t> RigidContactSolver::sharing(const Instant& instant, con
       const double held_too = systems_.held_by_others(c, held, forcing, instant.t)
                                   ? min_flight_speed(c) + rounding::many_operations * model_.scales.velocity
                                   : 0.0;
-      return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);
+      return std::abs(vt) <= std::max(slip_rate_tolerance(c, forcing, instant), held_too);
     };
-    for (int round = 0; round < 2; ++round)  // second round: stopped contacts hold others
+    for (int round = 0; round < 2;
+         ++round)  // second round: contacts stopped in the first round may hold others
       for (const std::size_t c : group)
         if (model_.contacts[c].normal_force_given() && !states[c].is_open() && stops(c))
           held[c].state = State::stick;
@@ -448,26 +450,27 @@ void RigidContactSolver::add_sliders(const Instant& instant, const motion::Forci
   const std::vector<std::size_t> together = sharing(instant, forcing, states, decision);
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
-    if (!contact.holds_tangent_only()) continue;
+    if (!contact.constrains_tangent_only()) continue;
     const bool shares = std::find(together.begin(), together.end(), c) != together.end();
     const double vt = contact::along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
-    const bool stopped =
-        met.hit && slip_sign(states[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
+    const bool stopped = met.hit && slip_sign(states[c].state) != 0 &&
+                         std::abs(vt) <= slip_rate_tolerance(c, forcing, instant);
     if (!stopped && !shares && !(found.sliders && decision.visited[c])) continue;
     Participant participant{c};
     participant.sliding_friction = contact::sliding_friction(contact, 0.0);
     participant.kinetic = found.kinetic[c];
-    participant.bears_limit = found.bears_limit[c];
+    participant.stays_at_limit = found.stays_at_limit[c];
     if (shares) found.known[c].sliding.zeros = 1;
     found.known[c] = found.known[c].of_motion();
     found.participants.push_back(participant);
   }
 }
 
-/// Adds all rigidly sticking sliders to the participants, because a consistent state may require that they slip. False: there
-/// are no such sliders.
-bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const contact::ContactStates& states,
-                                      ImpactResult& found) const {
+/// Adds all rigidly sticking sliders to the participants, because consistent states may exist only if they slip. False: no
+/// slider was added.
+bool RigidContactSolver::add_sticking_sliders(const std::vector<Block>& blocks,
+                                              const contact::ContactStates& states,
+                                              ImpactResult& found) const {
   std::vector<Participant> all;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::copy_if(found.participants.begin(), found.participants.end(), std::back_inserter(all),
@@ -476,11 +479,11 @@ bool RigidContactSolver::add_sticking(const std::vector<Block>& blocks, const co
       const Contact& contact = model_.contacts[c];
       const bool takes_part = std::any_of(
           all.begin(), all.end(), [&](const Participant& participant) { return participant.contact == c; });
-      if (!contact.holds_tangent_only() || states[c].state != State::stick || takes_part) continue;
+      if (!contact.constrains_tangent_only() || states[c].state != State::stick || takes_part) continue;
       Participant participant{c};
       participant.sliding_friction = contact::sliding_friction(contact, 0.0);
       participant.kinetic = found.kinetic[c];
-      participant.bears_limit = found.bears_limit[c];
+      participant.stays_at_limit = found.stays_at_limit[c];
       participant.block = b;
       all.push_back(participant);
     }
@@ -501,7 +504,7 @@ Refusal RigidContactSolver::solve_levels(const Instant& instant, const motion::F
   const bool painleve = refusal.kind == Refusal::Kind::paradox || refusal.kind == Refusal::Kind::ambiguous;
   const bool dependent =
       refusal ? refusal.kind == Refusal::Kind::dependent : systems_.system_of(states) == nullptr;
-  if (!(painleve || dependent) || !add_sticking(blocks, held, found)) return refusal;
+  if (!(painleve || dependent) || !add_sticking_sliders(blocks, held, found)) return refusal;
   states = held;
   found.known = known;
   for (const Participant& participant : found.participants)
@@ -548,16 +551,16 @@ Refusal RigidContactSolver::decide(Instant& instant, const motion::Forcing& forc
   const Eigen::VectorXd captured = found.capture_impulses;
   std::size_t placed = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
-    add_staying(instant, forcing, all[b], free, decision, found);
+    add_staying_contacts(instant, forcing, all[b], free, decision, found);
     stop_constrained_participants(instant, forcing, states, found);
-    // ends: one more contact rests.
+    // The loop ends, because in each round at least one more contact comes to rest.
     while (set_resting_velocities(instant, forcing, *free_jet.system, all[b], found))
       if (!update_slip_directions(instant, forcing, all[b], found)) break;
     add_sliders(instant, forcing, all[b], blocks[b], states, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }
-  // If an impact at its neighbour lifts a contact more slowly than capture_velocity, the contact is stopped and its energy is
-  // lost.
+  // If an impact at another contact lifts a contact more slowly than capture_velocity, the contact is stopped, and its kinetic
+  // energy is dissipated.
   decision.impact_loss += loss_of(model_, touching, captured, found.capture_impulses, moving + instant.v);
   Refusal refusal = solve_levels(instant, forcing, blocks, old, found, states);
   for (const Participant& participant : found.participants) {

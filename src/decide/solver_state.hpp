@@ -12,7 +12,7 @@
 
 namespace signorini::decide {
 
-/// Factor on noise and on the resolution of time, applied if states repeat or if a guard located by an engine does not fail.
+/// Factor on noise and resolution of time, applied if states repeat, or if no guard fails although the engine located one.
 inline constexpr double retry_noise_factor = 16.0;
 
 /// All data of a decision in progress.
@@ -26,23 +26,24 @@ struct SolverState {
   std::vector<contact::ContactStates> tried_states;  // all states tried so far, to detect repetition
   std::vector<ContactMotion> noise_before;           // noise of Decision::before
   ImpactResult impact_result;
-  std::vector<std::size_t> undecided;  // blocks that rounding leaves undecided: their states are kept
+  std::vector<std::size_t> undecided;  // blocks that rounding leaves undecided; their states no longer change
   bool noise_increased = false;
-  Vector initial_u = {};               // at the start: the given u, before massless parts move
-  std::vector<MotionJet> so_far = {};  // motion up to the instant; empty if Instant::resting_limits is empty
-  std::optional<PathTouch> touched = {};        // first contact on the path in this round
-  std::vector<std::size_t> slid_contacts = {};  // contacts that have slid instantaneously and stopped
+  Vector initial_u = {};  // at the start: the given u, before massless parts move
+  std::vector<MotionJet> motion_up_to_instant =
+      {};  // motion up to the instant; empty if Instant::resting_limits is empty
+  std::optional<PathTouch> touched = {};          // first contact that closes on the path in this round
+  std::vector<std::size_t> stopped_on_path = {};  // contacts that have slid instantaneously and stopped
   // Contacts with a guard that is not clearly positive; nullopt: unknown, any contact may have one.
   std::optional<std::vector<std::size_t>> open = {};
   const motion::Forcing* forcing = nullptr;  // forcing of the last evaluation
   double noise_factor = 0.0;                 // Instant::noise_factor of the last evaluation
-  Eigen::VectorXd held = {};                 // impulses that made v satisfy the constraints of `states`
+  Eigen::VectorXd held = {};                 // impulses that enforce the constraints of `states` on v
 
   /// Displacements from which massless parts start their instantaneous motion.
   [[nodiscard]] const Vector& jump_origin() const { return instant.start ? initial_u : instant.u; }
 
-  /// Multiplies noise and resolution by retry_noise_factor, because one sample of rounding may have separated equal zeros.
-  /// False: both were already increased.
+  /// Multiplies noise and resolution by retry_noise_factor, because rounding errors may have separated zeros that are equal.
+  /// False: noise and resolution were already increased.
   bool increase_noise() {
     if (std::exchange(noise_increased, true)) return false;
     instant.noise_factor = retry_noise_factor;

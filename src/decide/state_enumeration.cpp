@@ -15,8 +15,8 @@ namespace signorini::decide {
 namespace {
 
 // Accelerations are equal if they differ by less than this fraction of the largest acceleration in all combinations. The
-// value is the accuracy of forces in a block with the worst acceptable condition number, 1e8. A comparison relative to the
-// two accelerations alone would separate accelerations that are both rounding errors of zero.
+// value is the accuracy of forces in a block with the largest acceptable condition number, 1e8. A tolerance relative to the
+// two compared accelerations would distinguish accelerations that are both zero up to rounding.
 constexpr double same_acceleration = 1e-8;
 
 /// Sets the states of combination number `code`. The digits of `code`, one per choice, are the indices of the chosen states.
@@ -28,10 +28,10 @@ void apply(const std::vector<StateEnumeration::Choice>& choices, std::size_t cod
   }
 }
 
-/// True if the combinations differ only because a force is between kinetic and static friction: such a contact could stick or
-/// slip, and by the friction law it sticks.
-bool differ_by_law(const Model& model, const contact::ContactStates& one,
-                   const contact::ContactStates& other) {
+/// True if the combinations differ only in contacts whose force is between kinetic and static friction. Such a contact could
+/// stick or slip; the friction law makes it stick.
+bool differ_by_static_friction(const Model& model, const contact::ContactStates& one,
+                               const contact::ContactStates& other) {
   for (std::size_t c = 0; c < one.size(); ++c) {
     if (one[c] == other[c]) continue;
     const Contact& contact = model.contacts[c];
@@ -56,7 +56,7 @@ std::string named_states(const Model& model, const std::vector<StateEnumeration:
 
 std::string several_motions(const Model& model, const std::vector<StateEnumeration::Choice>& choices,
                             const StateEnumeration::BestCombination& best) {
-  return fmt::format("several motions continue this one, as {} and as {}",
+  return fmt::format("several motions continue from this instant: one with {}; another with {}",
                      named_states(model, choices, best.contact_states),
                      named_states(model, choices, best.alternative));
 }
@@ -81,7 +81,7 @@ StateEnumeration::Choice StateEnumeration::choice(std::size_t c, const ContactSt
   return {c, contact.law->candidates(contact, state, before)};
 }
 
-/// Relative violation and accelerations of a combination of states; nullopt: its constraint rows are linearly dependent.
+/// Relative violation and accelerations of a combination of states; nullopt: its contact forces are not unique.
 std::optional<StateEnumeration::Evaluation> StateEnumeration::evaluate(
     const Instant& instant, const motion::Forcing& forcing, const Block& block,
     const std::vector<KnownGuards>& known, const contact::ContactStates& contact_states) {
@@ -130,7 +130,7 @@ std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combinat
   std::size_t combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.states.size();
   std::optional<BestCombination> best;
-  std::vector<std::pair<contact::ContactStates, Vector>> holding;  // combinations without any violation
+  std::vector<std::pair<contact::ContactStates, Vector>> holding;  // consistent states and accelerations
   double greatest = 0.0;
   for (std::size_t code = 0; code < combinations; ++code) {
     contact::ContactStates tried = contact_states;
@@ -142,10 +142,10 @@ std::optional<StateEnumeration::BestCombination> StateEnumeration::best_combinat
     if (best && weighed->relative_violation >= best->relative_violation) continue;
     best = BestCombination{std::move(tried), weighed->relative_violation, 1.0, {}};
   }
-  // Consistent combinations must have the same accelerations; the first one is then taken.
+  // If all consistent combinations have the same accelerations, the first one is the result.
   for (std::size_t i = 1; i < holding.size() && best->alternative.empty(); ++i)
     if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
-        !differ_by_law(model_, holding[0].first, holding[i].first))
+        !differ_by_static_friction(model_, holding[0].first, holding[i].first))
       best->alternative = holding[i].first;
   if (!best) return best;
   std::vector<std::size_t> contacts;

@@ -20,7 +20,7 @@ class StateEnumeration {
   StateEnumeration(motion::StateSystems& systems, motion::JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Largest number of contacts for which all combinations are tried; the cost is up to 4^5 jets.
+  /// Limit of the number of contacts for which all combinations are tried; the cost is up to 4^5 jets.
   static constexpr std::size_t max_contacts = 5;
 
   /// A contact with the states that it may take.
@@ -28,9 +28,9 @@ class StateEnumeration {
     std::size_t contact = 0;
     std::vector<ContactState> states;
   };
-  /// Choice for a touching contact that is decided with other contacts.
+  /// States that a participant (a touching contact that is decided with other contacts) may take.
   [[nodiscard]] Choice choice(const Participant& participant) const;
-  /// Choice for any other contact, from its state and motion just before the instant.
+  /// States that any other contact may take. state, before: state and motion of the contact just before the instant.
   [[nodiscard]] Choice choice(std::size_t contact, const ContactState& state,
                               const ContactMotion& before) const;
 
@@ -38,9 +38,9 @@ class StateEnumeration {
     contact::ContactStates contact_states;
     double relative_violation = 0.0;
     double condition = 1.0;  ///< condition() of the contacts with choices
-    /// Another consistent combination that has other accelerations; empty: there is none.
+    /// Another consistent combination with different accelerations; empty: there is none.
     contact::ContactStates alternative;
-    /// True if there is no alternative and rounding explains the violation.
+    /// True if there is no alternative and the violation is small enough to be a rounding error.
     [[nodiscard]] bool acceptable() const;
   };
   /// The combination with the smallest violation. Contacts without a choice keep their states in `contact_states`. known:
@@ -53,8 +53,8 @@ class StateEnumeration {
                                                                 const std::vector<KnownGuards>& known,
                                                                 const contact::ContactStates& contact_states);
 
-  /// Condition number of W (decide/delassus.hpp) for the constraint forces of these contacts, W of the structure with these
-  /// contacts open. Spring forces follow from displacements and are not included. NaN: unknown.
+  /// Condition number of W (decide/delassus.hpp) for the constraint forces of these contacts, with these contacts open in the
+  /// structure. Spring forces are not constraint forces and are not included. NaN: unknown.
   [[nodiscard]] double condition(const std::vector<std::size_t>& contacts,
                                  contact::ContactStates contact_states);
 
@@ -71,8 +71,8 @@ class StateEnumeration {
   motion::JetMaker& jets_;
 };
 
-/// Message about a best combination with an alternative: "several motions continue this one, as 'first' stick, 'second' slip+
-/// and as ...".
+/// Message about a best combination with an alternative: "several motions continue from this instant: one with 'first'
+/// stick, 'second' slip+; another with ...".
 [[nodiscard]] std::string several_motions(const Model& model,
                                           const std::vector<StateEnumeration::Choice>& choices,
                                           const StateEnumeration::BestCombination& best);

@@ -2,10 +2,10 @@
 //
 //   u(t), v(t), forces(t)   begin <= t <= end       evaluate, evaluate_watched, interpolate; accelerate adds a(t)
 //   int powers dt                                   integrate
-//   |M a + C v + K u + n N + t T - P|               residual, at the end
+//   |M a + C v + K u + n N + t T - P|               residual, at the end of the step
 //
-// Data about the step as a whole (turning points, series, phase angle, fast modes) are in one struct, StepFacts. An engine
-// fills it on request. Pointers in it are valid until the engine's next step.
+// facts() returns the data of the whole step (turning points, series, phase angle, fast modes). Pointers in StepFacts are valid
+// until the engine's next step.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,11 +24,10 @@ namespace signorini::engine {
 //   |form . u| <= r |u|_M,   r^2 = form^T M^-1 form (form_norm),   |u|_M^2 = u^T M u   (Cauchy, Schwarz)
 //
 // If the modes are known, |u|_M of all modes faster than a given rate is the square root of the sum of their squared
-// amplitudes, so the modes need not be summed for every form. Sums over all modes have a rounding error of a few eps r |u|_M,
-// wherever on the structure the form acts, even for a stress at a clamped end.
+// amplitudes. So one sum bounds the outputs of all forms. A sum over all modes has a rounding error of a few eps r |u|_M for
+// every form, even for a stress at a clamped end.
 
-/// Bounds on |u|_M, |v|_M and |a|_M in a step. Units: length times the square root of a mass; for v and a
-/// divided by time and time squared.
+/// Bounds on |u|_M, |v|_M and |a|_M in a step. Units: length sqrt(mass) for u, divided by time for v and by time^2 for a.
 struct FastModeBound {
   double u = 0.0, v = 0.0, a = 0.0;
   Eigen::VectorXd forces;  ///< bounds of all contact forces, in the order of the model's layout
@@ -39,11 +38,11 @@ struct Expansion {
   const motion::Series* series = nullptr;  ///< null if the engine has no series
   std::size_t degree = 0;                  ///< u, v, a and forces are complete up to this degree
   double x = 0.0;                          ///< value of the series variable at the end of the step
-  /// Equations of the contact states, with the friction of the slip rates at the beginning of the series.
+  /// Equations of the contact states. Coefficients of friction are those at the beginning of the series.
   const motion::StateSystem* system = nullptr;
 };
 
-/// Bounds on the fast part of the last step; only engines that follow modes provide them.
+/// Bounds on the contribution of fast modes to the last step. Only engines that compute in modes provide these bounds.
 class FastModes {
  public:
   virtual ~FastModes() = default;
@@ -58,21 +57,20 @@ class FastModes {
 };
 
 struct StepFacts {
-  /// Times inside the step of local extremes of N, T, g or ut of a contact that exceed all earlier values,
-  /// ascending.
+  /// Ascending times inside the step at which N, T, g or ut of a contact has a local extreme beyond all earlier values.
   std::span<const double> turning_points = {};
-  /// Contact, quantity and time of each turning point, unordered. Null if evaluate_watched() takes as long for one contact as
+  /// Contact, quantity and time of each turning point, unordered. Null if evaluate_watched() is not faster for one contact than
   /// for all contacts.
   const std::vector<events::TurningPointDetector::TurningPoint>* contact_turning_points = nullptr;
   Expansion expansion = {};
-  /// Growth of the rounding errors in sums over modes, relative to orthogonal modes: largest |x| |y| of all modes, where x and
-  /// y are the right and left eigenvectors with y . x = 1. Greater than 1 if large terms cancel. 1 if the motion is not a sum
-  /// over modes.
+  /// Factor by which the rounding errors of sums over modes exceed those of orthogonal modes: largest |x| |y| of all modes,
+  /// where x and y are the right and left eigenvectors with y . x = 1. Large if large terms cancel. 1 if the motion is not a
+  /// sum over modes.
   double eigenvector_condition = 1.0;
-  /// Largest phase angle of u, v, a and forces on the step in rad, without that of the forcing: frequency times step length, or
-  /// n pi for polynomials of degree n. Infinite: unknown; the frequencies of the model then bound the phase angle.
+  /// Largest phase angle of u, v, a and forces on the step in rad, without the phase angle of the forcing: frequency times step
+  /// length, or n pi for polynomials of degree n. Infinite if unknown: callers then use the frequencies of the model.
   double phase_angle = std::numeric_limits<double>::infinity();
-  const FastModes* fast_modes = nullptr;  ///< null if the engine has no modes of the model
+  const FastModes* fast_modes = nullptr;  ///< null if the engine does not compute in modes
 };
 
 class DenseOutput {
@@ -86,15 +84,15 @@ class DenseOutput {
   virtual void evaluate_watched(double t, std::optional<std::size_t> /*contact*/, motion::Point& point) {
     evaluate(t, point);
   }
-  /// Adds the accelerations at time t to a point that was evaluated at t, if they are missing.
+  /// Adds the accelerations to a point that was evaluated at time t, if the point has none.
   virtual void accelerate(double /*t*/, motion::Point& /*point*/) {}
-  /// Same result as evaluate() and accelerate(), by the fastest method of the engine: engines with fixed steps interpolate
-  /// between the ends of the step.
+  /// Evaluates u, v, a and forces like evaluate() and accelerate(), by the fastest method of the engine: engines with fixed
+  /// steps interpolate between the ends of the step.
   virtual void interpolate(double t, motion::Point& point) {
     evaluate(t, point);
     accelerate(t, point);
   }
-  /// Adds the integrals of all powers over the part [from, to] of the step.
+  /// Adds the integrals of all powers over the part [from, to] of the step to `works`.
   virtual void integrate(double from, double to, motion::WorkIntegrals& works) = 0;
   /// Largest magnitude of an entry of the residual of the equation of motion at the end of the step, as a force.
   [[nodiscard]] virtual double residual() = 0;

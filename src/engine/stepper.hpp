@@ -1,4 +1,4 @@
-// stepper.hpp: interface of an engine: it advances the motion in one contact state to the first event.
+// stepper.hpp: interface of an engine, which advances the motion with constant contact states to the first event.
 //
 //   start(segment) -> advance() -> advance() ... -> an event or segment.end -> start(next segment)
 //
@@ -23,28 +23,28 @@ struct Segment {
   double end = 0.0;
   const decide::Decision* decision = nullptr;  ///< motion, contact states, jet and guards at the beginning
   const motion::Forcing* forcing = nullptr;
-  bool same_forcing =
-      false;  ///< the forcing equals that of the previous segment, which ended at this segment's beginning
+  /// True if the previous segment ended at the beginning of this one and had the same forcing.
+  bool same_forcing = false;
 };
 
 /// Result of advance().
 struct Step {
   enum class Kind { accepted, event, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;                  ///< end: end of the accepted step, or time of the event
-  double resolution = 0.0;                        ///< times closer than this are the same instant
+  double resolution = 0.0;                        ///< times with a smaller difference are the same instant
   std::vector<decide::TriggeredGuard> triggered;  ///< guards that reach zero; only for Kind::event
-  /// Only for Kind::event: contact states after the event, if the engine found them itself. `triggered` is then empty.
+  /// Only for Kind::event: contact states after the event, if the engine computes them itself. `triggered` is then empty.
   std::optional<contact::ContactStates> engine_states;
-  std::string reason;  ///< why the step failed; only for Kind::failed
+  std::string reason;  ///< reason of the failure; only for Kind::failed
 };
 
-/// Findings of a run that an engine reports at the end. Times and gaps are in model units.
+/// Counters, warnings and near hits of a run, reported by the engine at the end. Times and gaps are in model units.
 struct StepperReport {
   Counters counters;
   std::vector<std::string> warnings;
-  /// First guard that returned into its tolerance and left it without reaching zero; only some engines detect this.
+  /// First guard that decreased to within its tolerance of zero and rose again, if the engine detects such guards.
   std::optional<events::Graze> graze;
-  /// Gaps that approached zero and opened again; only some engines detect this.
+  /// Gaps that approached zero and opened again, if the engine detects such gaps.
   std::vector<events::NearHit> near_hits;
 };
 
@@ -57,18 +57,18 @@ class Stepper {
   [[nodiscard]] virtual Step advance() = 0;
   /// The motion on the last step.
   [[nodiscard]] virtual DenseOutput& dense_output() = 0;
-  /// Bound on the error of the guard's value that the error of one step causes. Unit: that of the guard.
+  /// Bound on the error of the guard's value due to the error of one step. Unit: that of the guard.
   [[nodiscard]] virtual double guard_error(const GuardForm& guard, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
-  /// Overwrites the energy of `point`, which a decision computed, if the engine knows the energy more accurately.
+  /// Overwrites the energy of `point`, which a decision has computed, if the engine computes the energy more accurately.
   virtual void set_energy(motion::Point& /*point*/) const {}
   /// Returns the counters, warnings and near hits of the run. Called once, after the last step.
   [[nodiscard]] virtual StepperReport report() { return {counters, warnings, {}, {}}; }
 
   Counters counters;                  ///< counts so far; complete in the report
   std::vector<std::string> warnings;  ///< warnings of the run so far
-  /// True if the engine resolves a flight that begins with g = 0 and stays lower than the rounding error of the gap (engines
-  /// with series do). False: this rounding error delays the landing, so the contact lands faster than it took off.
+  /// True if the engine resolves a flight that begins with g = 0 and is lower than the rounding error of the gap (engines with
+  /// series). Otherwise this rounding error delays the landing, so the contact lands faster than it took off.
   bool resolves_low_flights = false;
 };
 

@@ -18,7 +18,7 @@ struct Tolerance {
   [[nodiscard]] double capture_velocity() const { return velocity; }
 };
 
-/// Tolerances given in [run]. A missing one is rtol times the model's scale of the quantity.
+/// Tolerances given in [run]. A tolerance that is not given is rtol times the model's scale of the quantity.
 [[nodiscard]] Tolerance tolerance_of(const Model& model, const RunSpec& run);
 
 /// Tolerance of the value of a form: the tolerances of the entries of the motion, weighted with the form's factors.

@@ -271,7 +271,7 @@ ConstraintForceWeights CheckContext::constraint_force_weights(const InstantRecor
     const ContactResponse* own = is_open(state.state) || !c.obeys_coulomb() ? nullptr : contact_response(j);
     if (own == nullptr) continue;
     const ContactKinematics m = kinematics(c, j, record.before);
-    const bool sticks = c.holds_tangent(state.state);
+    const bool sticks = c.constrains_tangent(state.state);
     if (c.takes_impulses()) {
       const double friction = sticks || c.tangential_stiffness
                                   ? 0.0

@@ -95,7 +95,8 @@ class RateRows {
   void check_known(std::size_t k, const CheckedSide& side) {
     const Contact& c = check_context_.model.contacts[k];
     const ContactState& state = (*side.mode)[k];
-    if (!c.forces_follow_motion() || c.takes_impulses() || c.holds_tangent(state.state)) reported_ = false;
+    if (!c.forces_follow_motion() || c.takes_impulses() || c.constrains_tangent(state.state))
+      reported_ = false;
   }
   void add(int row, int column, double value, Terms& terms) const {
     if (exists(column) && value != 0.0) terms.emplace_back(at(row), at(column), value);

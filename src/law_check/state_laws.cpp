@@ -22,7 +22,7 @@ struct ConstraintRows {
   /// guard was located; empty: none. hold: the accelerations of the contact must become zero; false: must not change.
   void add(const Contact& c, const ContactState& state, const ContactResponse& response,
            const ContactKinematics& m, const Vector& removed_accelerations, bool hold) {
-    const bool tangent = c.holds_tangent(state.state);
+    const bool tangent = c.constrains_tangent(state.state);
     double of_row = rounding::elimination * m.acceleration_size;
     if (removed_accelerations.size() > 0)
       of_row +=
@@ -191,7 +191,7 @@ void InstantLawChecker::friction_of(std::size_t k, const ContactKinematics& m) {
     asked = -s * f * m.N;
     size += std::abs(asked) + f * normal_force_size(c, m);
   } else if (kind_of(state.state) == State::stick) {
-    if (c.holds_tangent(state.state) || c.sliding_point()) {
+    if (c.constrains_tangent(state.state) || c.sliding_point()) {
       const double zero = context_.rest_speed(record_, k);
       if (std::abs(m.dut) > zero)
         add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
@@ -219,7 +219,7 @@ std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_ol
   if (own == nullptr) return std::nullopt;
   OldStateMotion result{kinematics(c, k, record_.after)};
   ContactKinematics& m = result.m;
-  const bool solved_N = c.takes_impulses() && !is_open(old.state), solved_T = c.holds_tangent(old.state);
+  const bool solved_N = c.takes_impulses() && !is_open(old.state), solved_T = c.constrains_tangent(old.state);
   const double N = m.N, T = m.T;
   const auto sliding = [&] {
     return -slip_direction(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N;
@@ -241,7 +241,7 @@ std::optional<InstantLawChecker::OldStateMotion> InstantLawChecker::motion_in_ol
   for (std::size_t j = 0; j < model_.contacts.size(); ++j) {
     const Contact& other = model_.contacts[j];
     const ContactState& state = (*record_.after.mode)[j];
-    const bool rigid = other.takes_impulses() || other.holds_tangent(state.state);
+    const bool rigid = other.takes_impulses() || other.constrains_tangent(state.state);
     if (j == k || !other.obeys_coulomb() || is_open(state.state) || !rigid) continue;
     const ContactResponse* response = context_.contact_response(j);
     if (response == nullptr) return std::nullopt;

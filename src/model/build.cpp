@@ -185,11 +185,11 @@ void start(const Scene& scene, DofMap& map, Model& model) {
 }
 
 /// Completes the model: mapping from computed to displayed degrees of freedom, shear elements, outputs.
-void add_results(const Scene& scene, const DofMap& map, const std::optional<ComplianceSplit>& borrowed,
+void add_results(const Scene& scene, const DofMap& map, const std::optional<ComplianceSplit>& split,
                  Model& model) {
-  if (borrowed) {
+  if (split) {
     check_unique_forces(scene, model);
-    map_outputs(*borrowed, model);
+    map_outputs(*split, model);
   }
   add_shear_elements(scene, model);
   assembly::name_tied_dofs(map, model);
@@ -264,14 +264,18 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
 
 enum class Extent { structure, without_warnings, all };
 
-/// Builds the model in the units of `scene`. unit: the scene's units of force, length and time, in the units of messages.
-Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
-  DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
-  map.message_length_factor = unit.length;
+void refuse_empty(const Scene& scene, const DofMap& map) {
   if (map.size() == 0)
     throw SceneError(
         place_of_structure(scene), "",
         "the scene has no degree of freedom: add a member, mass, spring or contact at a free node");
+}
+
+/// Builds the model in the units of `scene`. unit: the scene's units of force, length and time, in the units of messages.
+Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent::all) {
+  DofMap map = scene.matrices ? assembly::number_matrices(*scene.matrices) : assembly::number_nodes(scene);
+  map.message_length_factor = unit.length;
+  refuse_empty(scene, map);
   if (!scene.matrices) assembly::check_stiffness_range(scene, map);
   Assembly assembly = scene.matrices ? assemble_matrices(scene, map) : assemble_nodes(scene, map);
 
@@ -289,10 +293,10 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) assembly::add_drawing(scene, map, model);
   model.damping = assembly.dampers;
-  const std::optional<ComplianceSplit> borrowed = split_compliance(scene, assembly.dampers, model);
+  const std::optional<ComplianceSplit> split = split_compliance(scene, assembly.dampers, model);
   model.layout = contact::layout_of(model.contacts);
   start(scene, map, model);
-  if (borrowed) continue_split(*borrowed, scene, model);
+  if (split) continue_split(*split, scene, model);
   if (!scene.matrices) outputs::find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
@@ -310,7 +314,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
     for (std::string& doubt : model_warnings(scene, map, model)) model.warnings.push_back(std::move(doubt));
   resolve_times(scene.run.t_end, model);
   if (extent == Extent::structure) {
-    if (borrowed) map_outputs(*borrowed, model);
+    if (split) map_outputs(*split, model);
     return model;
   }
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
@@ -324,7 +328,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
           "reduction.tolerance: this command uses the full model; only run, compare, study, sweep and verify "
           "search for the cutoff");
   }
-  add_results(scene, map, borrowed, model);
+  add_results(scene, map, split, model);
   return model;
 }
 

@@ -123,13 +123,8 @@ class Powers {
   [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
   /// Writes all powers into out[0 .. count()). motions: motion_of() of each contact at the point.
   void at(const Forcing& forcing, double t, const contact::ContactStates& states, const Point& point,
-<<<<<<< HEAD
           const std::vector<ContactMotion>& motions, double* out) const;
-  /// works += factor * powers
-=======
-          double* out) const;
   /// Adds `factor` times the powers to the integrals. powers: count() numbers from at().
->>>>>>> 775607799e5388231b4f800d1918c586ac1e1d7e
   void add(const double* powers, double factor, WorkIntegrals& works) const;
 
  private:

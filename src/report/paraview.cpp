@@ -225,8 +225,6 @@ std::optional<fs::path> write_paraview_bodies(const fs::path& directory, const S
   return series.finish("bodies.pvd");
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 using Pair = std::array<double, 2>;

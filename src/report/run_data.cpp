@@ -106,7 +106,7 @@ Displacements each(const fs::path& file, const std::vector<std::string>& names, 
   for (const std::string& column : names) {
     const auto found = points.find(column);
     if (found == points.end()) return {};
-    base::Downsampled<CurvePoint, 1, ValueOf> thinned(t_end, {.max_rows = most, .crowded = true});
+    base::Downsampled<CurvePoint, 1, ValueOf> thinned(t_end, {.max_rows = most, .limits_rows = true});
     for (const CurvePoint& point : found->second) thinned.add(point);
     all.names.push_back(column);
     all.curves.push_back({all.times.size(), {}});
@@ -158,7 +158,7 @@ class Places {
     }
     for (const Node& node : scene.nodes)
       add(node.name, {{"name", node.name},
-                      {"mesh", node.of_mesh},
+                      {"mesh", node.is_mesh_node},
                       {"x", number(node.x)},
                       {"y", number(node.y)},
                       {"u",
@@ -324,7 +324,7 @@ std::map<std::string, std::vector<ContactRow>> read_motion(const fs::path& direc
 }
 
 base::Json motion_json(const std::vector<ContactRow>& rows, std::size_t most, double t_end) {
-  base::Downsampled<ContactRow, 4, DrawnValues, 3> thinned(t_end, {.max_rows = most, .crowded = true});
+  base::Downsampled<ContactRow, 4, DrawnValues, 3> thinned(t_end, {.max_rows = most, .limits_rows = true});
   for (const ContactRow& row : rows) thinned.add(row);
   base::Json t = base::Json::array(), state = base::Json::array(), N = base::Json::array(),
              T = base::Json::array(), gap = base::Json::array();

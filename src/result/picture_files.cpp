@@ -33,8 +33,6 @@ std::vector<fs::path> PictureFiles::write(const fs::path& directory) const {
   return written;
 }
 
-namespace fs = std::filesystem;
-
 bool is_picture(const fs::path& file) {
   const std::string type = file.extension().string();
   return type == ".gp" || type == ".svg" || type == ".png" || type == ".pdf";

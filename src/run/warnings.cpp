@@ -137,7 +137,7 @@ void DecisionWarnings::add(double t, const decide::Decision& decision, std::vect
     }
   for (const decide::ContactAtLimit& found : decision.at_limit)
     if (++at_limit_ <= max_warnings_of_a_kind) warnings.push_back(limit_warning(model_, found, at));
-  if (decision.impact_gains && ++gains_ <= max_warnings_of_a_kind)
+  if (decision.impact_gains_energy && ++gains_ <= max_warnings_of_a_kind)
     warnings.push_back(impact_gain(at, model::in_scene_units(model_, -decision.impact_loss, unit::energy)));
 }
 

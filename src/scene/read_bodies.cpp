@@ -147,13 +147,13 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
                   fmt::format("no node is at this place, expected the place of a node; the nearest "
                               "node is {} at [{:.9g}, {:.9g}]",
                               nearest.name, nearest.x, nearest.y));
-    if (!nearest.of_mesh)
+    if (!nearest.is_mesh_node)
       points.fail(entry.name, fmt::format("the node at this place already has the name \"{}\"; use that name",
                                           nearest.name));
     if (!names.add(entry.name))
       points.fail(entry.name, fmt::format("node \"{}\" exists already; expected another name", entry.name));
     nearest.name = entry.name;
-    nearest.of_mesh = false;
+    nearest.is_mesh_node = false;
   }
   points.finish();
   table.record("points", points.record().inline_table());

@@ -71,7 +71,7 @@ void read_quantity(Table& table, OutputSpec& output, const char* known) {
 bool can_be_combined(const OutputSpec& output) {
   return output.kind != OutputKind::envelope &&
          !(output.kind == OutputKind::stress && output.fibre == Fibre::both &&
-           output.quantity != OutputQuantity::N && !is_of_body(output.quantity));
+           output.quantity != OutputQuantity::N && !is_body_stress(output.quantity));
 }
 
 void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {

@@ -54,7 +54,6 @@ class DiscreteRun final : public run::RunListener {
     const ForcingRatesSeries&
         forcing;  ///< derivatives of the forcing at the end of the step, as a series with scale 1
   };
-  struct Rest;
 
   void stop(const std::string& reason, double t);
   void factorise(double h);

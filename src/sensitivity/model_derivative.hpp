@@ -59,7 +59,7 @@ struct ContactRates {
   Friction friction;  ///< derivatives of the contact's friction constants
   HistoryRates normal_force, surface_motion;
   std::array<Rows, all_states.size()> rows;
-  std::array<std::array<Form, ContactLaw::most_guards>, all_states.size()> guards;
+  std::array<std::array<Form, ContactLaw::max_guards>, all_states.size()> guards;
 };
 
 struct LoadRates {

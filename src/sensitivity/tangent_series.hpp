@@ -96,7 +96,6 @@ class TangentSeries {
   std::vector<std::pair<std::size_t, contact::FrictionTangent>> friction_;
   Eigen::MatrixXd u_, forces_;
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
-  Vector a_, v_;
   int levels_ = -1;
   double scale_ = 1.0, zero_limit_ = 0.0, error_ = 0.0;
   long solves_ = 0;

@@ -70,7 +70,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_there(const fs::path& file) {
+bool file_exists(const fs::path& file) {
   std::error_code none;
   return fs::exists(file, none);
 }
@@ -78,7 +78,7 @@ bool is_there(const fs::path& file) {
 /// True if the file exists and is complete: the manifest, if there is one, lists only complete files.
 bool was_written(const fs::path& directory, const std::optional<base::Manifest>& manifest,
                  std::string_view file) {
-  return is_there(directory / file) && (!manifest || manifest->find(file) != nullptr);
+  return file_exists(directory / file) && (!manifest || manifest->find(file) != nullptr);
 }
 
 /// Collects events and picture data in memory: files are written only if the events equal the stored ones.
@@ -156,7 +156,7 @@ bool lacks_picture_rows(const fs::path& directory) {
 
 bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go_on) {
   const PreparedRun prepared = prepare_run((directory / "run.toml").string(), {}, go_on);
-  PictureRows rows(prepared, is_there(directory / "instants.csv"), go_on);
+  PictureRows rows(prepared, file_exists(directory / "instants.csv"), go_on);
   const Report report = simulate(prepared.model, prepared.scene.run, rows);
   if (report.outcome.kind == Outcome::Kind::interrupted) return false;
   if (!same_events(rows.events(), directory / "events.csv"))

@@ -167,8 +167,9 @@ TEST_CASE("cli manifest: without one a run is continued, and a warning says what
   fs::remove(shell / "belt-run/manifest.json");
   const Ending whole = shell.run({"run", "next.toml", "--no-plots"});
   CHECK(whole.code == 0);
-  CHECK(has(whole.err,
-            "belt-run: no manifest.json: the run may not have finished, or is of an earlier version"));
+  CHECK(
+      has(whole.err,
+          "belt-run: manifest.json is missing: the run may not have finished, or is of an earlier version"));
   CHECK_FALSE(has(whole.err, "no line end"));
   const std::string states = shell.read("belt-run/states.csv");
   shell.write("belt-run/states.csv", states.substr(0, states.size() - 3));
@@ -223,14 +224,14 @@ TEST_CASE("cli manifest: all that read a run refuse a damaged file") {
     const Ending ending = shell.run(command);
     CAPTURE(command.front());
     CHECK(ending.code == 0);
-    CHECK(
-        has(ending.err,
-            "note: belt-run: no manifest.json: the run may not have finished, or is of an earlier version"));
+    CHECK(has(ending.err,
+              "note: belt-run: manifest.json is missing: the run may not have finished, or is of an earlier "
+              "version"));
   }
   const Ending compared = shell.run({"compare", "good", "belt-run", "--force"});
   CHECK(compared.code == 0);
-  CHECK(has(compared.err, "note: belt-run: no manifest.json"));
-  CHECK_FALSE(has(compared.err, "good: no manifest.json"));
+  CHECK(has(compared.err, "note: belt-run: manifest.json is missing"));
+  CHECK_FALSE(has(compared.err, "good: manifest.json is missing"));
 }
 
 TEST_CASE("cli manifest: a killed run has none, an interrupted one says that it was") {
@@ -257,10 +258,10 @@ TEST_CASE("cli manifest: a killed run has none, an interrupted one says that it 
   CHECK(ended_by(SIGKILL) == 128 + SIGKILL);
   const Ending plot = shell.run({"plot", "belt-run"});
   CHECK(plot.code == 0);
-  CHECK(has(plot.err, "belt-run: no manifest.json: the run may not have finished"));
+  CHECK(has(plot.err, "belt-run: manifest.json is missing: the run may not have finished"));
   const Ending next = shell.run({"run", "next.toml", "--no-plots"});
   CHECK(next.code == 0);
-  CHECK(has(next.err, "no manifest.json"));
+  CHECK(has(next.err, "manifest.json is missing"));
   check_manifest(shell, "next-run", "done");
 }
 
@@ -365,13 +366,13 @@ TEST_CASE("cli manifest: report -o and --trace replace no file but their own") {
   const Command report = {"report", "belt-run", "-o", "belt.toml"},
                 trace = {"run", "belt.toml", "-o", "again", "--trace", "belt.toml"},
                 cases = {"report", "belt-run", "b", "-o", "cases.html"};
-  refuses(shell, report, "belt.toml: exists and is no page of Signorini that could be replaced");
-  refuses(shell, trace, "belt.toml: exists and is no trace that could be replaced");
+  refuses(shell, report, "belt.toml: file exists and is not a page of Signorini, so it is not replaced");
+  refuses(shell, trace, "belt.toml: file exists and is not a trace, so it is not replaced");
   CHECK(shell.read("belt.toml") == scene);
   CHECK_FALSE(exists(shell, "again"));
   fs::copy(shell / "belt-run", shell / "b", fs::copy_options::recursive);
   shell.write("cases.csv", "mine\n");
-  refuses(shell, cases, "cases.csv: exists and is no table of load cases");
+  refuses(shell, cases, "cases.csv: file exists and is not a table of load cases");
   CHECK_FALSE(exists(shell, "cases.html"));
   fs::remove(shell / "cases.csv");
   for (int times = 0; times < 2; ++times) {
@@ -382,7 +383,7 @@ TEST_CASE("cli manifest: report -o and --trace replace no file but their own") {
               .code == 0);
   }
   shell.write("belt-run/report.html", "<p>mine</p>\n");
-  refuses(shell, {"report", "belt-run"}, "belt-run/report.html: exists and is no page");
+  refuses(shell, {"report", "belt-run"}, "belt-run/report.html: file exists and is not a page");
 }
 
 TEST_SUITE_END();

@@ -166,7 +166,7 @@ struct Spread {
   }
 
   /// Of a copy that ended before: what it had come to.
-  [[nodiscard]] const std::vector<double>& so_far(std::size_t row) const {
+  [[nodiscard]] const std::vector<double>& motion_up_to_instant(std::size_t row) const {
     return rows[std::min(row, rows.size() - 1)];
   }
 
@@ -504,7 +504,7 @@ void RelationJudge::Members::rows(const Related& related, const SeenRun& other, 
         if (std::isnan(begun[j])) begun[j] = x - y;
         y += begun[j];
       }
-      const double written = as_written != nullptr ? as_written->so_far(next)[j] : 0.0;
+      const double written = as_written != nullptr ? as_written->motion_up_to_instant(next)[j] : 0.0;
       const double allowed = allowances.rows[i][j] + written + floor[j], off = std::abs(x - y);
       if (off > 0.0) result.worst = std::max(result.worst, off / allowed);
       if (!(off <= allowed))

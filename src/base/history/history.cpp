@@ -177,7 +177,7 @@ History::History(std::vector<double> starts, std::vector<Piece> pieces)
     throw std::invalid_argument("History: the number of pieces must be the number of starts plus one");
   for (std::size_t i = 0; i < starts_.size(); ++i)
     if (!std::isfinite(starts_[i]) || (i > 0 && starts_[i] <= starts_[i - 1]))
-      throw std::invalid_argument("History: starts must be finite and ascend strictly");
+      throw std::invalid_argument("History: the start times must be finite and strictly ascending");
 }
 
 History History::constant(double value) {
@@ -202,7 +202,7 @@ std::vector<Breakpoint> History::breakpoints() const {
     const double t = starts_[i];
     const Piece &left = pieces_[i], &right = pieces_[i + 1];
     const double change = std::abs(right.value(t) - left.value(t));
-    // Between equal constants there is no breakpoint (a load of amplitude zero, two equal steps).
+    // Between equal constant pieces, as in a load of amplitude zero, there is no breakpoint.
     if (change == 0.0 && is_constant_piece(left) && is_constant_piece(right)) continue;
     result.push_back({t, change > history::roundoff(left, t) + history::roundoff(right, t)});
   }
@@ -280,7 +280,8 @@ History History::repeated(double from, double period, int rounds) const {
     pieces.push_back(std::move(piece));
   };
   for (std::size_t i = 0; i < starts_.size() && starts_[i] < from; ++i) add(starts_[i], pieces_[i + 1], 0.0);
-  // A shape that lasts the whole period ends where the next round starts; the margin covers the rounding of from + period.
+  // Starts at the end of a round are omitted, because the next round starts there. The margin covers the rounding of
+  // from + period.
   const double end = from + period - rounding::many_operations * (std::abs(from) + rounds * period);
   for (int round = 0; round < rounds; ++round) {
     const double dt = round * period;
@@ -305,16 +306,16 @@ bool History::has_closed_form() const {
   return std::none_of(pieces_.begin(), pieces_.end(), [](const Piece& p) { return bool(p.function); });
 }
 
-// Bounds for magnitude() and find_negative_time(), from a Taylor expansion of the piece about m:
+// Lower bound of a piece for find_negative_time(), from a Taylor expansion about m:
 //
 //   f(t) >= f(m) - sum_{0<k<K} |f^(k)(m)| r^k / k! - |a| (w r)^K / K!     for |t - m| <= r,  K > degree
 //
-// The bound is valid for all t with |t - m| <= r, so an interval with a positive bound is finished; other intervals are
-// halved. Only user-defined functions are sampled.
+// If the bound is not negative, f is not negative in the interval |t - m| <= r; other intervals are halved. User-defined
+// functions are sampled instead.
 
 namespace {
 
-// Number of samples per piece. Chosen value, finer than the details of practical loads.
+// Number of samples per piece of a user-defined function. Chosen value, finer than the details of practical loads.
 constexpr int samples_of_functions = 4096;
 
 /// Calls visit(piece, from, to) for the part of every piece within [0, t_end].
@@ -365,7 +366,7 @@ double search(const Piece& p, double from, double to) {
   if (negative(p, m)) return m;
   const double r = std::max(m - from, to - m);
   if (lower_bound(p, m, r) >= -history::roundoff(p, m)) return -1.0;
-  // there are no further doubles between the ends
+  // The interval cannot be halved further, because there are no doubles between its ends.
   if (r <= rounding::few_operations * std::max(std::abs(from), std::abs(to))) return -1.0;
   const double left = search(p, from, m);
   return left >= 0.0 ? left : search(p, m, to);
@@ -434,7 +435,7 @@ double max_impulse(const History& f, double t_end, double width) {
     const auto part = static_cast<std::size_t>(next - ends.begin()) - 1;
     return until[part] + size[part] * (t - ends[part]);
   };
-  double greatest = 0.0;  // the worst interval begins or ends at an end of a part
+  double greatest = 0.0;  // the interval with the greatest integral begins or ends at an end of a part
   for (const double t : ends)
     greatest = std::max({greatest, integral(t + width) - integral(t), integral(t) - integral(t - width)});
   return greatest;

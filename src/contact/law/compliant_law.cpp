@@ -1,4 +1,4 @@
-// Spring and dashpot along the normal: N = kn g + cn g' while closed. The contact opens at N = 0, because it must not pull.
+// Spring and dashpot along the normal: N = kn g + cn g' while closed. The contact opens at N = 0, so that N is never tensile.
 #include <cmath>
 
 #include "contact/law.hpp"
@@ -26,15 +26,15 @@ class CompliantLaw : public CoulombLaw {
   [[nodiscard]] double normal_energy(const Contact& contact, State state,
                                      const ContactMotion& m) const override {
     if (state == State::inside)
-      return 0.5 * contact.normal_stiffness * m.gap * m.gap;  // the dashpot dissipates it until the gap opens
+      return 0.5 * contact.normal_stiffness * m.gap * m.gap;  // dissipated by the dashpot until the gap opens
     if (is_open(state)) return 0.0;
     const double spring = m.N - contact.normal_damping * m.vn;
     return spring * spring / (2.0 * contact.normal_stiffness);
   }
   void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
                              Violations& v) const override {
-    // Deformation of the normal spring. In state "inside" it is still negative, because the dashpot delays its return to
-    // zero.
+    // Deformation of the normal spring. In state "inside" the deformation is still negative, because the dashpot delays its
+    // return to zero.
     const double element = !is_open(state) ? (m.N - contact.normal_damping * m.vn) / contact.normal_stiffness
                            : state == State::inside ? m.gap
                                                     : 0.0;
@@ -43,7 +43,8 @@ class CompliantLaw : public CoulombLaw {
   }
 };
 
-/// The springs belong to the structure, so the law has the name of the rigid law.
+/// Compliant law whose springs represent compliance of the structure. name() is "rigid", because
+/// scenes name such a contact so.
 class ComplianceSplitLaw final : public CompliantLaw {
  public:
   ComplianceSplitLaw() : CompliantLaw({.normal_spring = true, .compliance_split = true}) {}

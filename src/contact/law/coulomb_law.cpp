@@ -45,7 +45,7 @@ Form tangent_row(const Contact& contact, const ContactState& state) {
 ContactState close(const Contact& contact, const MotionJet& jet) {
   ContactState next{contact::state_at_rest(contact), jet.motion[0].ut};
   if (!contact.has_friction()) return next;
-  // If N jumps but T does not, or if the shear element still moves, the guards that the caller checks next decide about slip.
+  // If N jumps but T does not, or if the shear element still moves, the caller checks the friction limits in stick.
   if (contact.normal_damping > 0.0 || contact.shear) return next;
   for (std::size_t m = 1; m < jet.motion.size(); ++m) {
     const ContactMotion& d = jet.motion[m];
@@ -53,7 +53,7 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
     const bool tangent_moves = std::abs(d.ut) > jet.noise[m].ut;
     if (!normal_moves && !tangent_moves) continue;
     const double pull = *contact.tangential_stiffness * std::abs(d.ut);
-    // At the apex N is zero, so friction that depends on N has its coefficient for light loads.
+    // At the apex N is zero, so the coefficient is static_, also for friction that depends on N.
     if (pull > contact.friction.static_ * contact.normal_stiffness * std::abs(d.gap))
       next.state = contact::slip_state(d.ut);
     break;
@@ -147,7 +147,7 @@ ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& 
 
 std::vector<ContactState> CoulombLaw::candidates(const Contact& contact, const ContactState& now,
                                                  const ContactMotion& before) const {
-  // A contact that was sticking keeps its anchor; any other contact would stick at its present position.
+  // A sticking contact keeps its anchor; any other contact would stick at its present position.
   const double anchor = now.state == State::stick ? now.anchor : contact::slip_of(contact, before);
   std::vector<ContactState> result;
   if (!capabilities.normal_force_given)

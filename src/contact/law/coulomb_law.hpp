@@ -1,10 +1,10 @@
 // coulomb_law.hpp: Coulomb friction combined with any normal law; base class of the built-in laws.
 //
 //   tangent row   open, closed  T = 0
-//                 stick         T - kt (ut - p) = 0,  ut'' = 0 without kt,  p' = 0 with a separate sliding point
-//                 slip s        T + s fk N = 0,    T - s F = 0 where friction depends on N
-//                 limit s       T + s fs N = 0,  at the static limit without slip
-//   guards        stick         fs |N| -+ T
+//                 stick         T - kt (ut - p) = 0;  without kt: ut'' = 0;  with a shear element: p' = 0
+//                 slip s        T + s fk N = 0;  if friction depends on N: T - s F = 0
+//                 limit s       T + s fs N = 0   (at the static limit in direction s, without slip)
+//   guards        stick         fs |N| - T,  fs |N| + T
 //                 slip s        s p',  p' = ut' - T'/kt
 //
 // A normal law provides its row, its guards and the rate of N (compliant_law.cpp, rigid_law.cpp, slider_law.cpp).
@@ -41,7 +41,7 @@ class CoulombLaw : public ContactLaw {
   [[nodiscard]] virtual Form closed_normal_row(const Contact& contact) const = 0;
   /// Sets the guards of the normal direction: g > 0 if open, -N > 0 if closed.
   virtual void set_normal_guards(const Contact& contact, const ContactState& state, Guards& result) const;
-  /// Adds `factor` times N' to `form`, which is the slip rate of a contact with an anchor spring.
+  /// Adds `factor` times N' to `form`, the slip rate of a contact with a tangential spring.
   virtual void add_normal_rate(const Contact& contact, double factor, Form& form) const = 0;
   /// Energy stored by the normal force.
   [[nodiscard]] virtual double normal_energy(const Contact& contact, State state,

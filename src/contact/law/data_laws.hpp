@@ -1,5 +1,5 @@
-// data_laws.hpp: laws that a scene can name and that consist of data, such as law = "yielding". Each has texts for the reader
-// and for the reference of scene files.
+// data_laws.hpp: laws that consist of data and that a scene can name, such as law = "yielding". Each law also contains texts
+// for messages and for the reference of scene files.
 //
 // To add a law, define a DataLaw in a new file in this folder and add its line to data_laws.cpp.
 #pragma once
@@ -17,17 +17,16 @@ namespace signorini {
 
 /// A constant of the law: a number > 0 that a scene with this law must give.
 struct DataLawConstant {
-  std::string_view key, unit, meaning;  ///< as in scene/keys.hpp
+  std::string_view key, unit, meaning;  ///< key, unit and description as in scene/keys.hpp
 };
 
 struct DataLaw {
   std::string_view name;
-  std::string_view meaning;  ///< phrase that describes the law in the documentation of the key `law`
+  std::string_view meaning;  ///< description of the law in the documentation of the key `law`
   std::vector<DataLawConstant> constants;
   /// Makes the law from kn and from the constants, in the order of `constants`.
   UserContactLaw (*make)(double normal_stiffness, const std::vector<double>& constants);
-  /// Checks the values. Result: the key whose value contradicts the other values, and a message; nullopt: the values are
-  /// valid.
+  /// Checks the values. Returns the key whose value contradicts the other values, and a message; nullopt: the values are valid.
   std::optional<std::pair<std::string_view, std::string>> (*validate)(double normal_stiffness,
                                                                       const std::vector<double>& constants);
 };

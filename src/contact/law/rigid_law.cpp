@@ -1,5 +1,4 @@
-// Constraint along the normal: g'' = 0 while closed. If the contact closes with g' < 0, there is an impact
-// (decide/impact.hpp).
+// Constraint along the normal: g'' = 0 while closed. If the contact closes with g' < 0, an impact occurs (decide/impact.hpp).
 #include <cmath>
 
 #include "contact/law.hpp"

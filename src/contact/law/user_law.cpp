@@ -44,7 +44,7 @@ class UserLaw final : public ContactLaw {
 
   [[nodiscard]] Guards guards(const Contact& /*contact*/, const ContactState& state) const override {
     constexpr std::array kinds = {Guard::user_1, Guard::user_2, Guard::user_3};
-    static_assert(kinds.size() == most_guards);
+    static_assert(kinds.size() == max_guards);
     Guards result;
     const UserLawState& in = at(state.state);
     for (std::size_t i = 0; i < in.guards.size(); ++i)
@@ -87,7 +87,7 @@ class UserLaw final : public ContactLaw {
                                      const ContactMotion& /*m*/) const override {
     return 0.0;
   }
-  /// A user-defined law has no conditions besides its guards, so nothing is checked here.
+  /// Conditions (6) and (7) do not apply to a user-defined law, so there are no violations.
   [[nodiscard]] Violations violations(const Contact& /*contact*/, State /*state*/,
                                       const ContactMotion& /*m*/) const override {
     return {};
@@ -129,7 +129,8 @@ class UserLaw final : public ContactLaw {
   std::shared_ptr<const UserContactLaw> data_;
 };
 
-/// Visits the coefficients of a form whose value has the unit `of`; the unit of a coefficient is `of` / unit of its term.
+/// Visits the coefficients of a form whose value has the unit `of`. Unit of a coefficient: `of` / unit of the quantity that
+/// it multiplies.
 void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& visit) {
   const auto per = [&](double& coefficient, const Unit& unit) {
     visit(coefficient, Unit{of.force - unit.force, of.length - unit.length, of.time - unit.time});
@@ -153,7 +154,7 @@ Unit unit_of(const FormProduct& product) {
   return {a.force + b.force, a.length + b.length, a.time + b.time};
 }
 
-/// True if the form depends on the motion; otherwise its unit cannot be determined.
+/// True if the form depends on the motion or on forces; the unit of a constant form cannot be determined.
 bool has_unit(const Form& f) {
   return f.N != 0.0 || f.T != 0.0 || f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0;
 }
@@ -162,9 +163,9 @@ std::string validation_error(const UserLawState& state, std::size_t states) {
   const auto refuse = [&](const std::string& what) {
     return fmt::format("state '{}': {}", state.name, what);
   };
-  if (state.guards.size() > ContactLaw::most_guards)
+  if (state.guards.size() > ContactLaw::max_guards)
     return refuse(
-        fmt::format("found {} guards, expected at most {}", state.guards.size(), ContactLaw::most_guards));
+        fmt::format("found {} guards, expected at most {}", state.guards.size(), ContactLaw::max_guards));
   if (is_user_law_state(state.kind) || state.kind == State::inside)
     return refuse("expected the kind open, closed, stick or slip");
   std::vector<Form> forms = {state.normal.form, state.tangent.form};

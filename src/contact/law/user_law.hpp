@@ -12,8 +12,8 @@ namespace signorini {
 [[nodiscard]] std::string validation_error(const UserContactLaw& law);
 /// True if the law acts along the tangent. False: its tangent rows are T = 0, and no row and no guard depends on ut or T.
 [[nodiscard]] bool acts_along_tangent(const UserContactLaw& law);
-/// Copy of the law after `visit` was called for each constant, with the unit of the constant. `law` is copied because several
-/// scenes may share it.
+/// Copy of the law in which `visit`(constant, unit) may change each constant. The law is copied because several scenes may
+/// share it.
 [[nodiscard]] std::shared_ptr<const UserContactLaw> visit_law_constants(
     UserContactLaw law, const ContactLaw::VisitConstant& visit);
 

@@ -1,12 +1,12 @@
-// yielding_pad.hpp: a pad that yields, law = "yielding" of scene files, defined as a user law.
+// yielding_pad.hpp: a spring that yields (law = "yielding" in scene files), defined as a user law.
 //
 //   off       N = 0            while g - p > 0
 //   elastic   N = kn (g - p)   while -Y < N < 0
 //   crushed   N = -Y           while g' < 0;   then p <- g + Y / kn, and N is continuous
 //   T = 0 in all states
 //
-// p <= 0 is the dent, a length, 0 at the start. kn: force/length, Y: force, both > 0. After a separation the work dissipated
-// in the pad is Y times the growth of the dent.
+// p <= 0 is the dent, a length, 0 at the start. kn: force/length, Y: force, both > 0. When the contact has opened again,
+// the dissipated work is Y times the increase of |p|.
 #pragma once
 
 #include "contact/law/data_laws.hpp"

@@ -24,9 +24,9 @@ void ActiveGuards::update(std::size_t slot, double value, double level) {
 }
 
 namespace {
-constexpr double relative_resolution =
-    1e-12;  // relative to the step length; the engine then refines the root
-}
+// Resolution of the place of a root, relative to the step length. Coarse, because the engine refines the root.
+constexpr double relative_resolution = 1e-12;
+}  // namespace
 
 void GuardMonitor::start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
                          std::vector<double> levels, const ForceLayout& layout) {
@@ -42,7 +42,7 @@ void GuardMonitor::set_waiting(std::size_t slot, double level) {
 }
 
 double GuardMonitor::allowed_depth(std::size_t contact, const GuardForm& guard) const {
-  if (layout_.contacts() == 0) return 0.0;  // start() was not called yet
+  if (layout_.contacts() == 0) return 0.0;  // no segment has started yet
   const std::size_t first = layout_.guard(contact), end = layout_.guard_end(contact);
   for (std::size_t slot = first; slot < end; ++slot)
     if (!active_guards_.idle(slot) && forms_[contact][slot - first] == guard)

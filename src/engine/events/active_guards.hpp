@@ -1,12 +1,12 @@
 // active_guards.hpp: the guards that are active in a segment.
 //
-//   idle      the contact state does not use this slot
+//   idle      the contact state has no guard in this slot
 //   armed     the guard was clearly positive: its next zero crossing is an event
-//   waiting   the guard starts at zero, up to rounding: an event occurs only if it becomes clearly negative. If
+//   waiting   the guard starts at zero, up to rounding: an event occurs only if the guard becomes clearly negative. If
 //             leading_order > 0, the guard rises like x^leading_order: its lower derivatives are zero
 //
-// A waiting guard becomes armed once it exceeds a level. For engine `exact` this level is the rounding of the
-// guard, for an integrator the possible error of its steps.
+// A waiting guard becomes armed once its value exceeds a level. For engine `exact` this level is the rounding error of the
+// guard, for an integrator the possible error of the steps.
 #pragma once
 
 #include "decide/decision.hpp"
@@ -28,11 +28,11 @@ class ActiveGuards {
 
   /// Sets the leading order to 0, because the guard does not rise as its derivatives at the start predict.
   void discard_leading_order(std::size_t slot) { guards_[slot].leading_order = 0; }
-  /// Makes the guard wait: it is zero again, and its derivatives are unknown.
+  /// Sets the guard to `waiting`, because its value is zero again; its derivatives are unknown.
   void set_waiting(std::size_t slot) { guards_[slot] = {Status::waiting, 0}; }
   void set_armed(std::size_t slot) { guards_[slot] = {Status::armed, 0}; }
-  /// Called with the guard's value at the end of a step without an event. Arms a waiting guard whose value is above the level;
-  /// otherwise only discards its leading order.
+  /// Call it after a step without an event, with the guard's value at the end of the step. Arms a waiting guard if its value
+  /// exceeds `level`; otherwise only discards its leading order.
   void update(std::size_t slot, double value, double level);
 
  private:
@@ -47,15 +47,15 @@ class ActiveGuards {
 // Zero crossings of the guards inside the steps of IDA.
 //
 //   armed      g was clearly positive: its first downward zero crossing is an event
-//   not armed  g started at zero and rises; armed once g >= level, an event once g <= -level
+//   waiting    g started at zero: g >= level arms the guard, g <= -level is an event
 //   level      re_arm_tolerances times the local error tolerance of g
 //
 // IDA reports only changes of sign between the ends of a step. On a step the solution is a polynomial of
 // degree q <= 5, and so is every guard. The Bernstein coefficients of a guard prove that it stays positive, or lead to its
 // zeros, so two crossings inside one step are not missed.
 
-/// A waiting guard is armed once it exceeds this many local error tolerances. Below this level, the integration error may
-/// decide the sign of the guard.
+/// Level that arms a waiting guard, in local error tolerances of the guard. Below this level, the sign of the guard may be
+/// that of the integration error.
 inline constexpr double re_arm_tolerances = 10.0;
 
 /// Place inside the last step at which a guard reaches zero.
@@ -66,17 +66,16 @@ struct ZeroCrossing {
 
 class GuardMonitor {
  public:
-  /// levels: level of each slot at which a waiting guard is armed.
+  /// levels: for each slot, the level that arms a waiting guard.
   void start(const std::vector<decide::GuardStart>& guards, decide::GuardForms forms,
              std::vector<double> levels, const ForceLayout& layout);
   [[nodiscard]] bool armed(std::size_t slot) const { return active_guards_.armed(slot); }
-  /// Called if the guard reached zero without an event. The guard waits again; the next event occurs only if it falls below
-  /// -level.
+  /// Sets a guard that reached zero without an event to `waiting`: an event now requires a value below -level.
   void set_waiting(std::size_t slot, double level);
-  /// Largest negative value (as a magnitude) that this guard may reach without an event. 0 if the guard is armed.
+  /// Magnitude of the most negative value that this guard may reach without an event. 0 if the guard is armed.
   [[nodiscard]] double allowed_depth(std::size_t contact, const GuardForm& guard) const;
-  /// Finds all downward zero crossings in the part [0, limit] of the last step, and arms guards that have risen enough. The
-  /// first scalars of the history are the guards, in the order of slots.
+  /// Finds the first event of each guard in the part [0, limit] of the last step, and arms waiting guards that exceed their
+  /// level. The first scalars of the history must be the guards, in the order of slots.
   [[nodiscard]] std::vector<ZeroCrossing> check(const StepHistory& history, double limit);
 
  private:

@@ -20,7 +20,7 @@ constexpr double binomial[max_degree + 1][max_degree + 1] = {{1, 0, 0, 0, 0, 0},
 /// Smallest x with p(x) <= 0 on [from, to], for any p.
 std::optional<double> first_nonpositive(const Bernstein& p, double from, double to, double resolution) {
   if (p.positive()) return std::nullopt;
-  if (!(p.b[0] > 0.0)) return from;  // a NaN returns here too; halving it would never end
+  if (!(p.b[0] > 0.0)) return from;  // also for NaN, which would be halved endlessly
   if (to - from <= resolution) return p.b[z(p.degree)] <= 0.0 ? std::optional(to) : std::nullopt;
   Bernstein left, right;
   p.split(0.5, left, right);
@@ -29,8 +29,8 @@ std::optional<double> first_nonpositive(const Bernstein& p, double from, double 
   return first_nonpositive(right, middle, to, resolution);
 }
 
-/// Value at x by de Casteljau's algorithm. With the degree known at compile time, the coefficients stay in registers, which
-/// avoids slow loads of just stored pairs.
+/// Value at x by de Casteljau's algorithm. The degree is a template parameter, so that the compiler keeps the coefficients in
+/// registers.
 template <std::size_t degree>
 double de_casteljau(std::array<double, max_degree + 1> c, double x) {
 #pragma GCC unroll 5
@@ -117,8 +117,9 @@ std::optional<double> first_root(const Bernstein& p, double resolution) {
 namespace {
 
 constexpr std::size_t size = max_root_degree + 1;
-constexpr double near_root = 1e-6;  // relative step length after which the next Newton step gives all digits
-constexpr double finest = rounding::many_operations;  // smallest interval, relative to the step
+// After a Newton step smaller than near_root * x, the next step gives all digits of the root.
+constexpr double near_root = 1e-6;
+constexpr double finest = rounding::many_operations;  // width below which no interval is halved
 using Coefficients = std::array<double, size>;
 
 /// Factor of a_k in b_i for degree n: C(i,k)/C(n,k), row by row for k = 0 .. n, where i = k .. n.
@@ -143,10 +144,11 @@ const double* conversion(std::size_t n) {
   return tables[n].data();
 }
 
-/// The only downward zero crossing of p in [lo, hi], by Newton's method; steps that leave the interval are bisected.
+/// The only downward zero crossing of p in [lo, hi], by Newton's method. Bisection replaces a step that would leave the
+/// interval.
 double only_zero(const double* a, std::size_t degree, double lo, double hi, double guess) {
   double x = guess > lo && guess < hi ? guess : 0.5 * (lo + hi);
-  double last = 1.0;  // length of the last step
+  double last = 1.0;  // length of the last Newton or bisection step
   for (int i = 0; i < 200; ++i) {
     double value = a[degree], slope = 0.0;
     for (std::size_t k = degree; k-- > 0;) {
@@ -174,7 +176,7 @@ struct Interval {
   Coefficients b;  // only the first degree + 1 entries are used
 };
 
-/// Estimate of the root: place at which the control polygon crosses zero downwards.
+/// Estimate of the root: place at which the control polygon of the coefficients b crosses zero downwards.
 double guess(std::size_t n, const Interval& now) {
   std::size_t i = 0;
   while (i < n && now.b[i] > 0.0) ++i;
@@ -208,7 +210,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     return {FirstRoot::Kind::not_finite};  // a NaN would be halved endlessly
   if (a[0] - rest > slack) return {};
 
-  // Undecided intervals, the leftmost on top; each halving adds one.
+  // Stack of undecided intervals, the leftmost on top. Each halving adds one interval.
   std::array<Interval, 64> stack;
   std::size_t count = 1;
   stack[0].lo = 0.0;
@@ -229,7 +231,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
     Interval& now = stack[count - 1];
     ++result.intervals;
     std::size_t above = 0, below = 0, rises = 0, falls = 0;
-    bool one_change = true;  // one sign change, from above slack to below -slack, no value between
+    bool one_change = true;  // the b_i change sign once, from above slack to below -slack; none is between
     for (std::size_t i = 0; i <= degree; ++i) {
       above += now.b[i] > slack ? 1 : 0;
       below += now.b[i] < -slack ? 1 : 0;
@@ -256,7 +258,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
       if (right < -slack)
         return crossing_at(now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now))
                                           : now.lo);
-      // At the end of the step the next step decides whether the guard crosses zero.
+      // If the guard is zero at the end of this step, the next step decides whether it crosses zero.
       if (right <= slack && now.hi < 1.0) touch(now.hi);
       --count;
       continue;
@@ -266,7 +268,7 @@ FirstRoot first_root(const double* a, std::size_t degree, double slack) {
       --count;
       continue;
     }
-    // The right half stays below on the stack, the left half goes on top.
+    // The right half replaces the interval on the stack; the left half is put on top.
     Interval& left = stack[count++];
     left.lo = now.lo;
     left.hi = now.hi;
@@ -284,7 +286,7 @@ double call(double t, void* f) { return (*static_cast<const std::function<double
 
 double root_between(const std::function<double(double)>& f, double lo, double hi, double width) {
   const double first = lo, last = hi, at_first = f(lo), at_last = f(hi);
-  // GSL ends the program if there is no sign change.
+  // Without a sign change, GSL's Brent solver would end the program.
   if (!(at_first > 0.0)) return first;
   if (at_last > 0.0) return last;
   const std::function<double(double)> known = [&](double t) {

@@ -6,7 +6,7 @@
 // An interval contains no zero if all b_i > slack. One change of sign from above slack to below -slack means
 // exactly one zero. Otherwise the interval is halved (de Casteljau), which sharpens the bounds quadratically.
 // `slack` bounds the error of p: the remainder of the series and the rounding of its terms. So a crossing is
-// found or excluded, except where |p| stays within slack.
+// found or excluded, except at a place where |p| <= slack.
 // Source: Farin, Curves and Surfaces for CAGD, chapter 6 (Bernstein form, variation diminishing).
 #pragma once
 
@@ -22,7 +22,7 @@ namespace signorini::events {
 //   p(x) = sum_i b_i B_i,q(x),  0 <= x <= 1:   min b_i <= p(x) <= max b_i
 //
 // The coefficients bound the polynomial, and halving the interval sharpens the bounds. So the first zero of a
-// guard is found or excluded for any signs at the ends.
+// guard is found or excluded, whatever its signs at both ends.
 
 inline constexpr int max_degree = 5;  // highest degree of a BDF interpolant
 
@@ -40,20 +40,20 @@ struct Bernstein {
   [[nodiscard]] Bernstein derivative() const;
   [[nodiscard]] bool positive() const;              ///< all coefficients are > 0
   [[nodiscard]] bool at_least(double level) const;  ///< all coefficients are >= level
-  /// The same polynomial on [0, x] and on [x, 1].
+  /// Writes the coefficients of this polynomial on [0, x] to `left` and on [x, 1] to `right`.
   void split(double x, Bernstein& left, Bernstein& right) const;
 };
 
-/// The smallest x in [0, 1] with p(x) <= 0 to within `resolution`, if any; p is positive before it.
+/// The smallest x in [0, 1] with p(x) <= 0, to within `resolution`. nullopt: p is positive on [0, 1].
 [[nodiscard]] std::optional<double> first_root(const Bernstein& p, double resolution);
-/// The smallest x in [0, 1] with p(x) >= level to within `resolution`, if any.
+/// The smallest x in [0, 1] with p(x) >= level, to within `resolution`. nullopt: p is below the level on [0, 1].
 [[nodiscard]] std::optional<double> first_upcrossing(const Bernstein& p, double level, double resolution);
 
 struct FirstRoot {
   enum class Kind {
     none,        ///< p > 0 on [0, 1], up to slack
-    crossing,    ///< p > 0 before x, p < 0 after it
-    touch,       ///< like none, but |p| <= slack around x: a crossing there cannot be decided
+    crossing,    ///< p > 0 before x, p < 0 after x
+    touch,       ///< no proven crossing, but |p| <= slack near x, so p may cross zero there
     not_finite,  ///< coefficients or slack are not finite: no statement is possible
   } kind = Kind::none;
   double x = 0.0;
@@ -62,16 +62,15 @@ struct FirstRoot {
 
 inline constexpr std::size_t max_root_degree = 32;
 
-/// The first zero on [0, 1]. a: degree + 1 coefficients, degree <= max_root_degree; p(0) is positive up to
-/// slack.
+/// Finds the first zero on [0, 1]. a: degree + 1 power coefficients, degree <= max_root_degree. Requires p(0) > -slack.
 [[nodiscard]] FirstRoot first_root(const double* a, std::size_t degree, double slack);
 
 // Downward zero crossing of a function, bracketed (GSL, Brent's method).
 //
 //   f(lo) > 0 >= f(hi):   t with f(t) = 0, lo and hi narrowed to `width`
 
-/// The root between lo and hi; f is evaluated at both ends first. Without a sign change: lo if f is not positive there,
-/// else hi. Every f(t) must be finite.
+/// The root between lo and hi. Without a downward sign change: lo if f(lo) <= 0, hi if f(lo) and f(hi) are positive. f must be
+/// finite on [lo, hi].
 [[nodiscard]] double root_between(const std::function<double(double)>& f, double lo, double hi, double width);
 
 }  // namespace signorini::events

@@ -5,15 +5,15 @@
 
 namespace signorini::events {
 
-/// A guard that came back into its tolerance and left it without a zero crossing at any step. A run with a smaller tolerance
-/// decides whether the guard reached zero.
+/// A guard that decreased to within its tolerance of zero and rose again, without a zero crossing. Only a run with a smaller
+/// tolerance can decide whether the guard reached zero.
 struct Graze {
   double t = 0.0;
   int contact = -1;
   std::string guard;  ///< to_string(Guard): "compression", "slip rate"
 };
 
-/// Local minimum of the gap of an open contact. Near t, the gap at time t' is gap + half_curvature (t' - t)^2.
+/// Local minimum of the gap of an open contact, at time t. At a time t' near t, the gap is gap + half_curvature (t' - t)^2.
 struct NearHit {
   double t = 0.0;
   int contact = -1;

@@ -4,8 +4,8 @@
 
 namespace signorini::events {
 namespace {
-// Number of sample intervals of a step's polynomial, whose degree is at most 5.
-constexpr int looks = 8;
+// Number of sample intervals per step; the polynomial of a step has degree 5 at most.
+constexpr int samples_per_step = 8;
 }  // namespace
 
 void GrazeDetector::start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels) {
@@ -32,8 +32,8 @@ void GrazeDetector::update(const StepHistory& history, double limit) {
       guard.high = guard.level;
       continue;
     }
-    for (int look = 0; look <= looks; ++look) {
-      const double x = limit * look / looks, value = p.value(x);
+    for (int look = 0; look <= samples_per_step; ++look) {
+      const double x = limit * look / samples_per_step, value = p.value(x);
       if (value >= guard.level) {
         if (guard.low) record(slot);
         guard.low = false;
@@ -62,9 +62,7 @@ void GrazeDetector::record(std::size_t slot) {
 
 namespace {
 
-constexpr double near_levels = 1e4;  // chosen: possible error of a run of 1e4 steps, in levels
-constexpr int samples_per_step =
-    8;  // sample intervals per step; the polynomial of a step has degree 5 at most
+constexpr double near_levels = 1e4;  // largest gap of a near hit, in levels: the error of 1e4 steps; chosen
 constexpr std::size_t max_near_hits = 100000;
 
 }  // namespace

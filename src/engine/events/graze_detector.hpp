@@ -1,8 +1,8 @@
-// graze_detector.hpp: guards of an integrator that returned into their tolerance and left it without an event.
+// graze_detector.hpp: guards of an integrator that approached zero to within the integration error and rose again.
 //
 //   high    greatest value of the guard since the segment's start, but at most the level (active_guards.hpp)
 //   low     g < high - (dip_fraction level + rounding of g)
-//   graze   the guard was low and has reached the level without an event; or it was low before it ever
+//   graze   the guard was low and then rose to the level without an event; or the guard was low before it ever
 //           reached the level, and the segment ended with a zero crossing of another guard
 //
 // Below the level, the integration error can change the sign of the guard, so this run cannot decide whether the guard reached
@@ -22,7 +22,7 @@ namespace signorini::events {
 
 /// Part of the level by which a guard must decrease below `high` to be low: 0.01, a tenth of a local tolerance. Measured on
 /// 30,581 guards that rise from zero in 300 random scenes: 35 decrease by 0.001 to 0.01 of the level, 11 by more, all others by
-/// less. With a value of 10, the test "a guard that sinks back before it has clearly risen" changes.
+/// less. With a value of 10, the test "a guard that sinks back before it has clearly risen" fails.
 inline constexpr double dip_fraction = 0.01;
 
 class GrazeDetector {
@@ -37,7 +37,7 @@ class GrazeDetector {
   void start(const std::vector<decide::GuardStart>& guards, const std::vector<double>& levels);
   /// Examines the part [0, limit] of the last step. The first scalars of the history are the guards, in the order of slots.
   void update(const StepHistory& history, double limit);
-  /// Called at the end of a segment. fallen: slots of the guards that reach zero there.
+  /// Call it at the end of a segment. fallen: slots of the guards whose zero crossing ends the segment.
   void end(const std::vector<std::size_t>& fallen);
   /// First graze since the beginning of the run.
   [[nodiscard]] const std::optional<Graze>& first() const { return first_; }
@@ -57,11 +57,11 @@ class GrazeDetector {
 
 // Gaps of an integrator that approached zero and opened again.
 //
-//   g_a > g_b <= g_c  at three consecutive samples:  a minimum of the gap at the parabola's vertex
-//   g > level         at a sample since the last minimum: a gap that closes and stays closed is no near hit
+//   g_a > g_b <= g_c  at three consecutive samples:  a minimum of the gap at the vertex of the parabola
+//   g > level         at a sample since the last minimum, so that the oscillations of a closed gap are no near hits
 //
-// A near hit is recorded if the gap is less than 1e4 levels (active_guards.hpp), which the errors of thousands of steps can sum
-// up to. Whether an impact was missed depends on the error of the whole run, which only a certified run bounds
+// A minimum is recorded as a near hit if its gap is less than 1e4 levels (active_guards.hpp): the errors of thousands of steps
+// can sum up to this size. Only a certified run bounds the error of the whole run and shows whether an impact was missed
 // (certify/error_bounds.hpp).
 
 class NearHitDetector {

@@ -54,8 +54,8 @@ double* StepHistory::push(double t, double length) {
 
 void StepHistory::prepare(int order) {
   prepare(powers_basis_, filled_ - 1);
-  one_basis_ = order >= powers_basis_.degree;
-  if (!one_basis_) prepare(order_basis_, order);
+  shares_basis_ = order >= powers_basis_.degree;
+  if (!shares_basis_) prepare(order_basis_, order);
   Kept rows{};
   for (int b = 0; b < filled_; ++b) rows[z(b)] = values_.data() + z(slot_[z(b)]) * scalars_;
   variations_and_means(rows, order_basis().degree, 2.0 * order_basis().variation_factor, powers_basis_.degree,
@@ -122,7 +122,7 @@ Bernstein StepHistory::interpolant(const Basis& basis, std::size_t s) const {
 std::optional<GuardCubic::ZeroCrossing> GuardCubic::cubic_root() const {
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
   double lo = 0.0, hi = 1.0, x = linear_root(), slope = 0.0;
-  constexpr int most_steps = 8;  // limit of Newton steps within the bracket; enough from linear_root()
+  constexpr int most_steps = 8;  // number of Newton steps in the bracket; enough if started at linear_root()
   for (int i = 0; i < most_steps; ++i) {
     const double value = g0 + x * (r0 + x * (b + x * c));
     slope = r0 + x * (2.0 * b + 3.0 * x * c);
@@ -135,7 +135,7 @@ std::optional<GuardCubic::ZeroCrossing> GuardCubic::cubic_root() const {
 }
 
 std::optional<double> GuardCubic::interior_minimum() const {
-  // If the inner Bernstein coefficients are positive too, so is the cubic.
+  // g0 and g1 are positive. If the inner Bernstein coefficients are also positive, the whole cubic is positive.
   if (g0 + r0 / 3.0 > 0.0 && g1 - r1 / 3.0 > 0.0) return std::nullopt;
   const double b = 3.0 * (g1 - g0) - 2.0 * r0 - r1, c = 2.0 * (g0 - g1) + r0 + r1;
   // Root of p' = r0 + 2 b x + 3 c x^2 with p'' > 0, by a formula without cancellation or division by c = 0.

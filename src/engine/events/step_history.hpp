@@ -3,9 +3,9 @@
 //   p(x) interpolates f(t_n), f(t_n-1), ..., f(t_n-q),   t = t_n-1 + x (t_n - t_n-1)
 //
 // A BDF step of order q defines y between its ends as the polynomial through the last q + 1 accepted values.
-// A scalar that is linear in y is exactly the polynomial through its own last q + 1 values. Powers are
-// products, so their polynomial interpolates all stored values. (Example: under a load that is a parabola in
-// time, y has degree 4, which a step of order 4 reproduces, but a power has a higher degree.)
+// So a scalar that is linear in y is exactly the polynomial through its own last q + 1 values. Powers are
+// products of such scalars and have a higher degree, so their polynomial interpolates all stored values.
+// (Example: under a load that is a parabola in time, a step of order 4 reproduces y, but not a power.)
 #pragma once
 
 #include <array>
@@ -21,11 +21,11 @@ class StepHistory {
   explicit StepHistory(std::size_t scalars)
       : scalars_(scalars), values_((max_degree + 1) * scalars), variation_bounds_(scalars), mean_(scalars) {}
 
-  /// Deletes all values and starts at t; returns the array for the scalars' values at t.
+  /// Deletes all values and starts at t. Returns the array into which the caller writes the values of all scalars at t.
   double* restart(double t);
-  /// Adds an accepted step that ends at t; returns the array for the scalars' values at t.
+  /// Adds an accepted step that ends at t. Returns the array into which the caller writes the values of all scalars at t.
   double* push(double t) { return push(t, t - times_[0]); }
-  /// Adds an accepted step that ends at t. length: step length of the integrator, without the rounding of the times.
+  /// Same as push(t). length: step length of the integrator, which has no rounding error from t - t_previous.
   double* push(double t, double length);
   /// Computes the polynomials on the last step. order: order of the BDF method in this step.
   void prepare(int order);
@@ -46,7 +46,7 @@ class StepHistory {
   /// Polynomial of power i on the last step, through all stored values.
   [[nodiscard]] Bernstein power(std::size_t i) const { return interpolant(powers_basis_, i); }
   [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
-  /// Last values of all scalars. variation_bounds() gives variation_bound(i) of all scalars i.
+  /// Last values of all scalars. variation_bounds() returns variation_bound(i) for all scalars i.
   [[nodiscard]] const double* last_values() const {
     return values_.data() + static_cast<std::size_t>(slot_[0]) * scalars_;
   }
@@ -61,7 +61,7 @@ class StepHistory {
   /// Weights that turn the last degree + 1 values of a scalar into the polynomial through them.
   struct Basis {
     int degree = -1;
-    // Nodes for which the weights below were computed; the weights are reused while the step length is constant.
+    // Nodes for which the weights below were computed. A step with the same nodes reuses the weights.
     std::array<double, max_degree + 1> nodes{};
     // to_bernstein[i][b]: weight of the value b steps back in Bernstein coefficient i
     std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein{};
@@ -70,7 +70,7 @@ class StepHistory {
     double monotone_factor = 0.0;   // 2 q max_i sum_b |w_i+1,b - w_ib|: the factor 2 covers rounding
   };
   void prepare(Basis& basis, int degree) const;
-  [[nodiscard]] const Basis& order_basis() const { return one_basis_ ? powers_basis_ : order_basis_; }
+  [[nodiscard]] const Basis& order_basis() const { return shares_basis_ ? powers_basis_ : order_basis_; }
   [[nodiscard]] Bernstein interpolant(const Basis& basis, std::size_t i) const;
 
   std::size_t scalars_;
@@ -82,17 +82,17 @@ class StepHistory {
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
   std::array<double, max_degree + 1> lengths_{};  // length of the step that ended at times_[b]
   int filled_ = 0;
-  bool one_basis_ = true;  // scalars use powers_basis_ too
+  bool shares_basis_ = true;  // true: scalars use powers_basis_, because their degree is that of the powers
   Basis order_basis_, powers_basis_;
 };
 
 // A guard along one step, from its values and rates at both ends.
 //
 //   p(x) = Hermite's cubic through g0, h g0', g1, h g1',   0 <= x <= 1
-//   x*   = g0/(g0 - g1)                                    the paper's interpolation, (8) to (10)
+//   x*   = g0/(g0 - g1)                                    linear interpolation, (8) to (10) of Lukashevich et al. 2021
 //
-// For the guard T_U - s T this is t = t0 + dt (s T_U0 - T0)/((T1 - T0) - s (T_U1 - T_U0)). If the equations
-// give no rates, rates_from_values() takes them from the parabola through the last three values.
+// For the friction limit T_U - s T, x* gives t = t0 + dt (s T_U0 - T0)/((T1 - T0) - s (T_U1 - T_U0)). If the equations
+// give no rates, rates_from_values() computes rates from the parabola through the last three values.
 
 /// A guard at the ends of a step of length h.
 struct GuardCubic {
@@ -104,14 +104,14 @@ struct GuardCubic {
   struct ZeroCrossing {
     double x = 0.0, slope = 0.0;  ///< slope: derivative by x
   };
-  /// Place x at which the cubic reaches zero. Requires g0 > 0 >= g1. nullopt: the cubic does not fall there, or is NaN.
+  /// Place x at which the cubic reaches zero. Requires g0 > 0 >= g1. nullopt: the slope at x is not negative, or is NaN.
   [[nodiscard]] std::optional<ZeroCrossing> cubic_root() const;
   /// Place x of the cubic's least value inside the step, if this value is <= 0. Requires g0 > 0 and g1 > 0.
   [[nodiscard]] std::optional<double> interior_minimum() const;
 };
 
-/// Sets the rates to those of a parabola through both ends and the value `before`, at the time h_before before the step. If
-/// h_before = 0, the rates are those of the straight line through both ends.
+/// Sets the rates to those of the parabola through both ends and an earlier value: `before`, a time h_before before the step.
+/// If h_before = 0, the rates are those of the straight line through both ends.
 void rates_from_values(GuardCubic& path, double h, double before, double h_before);
 
 }  // namespace signorini::events

@@ -20,7 +20,7 @@ class Slope {
     for (std::size_t k = degree_; k >= 1; --k) slope = slope * x + b_[k];
     return slope;
   }
-  /// Zero of the first derivative, by Newton steps from a given place, which stay between low and high.
+  /// Zero of the first derivative, by four Newton steps from the place `at`. The result is between low and high.
   [[nodiscard]] double zero_from(double at, double low, double high) const {
     for (int newton = 0; newton < 4; ++newton) {
       double slope = 0.0, bend = 0.0;
@@ -159,7 +159,7 @@ void TurningPointDetector::find_near_end(std::size_t end, const Path& path, std:
   const double inward = value[next] - value[end], slope = 2.0 * inward - 0.5 * (value[third] - value[end]);
   if (inward == 0.0 && slope == 0.0) return;
   if (inward * slope > 0.0 && std::abs(slope) >= 0.5 * std::abs(inward)) {
-    // No observer evaluates the beginning of a part, and f may have been monotone up to it: record this value here.
+    // No observer evaluates the beginning of a part, so a new extreme value there is recorded as a turning point.
     const bool hidden = first && ends == Ends::part;
     if (hidden && (inward < 0.0 ? value[end] > range.greatest : value[end] < range.least))
       record(path, place, x[end]);
@@ -214,7 +214,7 @@ void TurningPointDetector::find_on_path(const Path& path, std::size_t place, con
     const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
     const double at = Slope(path.a, path.degree).zero_from(guess, x[i - 1], x[i + 1]);
     const double there = motion::value_at(path.a, path.degree, at);
-    // If the Newton steps have converged to another extreme, the sample itself is used.
+    // If the Newton steps have converged to another extreme, record the sample x[i] instead.
     record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
   }
   find_near_end(sample_intervals, path, place, x, value, ends);

@@ -19,7 +19,7 @@ class TurningPointDetector {
  public:
   explicit TurningPointDetector(std::size_t contacts) : ranges_(watched_fields.size() * contacts) {}
 
-  /// Extends the ranges to the values after a decision, at which the values may have jumped.
+  /// Extends the ranges to the values after a decision. The values may have jumped at the decision.
   void start(const decide::Decision& decision);
   /// Ends of the interval at which an observer evaluates the motion. observed: both ends (a whole step); first_part: only the
   /// beginning; part: neither end.
@@ -37,7 +37,7 @@ class TurningPointDetector {
   struct Range {
     double least = 0.0, greatest = 0.0;
     void extend(double value);
-    /// Width of the range extended to this value.
+    /// Width of the range after an extension to this value.
     [[nodiscard]] double width(double value) const {
       return std::max(greatest, value) - std::min(least, value);
     }
@@ -46,12 +46,12 @@ class TurningPointDetector {
     [[nodiscard]] bool is_exceeded(double value, double rate, double rounding) const {
       return (value - rounding > greatest && rate < 0.0) || (value + rounding < least && rate > 0.0);
     }
-    /// True if all values from value - change to value + change, each with this rounding error, are inside the range.
+    /// True if all values from value - change to value + change are inside the range, even with this rounding error.
     [[nodiscard]] bool contains(double value, double change, double rounding) const {
       return value + change + rounding < greatest && value - change - rounding > least;
     }
   };
-  /// Range so far of a watched field.
+  /// Range of the values of a watched field so far.
   [[nodiscard]] const Range& range(std::size_t contact, motion::ContactSeries::Field field) const {
     return ranges_[range_index(contact, field)];
   }
@@ -80,7 +80,7 @@ class TurningPointDetector {
                                             double value, double rate, double time);
 
  private:
-  // The phase angle of a step is less than 4 rad for all modes with significant amplitudes: samples are 0.5 rad apart.
+  // The phase angle of a step is below 4 rad for all modes with significant amplitudes, so samples are at most 0.5 rad apart.
   static constexpr std::size_t sample_intervals = 8;
   using Samples = std::array<double, sample_intervals + 1>;
   [[nodiscard]] static std::size_t range_index(std::size_t contact, motion::ContactSeries::Field field) {
@@ -96,14 +96,14 @@ class TurningPointDetector {
     double begin, scale;
   };
   [[nodiscard]] static bool stays_in_range(const Path& path, const Range& range, const Samples& x);
-  /// Records the turning points of one polynomial at the samples x. place: its index in ranges_.
+  /// Records the turning points of one polynomial, sampled at the places x. place: index of its quantity in ranges_.
   void find_on_path(const Path& path, std::size_t place, const Samples& x, Ends ends);
   void find_near_end(std::size_t end, const Path& path, std::size_t place, const Samples& x,
                      const Samples& value, Ends ends);
   /// Records a turning point if it exceeds the earlier range.
   void record(const Path& path, std::size_t place, double at);
 
-  std::vector<Range> ranges_;   // ranges so far
+  std::vector<Range> ranges_;   // ranges of the values so far
   std::vector<double> values_;  // values at the last decision; empty once the motion has advanced
   std::vector<TurningPoint> turning_points_;
   std::vector<double> times_;

@@ -16,25 +16,27 @@
 namespace signorini::exact {
 namespace {
 
-constexpr int min_levels = 12, more_levels = 3;
-constexpr double least_share = 1e-6;  // of the greatest motion; larger degrees of freedom keep all digits
-constexpr std::size_t first_terms =
-    4;  // number of first terms; several, because they may be zero after a rest
-constexpr double flights_a_step = 3.0;
+constexpr int min_levels = 12, level_increment = 3;  // number of levels at first, and of each extension
+// A degree of freedom whose motion exceeds this part of the greatest motion keeps all its digits.
+constexpr double least_share = 1e-6;
+// Number of first terms that measure the size of a motion. Several, because the first ones are zero if the body starts at rest.
+constexpr std::size_t first_terms = 4;
+constexpr double step_in_flights = 3.0;  // limit of the step length, in durations of the shortest flight
 constexpr double longer = 1.5, much_longer = 4.0;  // limits of the step length, relative to the previous step
-constexpr double least_step = 1.0 / longer;        // lower limit of share_of_step(): steps can still grow
+constexpr double min_step_factor =
+    1.0 / longer;  // lower limit of random_step_factor(), so that steps can grow
 // Random events at mean intervals tau occur in a step of length h with the probability 1 - exp(-h/tau). A step needs 14 levels
-// for a phase angle of 0.5 rad, 18 for 1 rad, 30 for 4 rad. So the work per event is least at h = 2 tau. Below `shortest_turn`
-// rad a step needs 12 levels in any case.
-constexpr double times_pace = 2.0, shortest_turn = 0.3;
-// With local updates one series serves several events. Beyond the phase angle `longest_turn` (rad), the additional levels take
-// longer than they save.
-constexpr double events_a_series = 12.0, longest_turn = 2.0;
-constexpr double least_left = 0.5;  // a local update must be valid for this part of the remaining series
+// for a phase angle of 0.5 rad, 18 for 1 rad, 30 for 4 rad. So the work per event is least at h = 2 tau. Steps below a phase
+// angle of `min_step_angle` (rad) save nothing, because every step has at least 12 levels.
+constexpr double step_in_event_intervals = 2.0, min_step_angle = 0.3;
+// With local updates, one series is used across several events. A series longer than the phase angle `max_series_angle` (rad) needs
+// so many levels that it is slower than two series.
+constexpr double events_per_series = 12.0, max_series_angle = 2.0;
+constexpr double least_left = 0.5;  // a local update must be valid on this part of the remaining series
 constexpr double fresh = 0.25;      // weight of the last interval in the mean interval between events; chosen
 constexpr double max_cancelled = 0.9;  // limit of later terms, relative to the greatest of the first terms
-constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound
-constexpr int max_touches = 5;                    // number of warnings about touches
+constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound in a guard's slack
+constexpr int max_touches = 5;                    // limit of the number of warnings about touches
 constexpr char overflow[] = "the motion overflows and is no longer finite";
 
 }  // namespace
@@ -74,20 +76,21 @@ void ExactEngine::start(const engine::Segment& segment) {
   growth_now_ =
       std::max({growth_.growth_rate(decision.system), 2.0 * segment.forcing->max_omega(), 1.0 / t_end_});
   choose_first_step();
-  polynomial_ = segment.forcing->max_degree();
+  forcing_polynomial_degree_ = segment.forcing->max_degree();
   active_guards_.start(decision.guards);
   turns_.start(decision);
   series_continued_ = same_motion && continue_series(before);
   ++counters.restarts;
 }
 
-/// True if the segment continues the motion of the last step, and the series of that step is valid beyond its end.
+/// True if the segment continues the motion of the last step, and the series of this step is valid beyond the end of the step.
 bool ExactEngine::can_continue_series(const decide::Decision& decision, bool same_forcing) const {
   return local_series_ && local_series_->possible() && same_forcing && decision.jet.t == t_ &&
          end_x_ < reach_ && decision.u == end_.u && decision.v == end_.v;
 }
 
-/// Continues the series of the last step and updates it near contacts whose state has changed. False: a new series is needed.
+/// Continues the series of the last step, with local updates near the contacts whose state has changed. False: a new series is
+/// needed.
 bool ExactEngine::continue_series(const contact::ContactStates& before) {
   std::vector<std::size_t> changed;
   for (std::size_t c = 0; c < states_.size(); ++c)
@@ -105,7 +108,7 @@ bool ExactEngine::continue_series(const contact::ContactStates& before) {
     if (reach < least_left * rest) return false;
     if (reach < rest) {
       reach_ = end_x_ + reach;
-      reach_time_ = motion_.whole.t + motion_.whole.scale * reach_;
+      valid_end_time_ = motion_.whole.t + motion_.whole.scale * reach_;
     }
     motion_.patch(*near, end_x_, reach);
     const LocalRemainder reached{local_remainder(*near, reach), reach};
@@ -126,48 +129,49 @@ void ExactEngine::choose_first_step() {
   const double flights = flights_limit();
   limited_by_events_ = !(flights > 0.0) && event_interval_ > 0.0;
   max_next_step_ = flights > 0.0        ? longer * flights
-                   : limited_by_events_ ? paced_length()
+                   : limited_by_events_ ? length_by_event_rate()
                                         : std::numeric_limits<double>::infinity();
 }
 
-double ExactEngine::paced_length() const {
-  const double shortest = shortest_turn / growth_now_, longest = longest_turn / growth_now_;
+double ExactEngine::length_by_event_rate() const {
+  const double shortest = min_step_angle / growth_now_, longest = max_series_angle / growth_now_;
   if (local_series_ && local_series_->possible() && event_interval_ < longest)
-    return std::clamp(events_a_series * event_interval_, shortest, longest);
-  return std::max(times_pace * event_interval_, shortest);
+    return std::clamp(events_per_series * event_interval_, shortest, longest);
+  return std::max(step_in_event_intervals * event_interval_, shortest);
 }
 
 /// Random factor on the length of a step; 1 without a step_seed. Steps of equal length multiply the motion by the same matrix
 /// with the same rounding errors. So N steps change amplitude and phase of an oscillation by N times one error, and all runs
 /// with these lengths have the same error. With random lengths the rounding errors differ, and their sum grows like sqrt(N).
-/// The first step of a segment has its full length, because a guard may leave zero within rounding: an event in that step is
+/// The first step of a segment has its full length, because a guard may start at zero up to rounding: an event in that step is
 /// then as uncertain as reported.
-double ExactEngine::share_of_step() {
+double ExactEngine::random_step_factor() {
   if (!random_ || t_ == segment_begin_) return 1.0;
-  return std::uniform_real_distribution<double>(least_step, 1.0)(*random_);
+  return std::uniform_real_distribution<double>(min_step_factor, 1.0)(*random_);
 }
 
-/// Limit of the step length if a rigid contact takes off now: a few times the duration of the shortest flight. 0: no limit.
-/// Reason: the rounding of a gap grows with the motion on the whole step, but must stay small relative to the height of the
-/// flight.
+/// Limit of the step length if a rigid contact opens at t_: a few times the duration of the shortest flight. 0: no limit.
+/// Reason: the rounding error of a gap grows with the motion on the whole step, but must stay small relative to the height of
+/// the flight.
 double ExactEngine::flights_limit() const {
   const decide::Decision& decision = *segment_.decision;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < decision.states.size(); ++c) {
     const ContactMotion& m = decision.after[c];
     if (!model_.contacts[c].takes_impulses() || !decision.states[c].is_open() || !(m.an < 0.0)) continue;
-    // If a contact leaves with g' = 0 and its leading derivative is of higher order, g'' is only rounding, and so would be the
-    // flight computed from it.
+    // If g' = 0 and the leading derivative of the gap is of higher order than two, g'' is only a rounding error, and a flight
+    // computed from g'' would be meaningless.
     const decide::GuardStart& closing = decision.guards[model_.layout.guard(c)];
     if (closing.leading_order < 0 || closing.leading_order > 1) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
   }
   if (!std::isfinite(shortest) || !(shortest > 0.0)) return 0.0;
-  return flights_a_step * shortest;
+  return step_in_flights * shortest;
 }
 
-/// Sets the weight of each degree of freedom to the reciprocal size of its motion, so that small motions keep their digits too.
+/// Sets the weight of each degree of freedom to the reciprocal size of its motion, so that the convergence test also covers
+/// small motions.
 void ExactEngine::set_weights() {
   const std::size_t n = scales_.size();
   double greatest = 0.0;
@@ -213,8 +217,8 @@ bool ExactEngine::converges(const double* a, std::size_t last, double x) const {
   return true;
 }
 
-/// True if the series of the motion and those of the forcing are valid up to x. The forcing is checked separately, because T of
-/// a sticking block depends on the load alone.
+/// True if the series of the motion and of the forcing are valid up to x. The forcing is checked separately, because T of a
+/// block that sticks rigidly depends on the load alone.
 bool ExactEngine::converges(const std::vector<double>& sizes, const motion::ForcingSeries& f,
                             double x) const {
   if (!converges(sizes.data(), degree_ + 2, x)) return false;
@@ -228,17 +232,18 @@ bool ExactEngine::converges(const std::vector<double>& sizes, const motion::Forc
 /// step, 0 to 1, on which the series is valid.
 double ExactEngine::expand(double scale) {
   motion::Series& series = motion_.whole;
-  const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
+  const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts needs two more levels
   taylor_.begin(segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v, max_levels, scale, series);
   std::size_t measured = 0;
-  for (int level = min_levels;; level = std::min(level + more_levels, max_levels)) {
+  for (int level = min_levels;; level = std::min(level + level_increment, max_levels)) {
     taylor_.extend(*segment_.forcing, level, series);
     degree_ = static_cast<std::size_t>(level - late);
     if (measured == 0) set_weights();
     measure_coefficients(measured, degree_ + 2);
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
-    // Beyond degree_ + 1, |u_(k+1)| <= |u_k|/2. So the remainder is small if the next two terms are small.
-    if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
+    // For k > degree_ + 1, |u_(k+1)| <= |u_k|/2. So the remainder is small if the two terms after degree_ are small.
+    if (degree_ >= forcing_polynomial_degree_ &&
+        growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
         converges(sizes_, series.forcing, 1.0))
       break;
     if (level == max_levels) break;
@@ -249,7 +254,8 @@ double ExactEngine::expand(double scale) {
   return x;
 }
 
-/// Bound on the remainder of a form's polynomial on [0, x]. rest: bound on the remainder of the displacements, in norm_.
+/// Bound on the remainder of a form's polynomial on [0, x]. rest: bound on the remainder of the displacements, in the norm
+/// `norm_`.
 double ExactEngine::remainder_of(const Form& form, std::size_t c, double x, double rest) const {
   const Contact& contact = model_.contacts[c];
   const double rate = static_cast<double>(degree_ + 3) / (motion_.whole.scale * x);
@@ -287,7 +293,7 @@ double ExactEngine::drift_of(const decide::GuardStart& guard, double x) const {
   return guard.drift(t_ + x * motion_.whole.scale - segment_.decision->jet.t);
 }
 
-/// First zero crossing of a guard between begin_x_ and reach_. The place x of the result is 0 at begin_x_ and 1 at reach_.
+/// First zero crossing of a guard between begin_x_ and reach_. x of the result is relative: 0 at begin_x_ and 1 at reach_.
 events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   const std::size_t c = model_.layout.contact_of_guard(slot);
@@ -297,7 +303,7 @@ events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
       contact.expand(form, reach_ - contact.origin(), events::max_root_degree, guard_.data());
   const double from = begin_x_ - contact.origin(), x = reach_ - begin_x_;
   double power = 1.0, terms = products;
-  if (from > 0.0) {  // sum of terms about the origin; bounds that about begin_x_
+  if (from > 0.0) {  // the sum of |terms| about the origin bounds the sum about begin_x_
     for (std::size_t k = 0; k <= degree; ++k, power *= reach_ - contact.origin())
       terms += std::abs(guard_[k]) * power;
     motion::shift(guard_.data(), degree, from);
@@ -314,7 +320,7 @@ events::FirstRoot ExactEngine::first_root_of(std::size_t slot) {
                        rounding + rounding_of_guard * guard.noise;
   if (active_guards_.armed(slot)) return events::first_root(guard_.data(), degree, slack);
   if (const std::size_t m = active_guards_.leading_order(slot);
-      m > 0)  // lower orders are zero by the decision
+      m > 0)  // the decision has proved that the coefficients below order m are zero
     return events::first_root(guard_.data() + m, degree - m, rounding::few_operations * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack + drift_of(guard, x);
   return events::first_root(guard_.data(), degree, 0.0);
@@ -332,15 +338,16 @@ engine::Step ExactEngine::failed(std::string reason) {
 std::string ExactEngine::failure_reason(double scale) const {
   if (growth_now_ * motion::resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
-        "the fastest motion, {:.3g} rad per unit of time, is too fast for the resolution of time here",
+        "the fastest motion, {:.3g} rad per unit of time, is too fast for the resolution of time at this "
+        "time",
         model::in_scene_units(model_, growth_now_ / FlowGrowth::margin, unit::rate));
   if (!end_.u.allFinite()) return overflow;
-  if (!(scale > 0.0)) return "the step has fallen below the resolution of time";
+  if (!(scale > 0.0)) return "the step length is below the resolution of time";
   return {};
 }
 
-/// Bound on the remainder of all displacements on [0, x], in norm_. Its terms decrease at least like those of a geometric
-/// series with ratio 1/2, so the sum is at most twice the first term.
+/// Bound on the remainder of all displacements on [0, x], in the norm `norm_`. The omitted terms decrease at least like a
+/// geometric series with ratio 1/2, so their sum is at most twice the first omitted term.
 double ExactEngine::series_remainder(double x) {
   double rest = 0.0;
   for (int k = 1; k <= 2; ++k) {
@@ -351,24 +358,24 @@ double ExactEngine::series_remainder(double x) {
   return rest;
 }
 
-/// Bound on the remainder of the displacements of a locally updated part, as in series_remainder().
+/// Bound on the remainder of the displacements in a locally updated region, by the method of series_remainder().
 double ExactEngine::local_remainder(const motion::LocalSeries::LocalExpansion& near, double x) {
   double rest = 0.0;
-  near_column_.setZero(model_.size());
+  local_column_.setZero(model_.size());
   for (int k = 1; k <= 2; ++k) {
     const auto order = static_cast<Eigen::Index>(degree_) + k;
-    near_column_(near.where->dofs) = near.series->u.col(order);
-    rest = std::max(rest, 2.0 * norm_.norm(near_column_) * std::pow(x, static_cast<double>(order)));
+    local_column_(near.where->dofs) = near.series->u.col(order);
+    rest = std::max(rest, 2.0 * norm_.norm(local_column_) * std::pow(x, static_cast<double>(order)));
   }
   return rest;
 }
 
-/// Place up to which a locally updated part is valid, at most x. The criteria are those of set_weights(),
-/// measure_coefficients() and expand() for the whole structure.
+/// Largest place, at most x, up to which the series of a locally updated region are valid. Same criteria as for the whole
+/// structure: set_weights(), measure_coefficients() and expand().
 double ExactEngine::local_radius(const motion::LocalSeries::LocalExpansion& near, double x) {
   const std::vector<int>& dofs = near.where->dofs;
   const Eigen::MatrixXd& u = near.series->u;
-  near_sizes_.assign(degree_ + 3, 0.0);
+  local_sizes_.assign(degree_ + 3, 0.0);
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     double size = 0.0;
@@ -377,11 +384,12 @@ double ExactEngine::local_radius(const motion::LocalSeries::LocalExpansion& near
     const double scale = scales_[static_cast<std::size_t>(dofs[i])];
     greatest_ = std::max(greatest_, scale * size);
     const double weight = greatest_ > 0.0 ? scale / std::max(scale * size, least_share * greatest_) : scale;
-    for (std::size_t k = 0; k < near_sizes_.size(); ++k)
-      near_sizes_[k] = std::max(near_sizes_[k], weight * std::abs(u(row, static_cast<Eigen::Index>(k))));
+    for (std::size_t k = 0; k < local_sizes_.size(); ++k)
+      local_sizes_[k] = std::max(local_sizes_[k], weight * std::abs(u(row, static_cast<Eigen::Index>(k))));
   }
   x = std::min(x, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * near.series->scale));
-  while (x > std::numeric_limits<double>::min() && !converges(near_sizes_, near.series->forcing, x)) x *= 0.9;
+  while (x > std::numeric_limits<double>::min() && !converges(local_sizes_, near.series->forcing, x))
+    x *= 0.9;
   return x;
 }
 
@@ -391,7 +399,7 @@ ExactEngine::Earliest ExactEngine::earliest_crossing() {
   for (std::size_t slot = 0; slot < active_guards_.size(); ++slot) {
     if (active_guards_.idle(slot)) continue;
     ZeroCrossing& known = crossings_[slot];
-    // A known crossing before this step was no event, by the decision made there: search again.
+    // The decision at an earlier crossing has found no event, so the search continues after this crossing.
     const bool past = known.kind != events::FirstRoot::Kind::none && known.at <= begin_x_;
     if (!known.stands || !active_guards_.armed(slot) || past) {
       const events::FirstRoot fall = first_root_of(slot);
@@ -412,7 +420,7 @@ ExactEngine::Earliest ExactEngine::earliest_crossing() {
     if (known.kind != events::FirstRoot::Kind::touch || active_guards_.idle(slot) || !(known.at < first.at))
       continue;
     if (active_guards_.armed(slot)) warn_of_touch(slot, motion_.whole.t + known.at * motion_.whole.scale);
-    known.kind = events::FirstRoot::Kind::none;  // do not warn of it again
+    known.kind = events::FirstRoot::Kind::none;  // one warning for each touch
   }
   return first;
 }
@@ -421,12 +429,12 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
   ++touches_;
   if (touches_ <= max_touches)
     warnings.push_back(fmt::format(
-        "contact '{}': its {} touches zero at {:.9g}; this precision cannot decide whether it crosses zero; "
-        "no event is recorded",
+        "contact '{}': its {} touches zero at t = {:.9g}; double precision cannot decide whether it crosses "
+        "zero, so no event is recorded",
         model_.contacts[model_.layout.contact_of_guard(slot)].name,
         contact::to_string(segment_.decision->guards[slot].kind), model::time_in_scene_units(model_, t)));
   else if (touches_ == max_touches + 1)
-    warnings.emplace_back("more guards touch zero; these are not listed");
+    warnings.emplace_back("more contacts touch zero; these touches are not listed");
 }
 
 /// Arms waiting guards that are clearly positive at the end x of a step without an event.
@@ -447,10 +455,11 @@ void ExactEngine::begin_series(double scale) {
   double x = expand(scale);
   limited_by_events_ = limited_by_events_ && x == 1.0;
   max_next_step_ = (limited_by_events_ ? much_longer : longer) * scale * x;
-  reach_time_ = t_ + scale * x;
-  if (reach_time_ > segment_.end || segment_.end - reach_time_ < 0.01 * scale * x) reach_time_ = segment_.end;
+  valid_end_time_ = t_ + scale * x;
+  if (valid_end_time_ > segment_.end || segment_.end - valid_end_time_ < 0.01 * scale * x)
+    valid_end_time_ = segment_.end;
   begin_x_ = 0.0;
-  reach_ = (reach_time_ - t_) / scale;
+  reach_ = (valid_end_time_ - t_) / scale;
   motion_.set_complete(degree_);
   if (local_series_) motion_.bound_rates(reach_);
   local_remainders_.assign(local_remainders_.size(), {series_remainder(reach_), reach_});
@@ -461,7 +470,7 @@ engine::Step ExactEngine::advance() {
   if (!std::exchange(series_continued_, false)) {
     const double remaining = segment_.end - t_;
     const double longest = 0.5 * static_cast<double>(max_levels) / growth_now_;
-    const double scale = std::min(share_of_step() * std::min(longest, max_next_step_), remaining);
+    const double scale = std::min(random_step_factor() * std::min(longest, max_next_step_), remaining);
     if (std::string why = failure_reason(scale); !why.empty()) return failed(std::move(why));
     begin_series(scale);
   }
@@ -471,7 +480,7 @@ engine::Step ExactEngine::advance() {
   step_ = {};
   step_.begin = t_;
   const double x = first.at;
-  double end = reach_time_;
+  double end = valid_end_time_;
   if (first.slot) {
     step_.kind = engine::Step::Kind::event;
     step_.triggered = {{model_.layout.contact_of_guard(*first.slot),
@@ -486,7 +495,7 @@ engine::Step ExactEngine::advance() {
   end_x_ = x;
   motion_.evaluate_at(x, end_);  // more accurate than at `end`, which is rounded
   t_ = end;
-  // During a long contact phase the rounding of g'' = 0 is integrated twice: restore g = 0 and g' = 0.
+  // A closed rigid contact satisfies only g'' = 0, whose rounding errors are integrated twice: restore g = 0 and g' = 0.
   if (!local_series_)
     motion::project_constraints(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
   return step_;

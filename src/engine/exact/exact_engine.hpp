@@ -4,14 +4,14 @@
 //   guard(x)   = sum_k g_k x^k        first root by interval bounds, engine/events/first_root.hpp
 //
 // Between events the equations of a contact state are linear with constant coefficients. The Taylor series of the motion
-// converges for all x, and |u_(k+1)| <= W s/(k+1) |u_k|, where W is the greatest growth rate of the contact state. A step is as
-// long as this bound proves convergence down to rounding, but so short that the terms do not cancel. docs/theory.md contains
-// the proof that no event is missed.
+// converges for all x, and |u_(k+1)| <= W s/(k+1) |u_k|, where W is the greatest growth rate of the contact state. A step has
+// the greatest length for which this bound proves convergence down to rounding and the terms do not cancel. docs/theory.md
+// contains the proof that no event is missed.
 //
-// The part of a series after an event is wasted, so a step that begins at an event is limited to twice the recent time between
-// events. Exception: on large structures, an event in compliant contacts changes the motion only near these contacts during a
-// step. The series is then updated there, and roots found elsewhere remain valid (motion/local_series.hpp), so one series is
-// used across several events.
+// The part of a series after an event is not used, so a step that begins at an event is limited to twice the recent time
+// between events. Exception: on large structures, an event in compliant contacts changes the motion only near these contacts
+// during a step. Then the series near these contacts is updated (motion/local_series.hpp). The roots of all other guards remain
+// valid, so one series is used across several events.
 #pragma once
 
 #include <cstdint>
@@ -61,8 +61,8 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
  private:
   [[nodiscard]] double flights_limit() const;
   void choose_first_step();
-  [[nodiscard]] double paced_length() const;
-  [[nodiscard]] double share_of_step();
+  [[nodiscard]] double length_by_event_rate() const;
+  [[nodiscard]] double random_step_factor();
   void set_weights();
   void measure_coefficients(std::size_t first, std::size_t last);
   [[nodiscard]] bool converges(const double* a, std::size_t last, double x) const;
@@ -79,11 +79,11 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] double series_remainder(double x);
   [[nodiscard]] double drift_of(const decide::GuardStart& guard, double x) const;
   [[nodiscard]] events::FirstRoot first_root_of(std::size_t slot);
-  /// The guard that reaches zero first among all guards, and the place in the series.
+  /// The guard that reaches zero first (nullopt: none), and the place of its zero in motion_.
   struct Earliest {
     std::optional<std::size_t> slot;
     double at = 1.0;
-    bool not_finite = false;  // the motion is not finite
+    bool not_finite = false;  // the motion has overflowed
   };
   [[nodiscard]] Earliest earliest_crossing();
   void warn_of_touch(std::size_t slot, double t);
@@ -103,10 +103,10 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   PatchedSeries motion_;
   std::optional<motion::LocalSeries> local_series_;  // nullopt: no local updates
   contact::ContactStates states_;  // contact states of the segment, if local_series_ is used
-  bool series_continued_ = false;  // the segment begins within motion_
+  bool series_continued_ = false;  // true: the next step continues the series motion_
   double begin_x_ = 0.0;           // beginning of the step, as a place in motion_
-  double reach_ = 0.0;             // end of the valid range of motion_, as a place in it
-  double reach_time_ = 0.0;        // time of the place reach_
+  double reach_ = 0.0;             // place in motion_ at which its valid range ends
+  double valid_end_time_ = 0.0;    // time of the place reach_
   /// Bound `rest` on the remainder of the displacements near a contact, in norm_, up to the distance x from the origin of the
   /// contact's polynomials.
   struct LocalRemainder {
@@ -116,15 +116,15 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   /// Result of the search for the first zero crossing of a guard in motion_.
   struct ZeroCrossing {
     events::FirstRoot::Kind kind = events::FirstRoot::Kind::none;
-    bool stands = false;  // the search was made while the guard was armed, so its result remains valid
+    bool stands = false;  // the guard was armed at the search, so the result is valid for the whole series
     double at = 0.0;
   };
   std::vector<ZeroCrossing> crossings_;
   events::ActiveGuards active_guards_;
-  std::vector<double> scales_, weights_, sizes_, guard_, near_sizes_;
-  Vector near_column_;
-  double greatest_ = 0.0;       // greatest displacement, in units of scales_
-  std::size_t polynomial_ = 0;  // greatest polynomial degree in the forcing
+  std::vector<double> scales_, weights_, sizes_, guard_, local_sizes_;
+  Vector local_column_;
+  double greatest_ = 0.0;                      // greatest displacement, in units of scales_
+  std::size_t forcing_polynomial_degree_ = 0;  // greatest polynomial degree in the forcing
   int touches_ = 0;
   std::optional<std::mt19937_64> random_;  // generator of random step lengths
   motion::Point end_;                      // end of the last step
@@ -132,9 +132,9 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   double max_next_step_ = 0.0;   // limit of the length of the next step
   double segment_begin_ = 0.0;   // beginning of the segment
   double event_interval_ = 0.0;  // mean time between recent events; 0: none
-  bool limited_by_events_ =
-      false;  // event_interval_ limits the steps, because all series of this segment were long enough
-  double end_x_ = 0.0;  // end of the last step, as a place in its series
+  // event_interval_ limits the steps, because all series of this segment were long enough.
+  bool limited_by_events_ = false;
+  double end_x_ = 0.0;  // end of the last step, as a place in motion_
   engine::Step step_;
   SeriesWorkIntegrals works_;
   events::TurningPointDetector turns_;

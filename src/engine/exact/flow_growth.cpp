@@ -12,8 +12,8 @@ namespace signorini::exact {
 namespace {
 
 constexpr int probe_levels = 20;
-constexpr double max_bound_increase =
-    0.1;  // limit of the sum, relative to W_0^2: steps are at most 5 % shorter; chosen
+// Limit of the bound's increase over W_0^2, relative to W_0^2; chosen: it makes steps at most 5 % shorter.
+constexpr double max_bound_increase = 0.1;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ double FlowGrowth::growth_rate(const motion::StateSystemPtr& system) {
   return near_rate_;
 }
 
-/// Bound on the change of W^2 if contact c changes its state: the contact's term of the sum in flow_growth.hpp.
+/// Bound on the change of W^2 if contact c changes its state: term of this contact in the sum of flow_growth.hpp.
 double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) {
   double& known = stiffenings_[c];
   if (known >= 0.0) return known;
@@ -55,8 +55,8 @@ double FlowGrowth::stiffening(const motion::StateSystem& system, std::size_t c) 
   return known = kn * (n + friction * t) * norm_.normal(c) + kt * t * norm_.tangent(c);
 }
 
-/// Upper bound of the growth rate from that of near_states_, if few compliant contacts differ. nullopt: the states differ too
-/// much.
+/// Upper bound of the growth rate, from the growth rate of near_states_, if few compliant contacts differ. nullopt: the states
+/// differ too much.
 std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& system) {
   if (near_states_.empty() || !system.factorised().by_mass) return std::nullopt;
   stiffenings_.resize(near_states_.size(), -1.0);
@@ -65,7 +65,7 @@ std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& sys
   for (std::size_t c = 0; c < near_states_.size(); ++c) {
     if (system.states()[c].state == near_states_[c]) continue;
     const Contact& contact = model_.contacts[c];
-    // Rows on accelerations, dashpots and forces without constant stiffness change the growth in other ways.
+    // The bound does not include rigid rows, dashpots, and forces without constant stiffness.
     if (contact.normal_damping > 0.0 || !contact.has_constant_stiffness() || contact.takes_impulses() ||
         contact.sticks_rigidly() || contact.friction.is_rate_dependent())
       return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<double> FlowGrowth::bound_from_near(const motion::StateSystem& sys
 double FlowGrowth::rate_from_series(const motion::StateSystemPtr& system) {
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
-  std::mt19937_64 random(1);  // the same motion in every run
+  std::mt19937_64 random(1);  // fixed seed, so that the motion is the same in every run
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (Eigen::Index i = 0; i < n; ++i) {
     u[i] = uniform(random) / scales_[static_cast<std::size_t>(i)];
@@ -124,7 +124,7 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
 }
 
 double FlowNorm::norm(const Eigen::Ref<const Vector>& x) {
-  const double size = x.cwiseAbs().maxCoeff();  // scaling by it prevents the overflow of squares
+  const double size = x.cwiseAbs().maxCoeff();  // x / size prevents an overflow of squares
   if (!(size > 0.0) || !std::isfinite(size)) return size;
   product_.noalias() = g_ * (x / size);
   return size * std::sqrt(std::max(0.0, x.dot(product_) / size));

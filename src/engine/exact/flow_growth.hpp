@@ -5,7 +5,7 @@
 // The growth rate W of a contact state is computed from twenty levels of a series. On large structures most states differ from
 // a known state, with rate W_0, in few compliant contacts. In the norm FlowNorm,
 //   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
-// This bound is used instead of a new series as long as the sum is small.
+// The right-hand side is used as W^2 as long as the sum is small, which saves a new series.
 #pragma once
 
 #include "contact/contact_states.hpp"
@@ -36,7 +36,7 @@ class FlowNorm {
   Vector product_;
 };
 
-/// Limits of the cache of growth rates. Large, because a rate takes a series to compute but only a few bytes to store.
+/// Limits of the cache of growth rates: number and bytes. Large, because one rate needs a whole series but only a few bytes.
 inline constexpr base::CacheLimits max_growth_rates{16384, std::size_t{1} << 20};
 
 class FlowGrowth {
@@ -62,7 +62,7 @@ class FlowGrowth {
   const std::vector<double>& scales_;
   const double fastest_;  // bound on the rates of the structure, used for scaling
   base::LruCache<std::vector<State>, double> known_{max_growth_rates};
-  std::vector<State> near_states_;   // last states whose growth was computed from a series; empty: none
+  std::vector<State> near_states_;   // last states whose growth rate was computed from a series; empty: none
   double near_rate_ = 0.0;           // growth rate of near_states_
   std::vector<double> stiffenings_;  // one for each contact; negative: unknown
 };

@@ -19,11 +19,11 @@ SIGNORINI_WIDE_LANES void horner(double* sum, const double* x, const double* a, 
   for (; i < n; ++i) sum[i] = sum[i] * x[i] + factor * a[i];
 }
 
-/// For up to this number of entries, each sum is computed separately, because loops over few entries take longer than their
+/// Up to this number of entries, each sum is computed separately, because loops over so few entries take longer than their
 /// arithmetic.
 constexpr std::size_t few = 4;
 
-/// Sum of factors_k a_k x^k, k = 0 .. degree; factors are 1 in the second version. The a_k are `stride` apart in memory.
+/// Sum of factors_k a_k x^k, k = 0 .. degree; all factors are 1 in the second overload. a_k is a[k * stride].
 double sum_at(double x, const double* a, std::size_t stride, std::size_t degree, const double* factors) {
   double sum = 0.0;
   for (std::size_t k = degree + 1; k-- > 0;) sum = sum * x + factors[k] * a[k * stride];

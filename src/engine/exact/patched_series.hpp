@@ -21,9 +21,9 @@ class PatchedSeries {
  public:
   explicit PatchedSeries(const Model& model);
 
-  /// Series of the whole structure. The owner of this object fills it and then calls set_complete().
+  /// Series of the whole structure. The owner of this object fills `whole` and then calls set_complete().
   motion::Series whole;
-  /// Call it when `whole` is filled. degree: u, v, a and forces are complete up to this degree, which is at most
+  /// Call set_complete() after `whole` has been filled. degree: u, v, a and forces are complete up to this degree; at most
   /// max_root_degree.
   void set_complete(std::size_t degree);
   /// Replaces the series of the degrees of freedom and forces in `near` by expansions about x, valid on [x, x + reach].
@@ -38,12 +38,12 @@ class PatchedSeries {
   /// Origin o_i of each degree of freedom. Empty: all origins are zero.
   [[nodiscard]] const std::vector<double>& origins() const { return origins_; }
 
-  /// Write the coefficients of an expansion about x: whole.levels + 3 numbers for a degree of freedom, whole.levels + 1 for a
-  /// force.
+  /// Writes the coefficients of an expansion about x to `out`: whole.levels + 3 numbers for a degree of freedom, and
+  /// whole.levels + 1 numbers for a force.
   void displacement(int dof, double x, double* out) const;
   void force(std::size_t slot, double x, double* out) const;
 
-  /// Evaluates u, v and forces at the place x; evaluate_at() also accelerations.
+  /// Evaluates u, v and forces at the place x. evaluate_at() also evaluates the accelerations.
   void evaluate_without_accelerations(double x, motion::Point& point) const;
   void evaluate_at(double x, motion::Point& point) const;
   /// Evaluates u, v and forces of one contact only; the results are bitwise equal to those of the whole evaluation.
@@ -55,8 +55,8 @@ class PatchedSeries {
 
   const Model& model_;
   std::size_t degree_ = 0;
-  std::array<double, events::max_root_degree + 1> to_rate_{},
-      to_acceleration_{};  // (k + 1)/s, (k + 1) (k + 2)/s^2
+  // (k + 1)/s, and (k + 1) (k + 2)/s^2
+  std::array<double, events::max_root_degree + 1> to_rate_{}, to_acceleration_{};
   std::vector<motion::ContactSeries> contacts_;
   std::vector<double> origins_, force_origins_;              // empty: all origins are zero
   mutable std::vector<double> dof_offsets_, force_offsets_;  // x - o_i; work arrays

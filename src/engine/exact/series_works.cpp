@@ -35,10 +35,10 @@ const GaussRule& short_gauss_rule() {
 
 namespace {
 
-constexpr std::size_t block = 16;  // number of degrees of freedom whose coefficients fit into the cache
+constexpr std::size_t block = 16;  // degrees of freedom per block: their coefficients fit into the cache
 
-/// Velocities of a block of degrees of freedom at several times. a: coefficients of order 0; those of order k are k * stride
-/// further. at: place in the series for each time and degree of freedom.
+/// Computes velocities v of a block of degrees of freedom at several times. a[k * stride + j]: coefficient k of degree of
+/// freedom j. at: place in the series for each time and degree of freedom.
 SIGNORINI_WIDE_LANES void velocities_of_block(const double* a, std::size_t stride, std::size_t degree,
                                               double scale, const double* at, std::size_t times, double* v) {
   constexpr std::size_t lanes = 4;
@@ -62,15 +62,15 @@ SeriesWorkIntegrals::SeriesWorkIntegrals(const Model& model, const linear::Syste
       structure_(structure),
       damped_(std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; })) {}
 
-/// Computes velocities if the degrees of freedom have different origins.
+/// Computes velocities_ if the series of the degrees of freedom have different origins.
 void SeriesWorkIntegrals::velocities_of_pieces(const Nodes& x, std::size_t count,
                                                const PatchedSeries& motion) {
   const Eigen::MatrixXd& u = motion.whole.u;
   const auto n = static_cast<std::size_t>(u.rows());
   std::array<double, block * nodes> at{}, v{};
   for (std::size_t done = 0; done < n; done += block) {
-    const std::size_t first =
-        n < block ? 0 : std::min(done, n - block);  // the last block overlaps the previous block
+    // The last block overlaps the previous block.
+    const std::size_t first = n < block ? 0 : std::min(done, n - block);
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t j = 0; j < block; ++j) at[i * block + j] = x[i] - motion.origins()[first + j];
     velocities_of_block(u.data() + first, n, motion.degree(), motion.whole.scale, at.data(), count, v.data());
@@ -140,7 +140,7 @@ void SeriesWorkIntegrals::add(const contact::ContactStates& states, const motion
       const auto gap = [&](double t) {
         return contacts[c].value(motion::ContactSeries::gap, (t - series.t) / series.scale);
       };
-      works.damping += contact::inside_loss(contact, state.state, gap(from), gap(to));
+      works.damping += contact::dashpot_loss_inside(contact, state.state, gap(from), gap(to));
     }
     if (state.is_open()) continue;
     if (!contact.normal_force_given()) {
@@ -186,8 +186,8 @@ void SeriesWorkIntegrals::add_contact(std::size_t c, const motion::Forcing& forc
   }
 }
 
-/// Adds the work of the restoring force of a curved surface (that beyond its spring) to the work of the loads, also while the
-/// contact is open.
+/// Adds the work of restoring_force(), the part of a curved surface's force that is not a linear spring, to the work of the
+/// loads, also while the contact is open.
 void SeriesWorkIntegrals::add_curved_surface(std::size_t c, const motion::Forcing& forcing,
                                              const motion::Series& series, const motion::ContactSeries& path,
                                              std::size_t degree, double from, double to,

@@ -1,4 +1,4 @@
-// series_works.hpp: works and dissipations on a step of ExactEngine, also for the short flights of engine `ida`.
+// series_works.hpp: works and dissipated energies on a step of ExactEngine, also for the short flights of engine `ida`.
 //
 //   integral of P . v, v^T C v, T p', -T s'    Gauss-Legendre on the step's polynomials (motion/point.hpp)
 #pragma once
@@ -15,8 +15,8 @@ namespace signorini::exact {
 //
 //   int_0^1 f = sum_i w_i f(x_i), exact for polynomials of degree 2 count - 1
 //
-// The remainder is (count!)^4 / ( (2 count + 1) (2 count)!^3 ) f^(2 count). With six nodes it is 2e-16 if the phase angle of
-// the motion on the interval is at most 0.5 rad. That of the power is then up to 1 rad.
+// The remainder is (count!)^4 / ( (2 count + 1) (2 count)!^3 ) f^(2 count). With six nodes the remainder is 2e-16 if the phase
+// angle of the motion on the interval is at most 0.5 rad (at most 1 rad for its power).
 
 struct GaussRule {
   static constexpr std::size_t nodes = 12;
@@ -35,7 +35,8 @@ class SeriesWorkIntegrals {
 
   static constexpr std::size_t nodes = GaussRule::nodes;
 
-  /// Adds the works between the times `from` and `to` of the series. growth: upper limit of the motion's rate, rad per time.
+  /// Adds the works between the times `from` and `to` of the series. growth: upper bound of the highest circular frequency of
+  /// the motion, rad per time.
   void add(const contact::ContactStates& states, const motion::Forcing& forcing, const PatchedSeries& motion,
            double growth, double from, double to, motion::WorkIntegrals& works);
 

@@ -20,33 +20,35 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int max_retries = 4;         // restarts, each with a tenth of the first step, before the run fails
-constexpr double surface_step = 0.25;  // longest step, as phase angle of a surface's oscillation: error 1e-7
+// Limit of the number of restarts after a failed first step. Each restart divides the length of the first step by ten.
+constexpr int max_retries = 4;
+constexpr double surface_step = 0.25;  // longest step as a phase angle of a surface's motion, rad: error 1e-7
 // First step as a fraction of the longest step whose local error is accepted. After a rebound, the error of the order-one start
 // remains in the gap for the whole flight, and every impact adds such an error. So scenes with rigid contacts use a shorter
-// first step: five more steps per start, ten times smaller errors (measured in case 04a).
+// first step: each start takes five more steps, but the errors are ten times smaller (measured in case 04a).
 constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
-// `part` in restart_order.hpp. Chosen between 0.1 and 0.4: this value has the smallest error for a growing and for a damped
-// motion at eight tolerances (docs/decisions/ida-restart-order.md). Within this range the number of steps changes by a tenth.
-constexpr double rehearsed_part = 0.2;
+// `part` in restart_order.hpp. Of the values from 0.1 to 0.4, this one has the smallest error for a growing and for a damped
+// motion at eight tolerances (docs/decisions/ida-restart-order.md). The number of steps differs by a tenth in this range.
+constexpr double jet_step_part = 0.2;
 // Longest step before a segment, as a fraction of the segment. The segment then has several steps even if the polynomials of
-// the jet are exact and would admit any step.
-constexpr double longest_rehearsed = 0.0625;
-constexpr double least_rehearsed =
-    1e3 * std::numeric_limits<double>::epsilon();  // shortest step relative to the time; IDA requires 100 eps
-constexpr double no_error_test =
-    1e-15;  // factor on the weights before a segment, so that no error test fails
+// the jet are exact for any step length.
+constexpr double longest_jet_step = 0.0625;
+// Shortest step before a segment, relative to the time; IDA requires at least 100 eps.
+constexpr double shortest_jet_step = 1e3 * std::numeric_limits<double>::epsilon();
+// Factor on the error weights in the steps before a segment. It is so small that no error test fails.
+constexpr double no_error_test = 1e-15;
 
-constexpr double sharp_newton =
-    1e-3;  // Newton's convergence limit relative to the tolerance; IDA's default is 1/3
+// Limit for the convergence of Newton's method, relative to the tolerance; IDA's default is 1/3.
+constexpr double sharp_newton = 1e-3;
 
 void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(fmt::format("{} failed ({})", what, flag));
 }
 
-/// Converts the times in a message of IDA, such as "t = 0.5" and "h = 1e-9". unit: internal unit of time in scene units.
-std::string with_times_in(std::string text, double unit) {
+/// Converts the times in a message of IDA, such as "t = 0.5" and "h = 1e-9", to scene units. unit: internal unit of time in
+/// scene units.
+std::string convert_times(std::string text, double unit) {
   for (const char* name : {"t = ", "h = "}) {
     const std::size_t at = text.find(name);
     if (at == std::string::npos) continue;
@@ -91,9 +93,9 @@ struct BdfIntegrator::Memory {
     IDASetMaxNumSteps(ida, -1);
     IDASetMaxOrd(ida, max_order);
     // Factorise at every change of cj: Newton's method is then exact for linear systems, and the contact rows are satisfied up
-    // to rounding. IDA's default gives a 3 to 4 times larger error of the energy, and more steps (measured).
+    // to rounding. With IDA's default, the error of the energy is 3 to 4 times as large, and more steps are needed (measured).
     IDASetDeltaCjLSetup(ida, 0.0);
-    // Nonlinear rows (rate-dependent friction, products) are satisfied only as accurately as Newton's method converges.
+    // The error of nonlinear rows (rate-dependent friction, products) is that of Newton's method.
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
                     [](const Contact& c) { return !c.is_linear(); }))
       IDASetNonlinConvCoef(ida, sharp_newton);
@@ -101,7 +103,7 @@ struct BdfIntegrator::Memory {
     const bool is_hit = std::any_of(model.contacts.begin(), model.contacts.end(),
                                     [](const Contact& c) { return c.takes_impulses(); });
     if (is_hit) start_part = first_step_part_of_flights;
-    rehearses = in_closed_form(model) && !is_hit;
+    uses_jet_steps = in_closed_form(model) && !is_hit;
     directions.assign(problem.slots(), -1);
     found.assign(problem.slots(), 0);
   }
@@ -129,12 +131,12 @@ struct BdfIntegrator::Memory {
     double h = m->first;
     if (IDAGetNumSteps(m->ida, &steps) == IDA_SUCCESS && steps > 0) IDAGetLastStep(m->ida, &h);
     m->problem.weights(NV_DATA_S(y), h > 0.0 ? 1.0 / h : 0.0, NV_DATA_S(w));
-    if (m->rehearsing) N_VScale(no_error_test, w, w);
+    if (m->in_jet_steps) N_VScale(no_error_test, w, w);
     return 0;
   }
   static int roots(realtype t, N_Vector y, N_Vector yp, realtype* g, void* self) {
     auto* m = static_cast<Memory*>(self);
-    if (m->rehearsing) {
+    if (m->in_jet_steps) {
       std::fill(g, g + m->problem.slots(), 1.0);
       return 0;
     }
@@ -153,8 +155,8 @@ struct BdfIntegrator::Memory {
     static_cast<Memory*>(self)->message = text;
   }
 
-  /// Starts IDA with the first step h0. steps = 0: at the segment's beginning. Otherwise `steps` steps of length h0 earlier;
-  /// the solutions of these steps are those of the jet.
+  /// Starts IDA with the first step h0, a time steps * h0 before the segment's beginning, and takes the `steps` steps up to
+  /// this beginning with solutions from the jet.
   void begin(double h0, int steps = 0) {
     const double before = steps * h0;
     problem.evaluate_jet(*start, -before, 0, NV_DATA_S(y));
@@ -163,56 +165,56 @@ struct BdfIntegrator::Memory {
     IDASetInitStep(ida, h0);
     first = h0;
     IDASetStopTime(ida, segment.end);
-    // Surface motions are not part of y, so IDA's error test does not limit the step for them. But the polynomials of the
-    // guards must resolve them.
+    // The polynomials of the guards must resolve the surface motions. These are not part of y, so IDA's error test does not
+    // limit the step accordingly.
     const double shaking = segment.forcing->surface_omega();
     const double longest = shaking > 0.0 ? surface_step / shaking : 0.0;
     IDASetMaxStep(ida, steps > 0 ? h0 : longest);
-    // Restart the root search: otherwise IDA ignores guards that were zero in the last segment.
+    // Restart the root search. Otherwise IDA ignores guards that were zero at the end of the last segment.
     IDARootInit(ida, 0, nullptr);
     IDARootInit(ida, static_cast<int>(problem.slots()), &Memory::roots);
     if (!directions.empty()) IDASetRootDirection(ida, directions.data());
     t_previous = start->t;
     reported_end = start->t;
-    if (steps > 0) rehearse(steps);
+    if (steps > 0) take_jet_steps(steps);
     IDASetMaxStep(ida, longest);
   }
 
-  /// Takes IDA's steps before the segment, up to its beginning. These steps cannot fail: error tests are disabled, and each
-  /// step is far longer than the resolution of time.
-  void rehearse(int steps) {
-    rehearsing = true;
+  /// Takes IDA's steps before the segment, up to the beginning of the segment. These steps cannot fail: error tests are
+  /// disabled, and each step is far longer than the resolution of time.
+  void take_jet_steps(int steps) {
+    in_jet_steps = true;
     newton->prescribe_jet(start);
     double t = 0.0;
     for (int i = 0; i < steps; ++i)
       check(IDASolve(ida, segment.end + std::abs(segment.end), &t, y, yp, IDA_ONE_STEP), "IDASolve");
     newton->prescribe_jet(nullptr);
-    rehearsing = false;
+    in_jet_steps = false;
   }
 
-  /// Steps to take before the segment, or none and the length of the first step. None in three cases: user functions, which are
-  /// not defined before the segment; steps near the resolution of time; and rigid contacts, whose ever shorter flights need
-  /// shorter steps than the error test requires at any order.
+  /// Number (RestartOrder::order) and length of the steps before the segment, or 0 and the length of the first step. 0 in three
+  /// cases: user functions, which are not defined before the segment; step lengths near the resolution of time; and rigid
+  /// contacts, whose ever shorter flights need shorter steps than the error test requires at any order.
   [[nodiscard]] RestartOrder past() {
-    if (rehearses)
-      if (const RestartOrder r = rehearsal(); r.length > least_rehearsed * std::abs(start->t)) return r;
+    if (uses_jet_steps)
+      if (const RestartOrder r = jet_steps(); r.length > shortest_jet_step * std::abs(start->t)) return r;
     return {0, first_step()};
   }
-  [[nodiscard]] RestartOrder rehearsal() {
+  [[nodiscard]] RestartOrder jet_steps() {
     problem.fill(*start, 0, NV_DATA_S(y));
     problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
     const double shaking = segment.forcing->surface_omega();
-    double h = longest_rehearsed * (segment.end - start->t);
+    double h = longest_jet_step * (segment.end - start->t);
     if (shaking > 0.0) h = std::min(h, surface_step / shaking);
     constexpr std::size_t order = RestartOrder::order + 1;
     problem.fill(*start, order, NV_DATA_S(yp));
     if (const double norm = N_VWrmsNorm(yp, work); norm > 0.0)
-      h = std::min(h, rehearsed_part * std::pow(order / norm, 1.0 / order));
+      h = std::min(h, jet_step_part * std::pow(order / norm, 1.0 / order));
     return {RestartOrder::order, h};
   }
 
-  /// Length h of the first step for a start at order one: every term h^k y^(k)/k!, k > 1, of the error is at most start_part^k
-  /// tolerances. If the solution is constant, h is the rest of the segment.
+  /// Length h of the first step for a start at order one: every error term h^k y^(k)/k!, k > 1, is at most start_part^k
+  /// tolerances. If the solution is constant, h is the length of the segment.
   double first_step() {
     const double remaining = segment.end - start->t;
     double h = remaining;
@@ -233,8 +235,8 @@ struct BdfIntegrator::Memory {
 
   /// Corrects the velocities of massless degrees of freedom in y' at t, by one Newton step with the matrix of the last step.
   /// Reason: the derivative of a step's polynomial is one order less accurate than the polynomial; after a restart its error is
-  /// h u''/2. Solving C v = P - K u - ... for v alone would amplify the error of u by K/C. The Newton step avoids this: for
-  /// C < h K it hardly changes the derivative.
+  /// h u''/2. Solving C v = P - K u - ... for v alone would amplify the error of u by K/C. The Newton step does not amplify
+  /// this error: for C < h K it hardly changes the derivative.
   void correct_massless_rates(double t) {
     double *derivative = NV_DATA_S(yp), *change = NV_DATA_S(work);
     const double cj = problem.linear().cj();
@@ -270,8 +272,8 @@ struct BdfIntegrator::Memory {
     }
   }
 
-  /// Continues to the next step after a root that was no event. Skips IDA's stops at further roots and at the end of the same
-  /// step, because the polynomials of this step have already been examined.
+  /// Continues to the next step after a root that was no event. IDA's further stops in the same step are skipped, because the
+  /// polynomials of this step have already been examined.
   int leave_step(int flag, double far, double& t) {
     for (double end = 0.0; flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN;
          flag = IDASolve(ida, far, &t, y, yp, IDA_ONE_STEP)) {
@@ -288,7 +290,7 @@ struct BdfIntegrator::Memory {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver solver = nullptr;
   std::unique_ptr<StepNewton> newton;
-  bool rehearses = true;
+  bool uses_jet_steps = true;
   double start_part = first_step_part;
   double first = 0.0;  // length of the first step of the segment
   std::vector<int> directions;
@@ -298,13 +300,13 @@ struct BdfIntegrator::Memory {
   double unit_of_time;
   double t_previous = 0.0;      // beginning of the last accepted step
   double reported_end = 0.0;    // end of the last returned step
-  double evaluated_time = 0.0;  // time of y and yp
-  bool rehearsing = false;      // IDA takes steps before the segment: solutions are those of the jet
-  bool rooted = false;          // the last returned step ended at a root
+  double evaluated_time = 0.0;  // time to which the values in y and yp belong
+  bool in_jet_steps = false;    // IDA takes the steps before the segment, with solutions from the jet
+  bool ended_at_root = false;   // the last returned step ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
   std::array<long, events::max_degree + 1> steps_by_order{};  // steps since the last count()
-  Counters counted;                                           // IDA's counts since its last restart
+  Counters counted;  // IDA's counts since its restart that were already added
 };
 
 BdfIntegrator::BdfIntegrator(const Model& model, const linear::SystemMatrices& structure,
@@ -324,7 +326,7 @@ RestartOrder BdfIntegrator::start(const engine::Segment& segment, const motion::
   const RestartOrder past = m_->past();
   m_->begin(past.length, past.steps);
   m_->counted = Counters{};
-  m_->rooted = false;
+  m_->ended_at_root = false;
   ++counters_.restarts;
   return past;
 }
@@ -332,10 +334,10 @@ RestartOrder BdfIntegrator::start(const engine::Segment& segment, const motion::
 BdfStep BdfIntegrator::advance() {
   BdfStep step;
   double t = 0.0;
-  // In one-step mode IDA uses its argument tout only to choose a first step, so any late time will do.
+  // In one-step mode, IDA uses the argument tout only to choose a first step, so tout may be any later time.
   const double far = m_->segment.end + (m_->segment.end - m_->t_previous) + std::abs(m_->segment.end);
   int flag = IDASolve(m_->ida, far, &t, m_->y, m_->yp, IDA_ONE_STEP);
-  if (flag >= 0 && m_->rooted) flag = m_->leave_step(flag, far, t);
+  if (flag >= 0 && m_->ended_at_root) flag = m_->leave_step(flag, far, t);
   const bool first = m_->reported_end == m_->start->t;
   double h0 = 0.0;
   for (int retry = 0; flag < 0 && first && retry < max_retries; ++retry) {
@@ -351,7 +353,7 @@ BdfStep BdfIntegrator::advance() {
     step.kind = BdfStep::Kind::failed;
     step.begin = step.end = m_->reported_end;
     step.reason =
-        fmt::format("IDA cannot continue: {}: {}", name, with_times_in(m_->message, m_->unit_of_time));
+        fmt::format("IDA cannot continue: {}: {}", name, convert_times(m_->message, m_->unit_of_time));
     std::free(name);
     return step;
   }
@@ -359,15 +361,15 @@ BdfStep BdfIntegrator::advance() {
   IDAGetLastStep(m_->ida, &step.length);
   double end = 0.0;
   IDAGetCurrentTime(m_->ida, &end);
-  if (flag == IDA_TSTOP_RETURN) end = t;  // the exact stop time; IDA's current time may differ by rounding
+  if (flag == IDA_TSTOP_RETURN) end = t;  // the stop time itself; IDA's current time may differ by rounding
   step.begin = m_->reported_end;
   step.end = end;
   m_->reported_end = end;
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
-  // IDA's y' does not contain accurate velocities of massless degrees of freedom: NaN makes evaluate() compute them.
+  // In IDA's y' the velocities of massless degrees of freedom are inaccurate. NaN makes evaluate() compute them again.
   m_->evaluated_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
-  m_->rooted = flag == IDA_ROOT_RETURN;
-  if (m_->rooted) {
+  m_->ended_at_root = flag == IDA_ROOT_RETURN;
+  if (m_->ended_at_root) {
     step.kind = BdfStep::Kind::root;
     step.root = t;
     std::vector<int>& found = m_->found;
@@ -401,8 +403,8 @@ ContactMotion BdfIntegrator::correction(std::size_t contact) const {
 }
 
 double BdfIntegrator::residual() {
-  // The equations are satisfied by y' of the BDF formula, y' = y'_predicted + cj (y - y_predicted), but not by the derivative
-  // of the interpolating polynomial, which IDA returns.
+  // y' of the BDF formula, y' = y'_predicted + cj (y - y_predicted), satisfies the equations. The derivative of the
+  // interpolating polynomial, which IDAGetDky returns, does not.
   double end = 0.0, cj = 0.0;
   N_Vector y_predicted = nullptr, yp_predicted = nullptr, y = nullptr, yp = nullptr, r = nullptr;
   void* data = nullptr;

@@ -6,8 +6,8 @@
 //
 // y = [u, v, N, T]. A degree of freedom without mass has no v and no first equation; u' is its velocity in the second equation,
 // and the system has index 1. The contact rows of a segment stay in use until the next segment starts, even after an event.
-// Guards are IDA's root functions: they are positive before their event, only downward crossings are reported, and guards that
-// are idle or not armed are set to +1.
+// Guards are IDA's root functions: a guard is positive before its event, and IDA reports only downward crossings. The root
+// function of a guard that is idle or not armed is +1.
 #pragma once
 
 #include <memory>
@@ -19,13 +19,13 @@
 
 namespace signorini::ida {
 
-/// A step of IDA. Zero crossings inside the step that IDA does not report are not yet found.
+/// A step of IDA. Guards may have further zero crossings in the step, which IDA does not report.
 struct BdfStep {
   enum class Kind { accepted, root, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;  ///< ends of the accepted step
   double root = 0.0;              ///< Kind::root: time at which a guard reached zero, begin < root <= end
   std::vector<decide::TriggeredGuard> triggered;  ///< guards that reached zero; only for Kind::root
-  double length = 0.0;                            ///< step length by IDA, without the rounding of end - begin
+  double length = 0.0;                            ///< IDA's step length, without the rounding of end - begin
   int order = 1;                                  ///< degree of the solution's polynomial on the step
   std::string reason;                             ///< reason of the failure; only for Kind::failed
 };
@@ -39,8 +39,9 @@ class BdfIntegrator {
   BdfIntegrator(const BdfIntegrator&) = delete;
   BdfIntegrator& operator=(const BdfIntegrator&) = delete;
 
-  /// Starts a segment. jet: complete jet at its beginning; watch: knows which guards are armed. Both must stay valid until the
-  /// next start. Returns the steps that IDA has taken along the jet before the segment (restart_order.hpp).
+  /// Starts a segment. jet: complete jet at the segment's beginning; watch: monitor that stores which guards are armed. Both
+  /// must stay valid until the next start. Returns the steps that IDA has taken along the jet before the segment
+  /// (restart_order.hpp).
   RestartOrder start(const engine::Segment& segment, const motion::Jet& jet,
                      const events::GuardMonitor& watch);
   [[nodiscard]] BdfStep advance();

@@ -12,12 +12,12 @@
 namespace signorini::ida {
 namespace {
 
-constexpr int most = 6;  // most vectors in a linear combination: order 5 has six differences
+constexpr int most = 6;  // number of vectors in a linear combination, at most: order 5 has six differences
 
 using Index = sunindextype;
 
-/// Computes z_j = sum_i f_i x_ij. T: Double4, or double for the remaining entries. z may be the same vector as x_0, but no
-/// other.
+/// Computes z_j = sum_i f_i x_ij. T: Double4, or double for the remaining entries. z may be the same vector as x_0, but not the
+/// same as another x_i.
 template <class T, int count>
 [[gnu::always_inline]] inline void combined(const double* f, const double* const* x, Index j, double* z) {
   T sum = f[0] * base::lanes_at<T>(x[0] + j).v;
@@ -80,7 +80,7 @@ SIGNORINI_WIDE_LANES void linear_sum(double a, N_Vector x_vector, double b, N_Ve
   const double *x = NV_DATA_S(x_vector), *y = NV_DATA_S(y_vector);
   double* z = NV_DATA_S(z_vector);
   Index j = 0;
-  if (a == 1.0) {  // the case of all sums in IDA's steps
+  if (a == 1.0) {  // fast path: a is 1 in all sums of IDA's steps
     for (; j + 3 < n; j += 4)
       base::lanes_at<base::Double4>(z + j).v =
           base::lanes_at<base::Double4>(x + j).v + b * base::lanes_at<base::Double4>(y + j).v;
@@ -124,8 +124,8 @@ template <class T, int count>
   if constexpr (count > 5) base::lanes_at<T>(x[5] + j).v = sum += base::lanes_at<T>(x[5] + j).v;
 }
 
-/// Updates IDA's differences `vectors` = [phi_q, ..., phi_0] by the correction e: to each vector, the updated
-/// vector before it is added.
+/// Updates IDA's differences `vectors` = [phi_q, ..., phi_0]: adds the correction e to phi_q, and to each other vector the
+/// updated vector before it in the list.
 template <int count>
 [[gnu::always_inline]] inline void cascade(const double* e, N_Vector* vectors, Index n) {
   std::array<double*, count> x{};

@@ -48,7 +48,7 @@ IdaEngine::IdaEngine(const Model& model, const linear::SystemMatrices& structure
       flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
-    accelerations_ = accelerations_ || contact.normal_damping > 0.0;
+    guards_need_accelerations_ = guards_need_accelerations_ || contact.normal_damping > 0.0;
   resolves_low_flights = follows_low_flights(model);
 }
 
@@ -67,8 +67,8 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion& m = motions_[k] = motion::motion_of(contact, k, *segment_.forcing, t, point);
     const double still = segment_.forcing->surface_moves(k) ? 0.0 : segment_.forcing->surface(k, t, 0);
-    const double ut =
-        contact.body_tangent().dot(point.u) - still;  // without a moving surface's s(t), see locate.hpp
+    // The motion s(t) of a moving surface is not subtracted here, see HistoryTurningPoints in locate.hpp.
+    const double ut = contact.body_tangent().dot(point.u) - still;
     for (const double value : {m.N, m.T, m.gap, ut})
       *shown++ = value;  // in the order of TurningPointDetector::watched_fields
     const GuardForm* guard = decision.forms[k].data();
@@ -80,20 +80,20 @@ void IdaEngine::fill(double t, const motion::Point& point, double* out) {
   powers_.at(*segment_.forcing, t, decision.states, point, motions_, powers);
 }
 
-/// Gap below which the series takes a flight: the geometric mean of the gap's tolerance and the size of its terms. Below it,
-/// the integrator loses half of the digits of a height. Impacts of case 04a at rtol 1e-10 are then accurate to 3e-9 s; with the
-/// re-arming level as limit, only to 1e-7 s.
+/// Height below which the Taylor series computes a flight: the geometric mean of the gap's tolerance and the size of the gap's
+/// terms. Below this height, the integrator would lose half of the digits of the gap. Impacts of case 04a at rtol 1e-10 are
+/// then accurate to 3e-9 s; with the re-arming level as limit, only to 1e-7 s.
 double IdaEngine::flight_level(const Contact& contact, const Vector& u) const {
   double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
-  for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
+  for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // sum over all terms
   const double tolerance = flight_tolerances_ * (tolerance_.rtol * size + absolute * tolerance_.displacement);
   size = std::max(size, absolute * model_.scales.displacement);
   return std::max(std::sqrt(tolerance * size), 2.0 * events::re_arm_tolerances * tolerance);
 }
 
-/// True if the structure has massless parts and no damper acts on them. Their velocities are then computed from K v = P' - ...,
-/// because the derivative of a step's polynomial has the error h u''/2 after a restart, far above the tolerance of velocities.
-/// If a damper acts on a massless part, BdfIntegrator corrects the velocities.
+/// True if the structure has massless parts and no damper acts on them. The velocities of these parts are then computed from
+/// K v = P' - ..., because the derivative of a step's polynomial has the error h u''/2 after a restart, far above the tolerance
+/// of velocities. If a damper acts on a massless part, BdfIntegrator corrects the velocities.
 bool IdaEngine::has_undamped_massless_parts() const {
   if (!consistent_.massless()) return false;
   const std::vector<linear::DofKind>& kinds = segment_.decision->system->kinds();
@@ -106,7 +106,7 @@ void IdaEngine::start(const engine::Segment& segment) {
   segment_ = segment;
   zero_start_guards_.clear();
   const decide::Decision& decision = *segment.decision;
-  makes_points_consistent_ = accelerations_ || has_undamped_massless_parts();
+  makes_points_consistent_ = guards_need_accelerations_ || has_undamped_massless_parts();
   flight_ = flights_.take(segment, [&](const Contact& contact) { return flight_level(contact, decision.u); });
   if (flight_) return;
   std::vector<double> levels;
@@ -119,8 +119,8 @@ void IdaEngine::start(const engine::Segment& segment) {
     const ContactMotion& motion = decision.after[model_.layout.contact_of_guard(slot)];
     double level =
         guard.noise + events::re_arm_tolerances * engine::tolerance(decision.guard(slot), motion, tolerance_);
-    // A guard that the decision regards as zero may exceed its tolerance at a stiff contact: its value is up to its rate times
-    // the resolution of time.
+    // The decision regards a guard as zero if its value is below its rate times the resolution of time. At a stiff contact,
+    // such a value may exceed the tolerance, so the level includes the value.
     if (guard.at_zero) level += 2.0 * std::abs(decision.guard(slot).value(motion));
     levels.push_back(level);
     if (guard.at_zero && guard.kind != Guard::closing) add_zero_start_guard(slot);
@@ -135,8 +135,8 @@ void IdaEngine::start(const engine::Segment& segment) {
   restart_history(jet, bdf_.start(segment, jet, guard_monitor_));
 }
 
-/// Fills the history with the points that IDA uses before the segment (restart_order.hpp) and the beginning of the segment. The
-/// polynomials of the first steps need these values.
+/// Fills the history with the points of IDA's steps before the segment (restart_order.hpp) and with the beginning of the
+/// segment. The polynomials of the first steps need these values.
 void IdaEngine::restart_history(const motion::Jet& jet, const RestartOrder& past) {
   const decide::Decision& decision = *segment_.decision;
   const double t = jet.t;
@@ -168,13 +168,13 @@ void IdaEngine::evaluate(double t, motion::Point& point) {
     point.a.resize(0);  // the accelerations in `point` belong to another time
 }
 
-/// Computes the accelerations from the equation of motion; u and v of the point remain unchanged.
+/// Computes the accelerations from the equation of motion. u and v of the point do not change.
 void IdaEngine::accelerate(double t, motion::Point& point) {
   if (flight_ || (point.a.size() > 0 && !consistent_.massless())) return;
   consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
 }
 
-/// The phase angle is that of a polynomial of degree 5, the highest of BDF.
+/// The phase angle is that of a polynomial of degree 5, the highest order of BDF.
 engine::StepFacts IdaEngine::facts() const {
   engine::StepFacts facts;
   if (flight_) {
@@ -252,12 +252,12 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     }
   std::erase_if(candidates, [&](const Located& c) {
     if (!is_touch(c.slot, (c.time - step.begin) / h)) return false;
-    guard_monitor_.set_waiting(c.slot, allowance(c.slot));
+    guard_monitor_.set_waiting(c.slot, error_bound_since_start(c.slot));
     if (!std::exchange(touch_warned_, true))
       warnings.push_back(fmt::format(
-          "contact '{}': its {} touches zero at {:.9g}, and falls below zero by less than the error of "
-          "the steps; no event is recorded, and later touches are not reported; a smaller "
-          "{}, or engine exact, decides whether it crosses zero",
+          "contact '{}': its {} touches zero at t = {:.9g}, and falls below zero by less than the error of "
+          "the steps, so no event is recorded; a smaller {}, or engine exact, decides whether it crosses "
+          "zero; later touches are not reported",
           model_.contacts[model_.layout.contact_of_guard(c.slot)].name,
           contact::to_string(guards[c.slot].kind), model::time_in_scene_units(model_, c.time),
           tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
@@ -274,9 +274,10 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   return first;
 }
 
-/// True if the contact opens from stick, although a slip was found shortly before. The friction limit vanishes with N, so any
-/// error of T exceeds the limit shortly before the contact opens. The slip is such an error if the tolerance of the limit
-/// explains the time between both zeros. x: place of the slip in the step, 0 to 1; h: step length.
+/// True if the contact opens while it sticks, although the slip guard reached zero shortly before. The friction limit tends to
+/// zero with N, so any error of T exceeds the limit shortly before the contact opens. The slip is regarded as such an error if
+/// |T| exceeds the limit by less than the tolerance until the opening. x: place of the slip in the step, 0 to 1; h: step
+/// length.
 bool IdaEngine::opens_instead(const Located& slip, const Located& opening, double x, double h) const {
   const std::size_t contact = model_.layout.contact_of_guard(slip.slot);
   const std::vector<decide::GuardStart>& guards = segment_.decision->guards;
@@ -288,10 +289,10 @@ bool IdaEngine::opens_instead(const Located& slip, const Located& opening, doubl
          engine::tolerance(segment_.decision->guard(slip.slot), ContactMotion{}, tolerance_);
 }
 
-/// True if a guard that started at zero only touches zero at the place x (0 to 1) of the step. A motion that conserves energy
-/// brings such a guard back to zero (a contact with a spring that sticks at its limit); the depth below zero is then the error
-/// of the steps. Two exceptions: a gap that opened and returns to zero is a landing, however short the flight was; and if
-/// friction rises with the slip rate, a guard that crosses zero does not return.
+/// True if a guard that started at zero only touches zero at the place x (0 to 1) of the step. Example: a contact with a spring
+/// sticks exactly at its friction limit. A motion that conserves energy brings its guard back to zero, and a negative value is
+/// only the error of the steps. Two exceptions: a gap that opened and returns to zero is a landing, even after a very short
+/// flight; and if friction rises with the slip rate, a guard that crosses zero stays negative.
 bool IdaEngine::is_touch(std::size_t slot, double x) const {
   const decide::GuardStart& guard = segment_.decision->guards[slot];
   if (guard.kind == Guard::closing || !guard.at_zero || !guard_monitor_.armed(slot)) return false;
@@ -303,7 +304,7 @@ bool IdaEngine::is_touch(std::size_t slot, double x) const {
   const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
   if (!(bend > 0.0)) return false;
   const double depth = (rate < 0.0 ? rate * rate / (2.0 * bend) : 0.0) - value;
-  return depth <= allowance(slot);
+  return depth <= error_bound_since_start(slot);
 }
 
 void IdaEngine::add_zero_start_guard(std::size_t slot) {
@@ -319,8 +320,8 @@ void IdaEngine::add_zero_start_guard(std::size_t slot) {
       {slot, engine::tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
 
-/// Adds the error of the last step to the error bound of each guard that began at zero. The error of the step is estimated by
-/// the change of the guard due to IDA's correction, limited to one tolerance; if this change is unknown, by one tolerance.
+/// Adds the error of the last step to the error bound of each guard that began at zero. Estimate of this error: the change of
+/// the guard due to IDA's correction, but at most one tolerance; one tolerance if this change is unknown.
 void IdaEngine::add_errors() {
   if (zero_start_guards_.empty()) return;
   bdf_.keep_correction();
@@ -333,9 +334,9 @@ void IdaEngine::add_errors() {
   }
 }
 
-/// Bound on the error of a guard that began at zero: sum of the errors of the steps since then, plus one tolerance for the last
-/// value.
-double IdaEngine::allowance(std::size_t slot) const {
+/// Bound on the error of a guard that began at zero: sum of the errors of all steps of the segment, plus one tolerance for the
+/// present value.
+double IdaEngine::error_bound_since_start(std::size_t slot) const {
   const auto guard = std::lower_bound(zero_start_guards_.begin(), zero_start_guards_.end(), slot,
                                       [](const ZeroStartGuard& g, std::size_t s) { return g.slot < s; });
   return guard->off + guard->tolerance;
@@ -364,8 +365,8 @@ void IdaEngine::integrate(double from, double to, motion::WorkIntegrals& works) 
   bdf_.evaluate(to, last);
   for (std::size_t k = 0; k < states.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    works.damping +=
-        contact::inside_loss(contact, states[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
+    works.damping += contact::dashpot_loss_inside(contact, states[k].state, contact.gap_at(first.u),
+                                                  contact.gap_at(last.u));
   }
 }
 
@@ -378,8 +379,7 @@ engine::StepperReport IdaEngine::report() {
   return report;
 }
 
-/// One tolerance. A guard that started at zero and never clearly rose triggers its event only at minus its level, so this depth
-/// is added.
+/// One tolerance, plus the level of a waiting guard: such a guard triggers its event only if its value is below -level.
 double IdaEngine::guard_error(const GuardForm& guard, const ContactMotion& motion,
                               std::size_t contact) const {
   return engine::tolerance(guard, motion, tolerance_) +

@@ -1,4 +1,4 @@
-// ida_engine.hpp: engine `ida`: takes IDA's steps and proves that no guard crosses zero inside a step without an event.
+// ida_engine.hpp: engine `ida`: takes IDA's steps and proves that no zero crossing of a guard inside a step is missed.
 //
 //   advance: a step of IDA -> polynomials of the guards on this step (step_history.hpp, active_guards.hpp)
 //            -> first zero crossing, refined with forces recomputed from u and v (locate.hpp)
@@ -19,12 +19,12 @@ namespace signorini::ida {
 
 class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
  public:
-  /// The first three arguments must outlive the object. flight_tolerances: factor on the tolerance of gaps; a series takes the
-  /// flights that are low compared with this product (short_flight.hpp).
+  /// The first three arguments must outlive the object. flight_tolerances: factor on the tolerance of gaps. The product decides
+  /// which flights are so low that a Taylor series computes them (short_flight.hpp).
   IdaEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
             const engine::Tolerance& tolerance, int max_order, double t_end, double flight_tolerances);
 
-  /// True if a series can follow short flights: no coefficient of friction depends on the slip rate or on N.
+  /// True if a Taylor series can compute short flights: no coefficient of friction depends on the slip rate or on N.
   [[nodiscard]] static bool follows_low_flights(const Model& model);
 
   void start(const engine::Segment& segment) override;
@@ -49,7 +49,7 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
     std::size_t slot;
     double tolerance;  // tolerance of the guard's value
     bool known;        // N, T, u and v determine the guard's change in a step
-    double off;        // bound on the errors of the steps so far
+    double off;        // bound on the sum of the errors of all steps of the segment so far
   };
   [[nodiscard]] bool has_undamped_massless_parts() const;
   void fill(double t, const motion::Point& point, double* out);
@@ -60,7 +60,7 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] bool is_touch(std::size_t slot, double x) const;
   void add_zero_start_guard(std::size_t slot);
   void add_errors();
-  [[nodiscard]] double allowance(std::size_t slot) const;
+  [[nodiscard]] double error_bound_since_start(std::size_t slot) const;
 
   const Model& model_;
   motion::ConsistentMotion consistent_;
@@ -75,14 +75,14 @@ class IdaEngine final : public engine::Stepper, public engine::DenseOutput {
   events::GuardMonitor guard_monitor_;
   events::GrazeDetector graze_detector_;
   events::NearHitDetector near_hits_;
-  std::vector<std::size_t> triggered_slots_;  // guards whose zero crossings ended the segment
+  std::vector<std::size_t> triggered_slots_;  // slots of the guards whose zero crossings ended the segment
   ShortFlight flights_;
-  std::optional<engine::Step> flight_;  // the step taken by a short flight
+  std::optional<engine::Step> flight_;  // step of a short flight; nullopt: IDA computes the segment
   engine::Segment segment_;
-  motion::Jet jet_;  // complete jet, if that of the decision is incomplete
+  motion::Jet jet_;  // complete jet, used if the jet of the decision is incomplete
   motion::Point point_;
   std::vector<double> integrals_;
-  bool accelerations_ = false;                     // at least one guard needs accelerations
+  bool guards_need_accelerations_ = false;         // at least one guard needs accelerations
   bool makes_points_consistent_ = false;           // forces and accelerations are recomputed at each point
   std::vector<ZeroStartGuard> zero_start_guards_;  // in ascending order of slots
   bool touch_warned_ = false;                      // the warning about a touch was issued

@@ -28,8 +28,8 @@ void IdaLinearSolver::set_contact_states(const contact::ContactStates& states) {
   rows_ = linear::rows_of(model_, states);
   fresh_ = true;
   if (condensed_rows_) condensed_rows_->set_rows(rows_);
-  pinned_ = linear::prescribed_dofs(model_, rows_);
-  held_.resize(pinned_.size());
+  prescribed_dofs_ = linear::prescribed_dofs(model_, rows_);
+  held_.resize(prescribed_dofs_.size());
 }
 
 bool IdaLinearSolver::factor() {
@@ -54,12 +54,12 @@ void IdaLinearSolver::solve(const double* b, double* x) {
   }
   const linear::Unknowns& at = unknowns_;
   for (std::size_t i = 0; i < held_.size(); ++i) {
-    const linear::PrescribedDof& p = pinned_[i];
+    const linear::PrescribedDof& p = prescribed_dofs_[i];
     held_[i] =
         (p.normal * rhs_[at.normal(p.contact)] + p.tangent * rhs_[at.tangent(p.contact)]) / (cj_ * p.divisor);
   }
   uses_condensed_ ? condensed_->solve(rhs_.data()) : matrix_.solve(rhs_.data());
-  for (std::size_t i = 0; i < held_.size(); ++i) rhs_[pinned_[i].dof] = held_[i];
+  for (std::size_t i = 0; i < held_.size(); ++i) rhs_[prescribed_dofs_[i].dof] = held_[i];
   const double step = 1.0 / cj_;
   if (all_massive) {
     for (std::size_t i = 0; i < n; ++i) x[i] = step * (rhs_[i] + b[i]);

@@ -13,15 +13,15 @@
 namespace signorini::ida {
 namespace {
 
-// Fraction of the requested tolerance that one step may use. IDA's error test bounds the error of one step, but the errors of
-// thousands of steps add up. Measured on the reference cases: with this fraction, the sum over a hundred oscillations is a few
-// hundred tolerances at most, and the number of steps is 1.3 times as large.
+// Largest error of one step, as a fraction of the requested tolerance. IDA's error test bounds the error of one step, but the
+// errors of thousands of steps add up. Measured on the reference cases: with this fraction instead of 1, the sum over a hundred
+// oscillations is at most a few hundred tolerances, and the number of steps is 1.3 times as large.
 constexpr double local_part = 0.2;
-// Smallest tolerance of a force, relative to the terms whose difference is the force: a tolerance below the rounding of kn g
-// cannot be met. Chosen; the smallest admissible rtol, 1e-13, depends on this value (docs/theory.md, Limits).
+// Smallest tolerance of a force, relative to the terms whose difference is the force: a tolerance below the rounding error of
+// kn g cannot be met. Chosen; the smallest admissible rtol, 1e-13, depends on this value (docs/theory.md, Limits).
 constexpr double rounding_floor = 20.0 * rounding::eps;
-// Factor on rounding_floor for T of a shear element in series with rate-dependent friction: T has the rounding of ut - p and of
-// ut' - p', and Newton's method must converge to a thousandth of the tolerance (sharp_newton in bdf_integrator.cpp).
+// Factor on rounding_floor for T of a shear element in series with rate-dependent friction: T has the rounding errors of ut - p
+// and of ut' - p', and Newton's method must converge to a thousandth of the tolerance (sharp_newton in bdf_integrator.cpp).
 constexpr double newton_rounding_factor = 100.0;
 
 /// Computes r = yp - v and u = y - step r.
@@ -187,9 +187,8 @@ ContactMotion IdaProblem::change(std::size_t k, const double* of) const {
   return m;
 }
 
-/// Adds s z z^T f for directions z of forces without effect (linear/redundant_rows.hpp). Otherwise the
-/// component of the forces along z would be extrapolated from step to step, and its error would grow like a
-/// polynomial.
+/// Adds s z z^T f for directions z in which contact forces f have no effect (linear/redundant_rows.hpp). Without this term, IDA
+/// would extrapolate the component of f along z from step to step, and the error of this component would grow.
 void IdaProblem::add_shared(const double* y, double* r) const {
   for (const linear::SharedForces& shared : shared_)
     for (std::size_t i = 0; i < shared.rows.size(); ++i)
@@ -278,8 +277,8 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
     const auto i = static_cast<std::size_t>(index);
     if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
   };
-  // One noise level for all massless degrees of freedom, because contacts and rows propagate rounding errors. Rotations are
-  // compared with displacements in the internal unit of length, the extent of the structure.
+  // All massless degrees of freedom have the same tolerance, because contacts and rows propagate rounding errors. Rotations and
+  // displacements are comparable, because the internal unit of length is the extent of the structure.
   double length = 0.0, greatest = 0.0;
   for (const Massless& own : massless_) {
     double force = 0.0;

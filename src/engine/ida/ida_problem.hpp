@@ -1,9 +1,9 @@
-// ida_problem.hpp: residual, error weights and root functions that IDA calls; contains no solver state.
+// ida_problem.hpp: residual, error weights and root functions for IDA, without state of the integrator.
 //
 //   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   contact rows at u - r1/cj
 //
-// The terms with r1/cj are those that the condensed solver needs on its right-hand side (engine/ida/ida_linear_solver.hpp), so
-// a solve needs no additional product with K. These terms do not change the solution, for which r1 = 0.
+// The condensed solver needs the terms with r1/cj on its right-hand side (engine/ida/ida_linear_solver.hpp). With these terms
+// in the residual, a solve needs no additional product with K. The solution does not change, because r1 = 0 there.
 #pragma once
 
 #include "decide/guard_signs.hpp"
@@ -21,16 +21,16 @@ class IdaProblem {
 
   void start(const engine::Segment& segment, const events::GuardMonitor& watch);
 
-  /// Computes the residual r for cj = 1/step. step = 0: without the terms r1/cj.
+  /// Computes the residual r for cj = 1/step. step = 0: the terms with r1/cj are omitted.
   void residual(double t, double step, const double* y, const double* yp, double* r);
   /// Passes the linearised rows of contacts with rate-dependent friction to the linear solver.
   void linearise(double t, const double* y, const double* yp);
   /// Largest magnitude of an entry of the residual of the equation of motion. Unit: force.
   [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
-  /// Writes the error weights of all unknowns: 1 / tolerance, scaled by groups (factor_). rate: 1/h of the last step, for
-  /// rounding errors that grow with 1/h; 0 if no step length is known yet.
+  /// Writes the error weights w of all unknowns: factor_ / tolerance. rate: 1/h of the last step, for rounding errors that grow
+  /// with 1/h; 0 if no step length is known yet.
   void weights(const double* y, double rate, double* w) const;
-  /// Writes the scaled guards, one for each slot. Guards that are not armed, or unused, are +1.
+  /// Writes the scaled guards, one for each slot; +1 for guards that are not armed and for slots without a guard.
   void guards(double t, const double* y, const double* yp, double* g) const;
   /// Writes y (derivative = 0) or y' (derivative = 1) at the time x after the jet's instant, from the Taylor polynomials of the
   /// jet.
@@ -46,8 +46,8 @@ class IdaProblem {
   /// True if a contact slips in this segment and its friction rises with the slip rate.
   [[nodiscard]] bool has_rate_dependent_friction() const { return rate_dependent_; }
 
-  /// N, T, gap, ut, vn and vt of a contact for a change of the unknowns. Velocities do not contain those of massless degrees
-  /// of freedom, which are not unknowns.
+  /// N, T, gap, ut, vn and vt of a contact for the change `of` of the unknowns. vn and vt do not include the velocities of
+  /// massless degrees of freedom, which are not unknowns.
   [[nodiscard]] ContactMotion change(std::size_t contact, const double* of) const;
 
   [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
@@ -89,21 +89,21 @@ class IdaProblem {
   const engine::Tolerance tolerance_;
   engine::Segment segment_;
   const events::GuardMonitor* guard_monitor_ = nullptr;
-  // IDA's error norm is a mean over all unknowns, in which the errors of a few contacts on a large structure would vanish. So
-  // each contact has two groups of unknowns: N and T, and the u and v of its degrees of freedom. All other unknowns are one
-  // more group. factor_ scales the weights so that each group contributes to the norm like the whole vector.
+  // IDA's error norm is a mean over all unknowns, to which the few unknowns of contacts on a large structure contribute little.
+  // So each contact has two groups of unknowns: N and T, and the u and v of its degrees of freedom. All other unknowns are one
+  // more group. factor_ scales the weights so that an error of one group contributes like the same error in all unknowns.
   std::vector<double> factor_, atol_;
   std::vector<int> unused_;  // indices of unused forces in y
-  // Forces K u determine the degrees of freedom without mass. After a long slide these forces are differences of large numbers,
-  // with large rounding errors.
+  // Data of a degree of freedom without mass. Forces K u determine its motion; after a long slide these forces are differences
+  // of large numbers, with large rounding errors.
   struct Massless {
     int dof = 0;
     double stiffness = 0.0;                      ///< diagonal entry of K plus the springs of contacts
-    std::vector<std::pair<int, double>> forces;  ///< contact forces on it: index in y, |factor|
+    std::vector<std::pair<int, double>> forces;  ///< contact forces on `dof`: index in y, |factor|
   };
   std::vector<Massless> massless_;
-  // Constraint forces that stop a mass m. Such a force corrects the rounding error of the velocity v within one step, and so
-  // has an error of m v eps / h. A smaller tolerance cannot be met, and a shorter step raises this error.
+  // Constraint force that stops a mass m. The force corrects the rounding error of the velocity v within one step, so the error
+  // of the force is m v eps / h. A smaller tolerance cannot be met, and a shorter step increases this error.
   struct StoppedMass {
     const Combination* form;
     int force;
@@ -123,7 +123,7 @@ class IdaProblem {
   bool rate_dependent_ = false;
   linear::StructuralForces structural_forces_;
   std::vector<double> forces_;  // forces on all degrees of freedom, if some have no mass
-  std::vector<double> u_;       // displacements in a residual
+  std::vector<double> u_;       // displacements u - r1/cj in residual()
 };
 
 }  // namespace signorini::ida

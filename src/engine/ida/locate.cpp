@@ -22,7 +22,7 @@ double locate(BdfIntegrator& bdf, motion::ConsistentMotion& consistent, const en
   const double g = value(time);
   if (g == 0.0) return time;
   double width = 0.25 * resolution;
-  if (g > 0.0) {  // the crossing is later
+  if (g > 0.0) {  // the crossing is after `time`
     for (double lo = time; lo < end; width *= 4.0) {
       const double hi = std::min(end, time + width);
       if (value(hi) <= 0.0) return events::root_between(value, lo, hi, 0.25 * resolution);
@@ -78,7 +78,7 @@ void HistoryTurningPoints::start(const decide::Decision& decision, const motion:
 
 void HistoryTurningPoints::find(const events::StepHistory& history, double x_end) {
   detector_.open();
-  // Fast path: nearly always all values stay within their earlier ranges.
+  // Fast path: in most steps all values stay within their earlier ranges, so no search is needed.
   const double *last = history.last_values() + first_, *bend = history.variation_bounds() + first_;
   const events::TurningPointDetector::Range* seen = detector_.ranges();
   const std::size_t shown = count();

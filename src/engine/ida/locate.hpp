@@ -3,8 +3,8 @@
 //   G(t) = guard(u(t), v(t), forces consistent with u(t), v(t) by the equations of the contact state) = 0
 //
 // At a root of the interpolated unknowns, the equations of the contact state are satisfied only to the integrator's tolerance.
-// The decision that follows computes the forces from u and v, and needs forces exactly at their limit. So the root is refined
-// with forces that are recomputed from the interpolated u and v.
+// But the decision at the event computes the forces from u and v, and needs a force exactly at its limit. So the root is
+// refined with forces that are recomputed from the interpolated u and v.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@
 
 namespace signorini::ida {
 
-/// Refines `time`, a root of guard `slot` found on [begin, end] of the last step. Returns `time` unchanged if the recomputed
-/// guard does not cross zero in [begin, end]. The bracket grows fourfold until it contains the root; then Brent's method (GSL).
+/// Refines `time`, a root of guard `slot` in the last step [begin, end]. Returns `time` unchanged if the recomputed guard does
+/// not cross zero in [begin, end]. A bracket grows by factors of 4 until it contains the root. Brent's method (GSL) follows.
 [[nodiscard]] double locate(BdfIntegrator& bdf, motion::ConsistentMotion& consistent,
                             const engine::Segment& segment, const Model& model, std::size_t slot,
                             double begin, double end, double time, double resolution);
@@ -28,8 +28,8 @@ namespace signorini::ida {
 //   N, T, g and t.u are linear in y: the polynomial through their last values is exactly that of the BDF step
 //   ut = t.u - s(t) on a moving surface: p(x) - s(t_0 + h x), with a Taylor series for s, which is not part of y
 //
-// A polynomial is searched for extremes only if its Bernstein coefficients admit that it leaves its earlier range and is not
-// monotone.
+// A polynomial is searched for extremes only if its Bernstein coefficients do not exclude values beyond the earlier range, and
+// do not prove that the polynomial is monotone.
 
 class HistoryTurningPoints {
  public:

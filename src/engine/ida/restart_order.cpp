@@ -10,9 +10,9 @@
 namespace signorini::ida {
 namespace {
 
-// rtol above which a lower order may be chosen. Orders 3 to 5 are unstable near the imaginary axis. At larger rtol, the error
-// test does not detect growing undamped modes (case 01b at rtol 1e-3: 142 events instead of 10), and order 2 takes at most
-// twice as many steps. At smaller rtol, order 5 resolves these modes and takes a third to a ninth of the steps of order 2
+// rtol above which choose_order() may lower the order. Orders 3 to 5 are unstable near the imaginary axis. At larger rtol, the
+// error test does not detect growing undamped modes (case 01b at rtol 1e-3: 142 events instead of 10), and order 2 takes at
+// most twice as many steps. At smaller rtol, order 5 resolves these modes and takes a third to a ninth of the steps of order 2
 // (benchmarks/README.md).
 constexpr double loose = 1e-4;
 
@@ -35,9 +35,10 @@ OrderChoice choose_order(const Model& model, const RunSpec& run) {
     greatest = s.order;
     break;
   }
-  return {greatest, fmt::format("auto: rtol is above {}, so the greatest order that is stable for every mode "
-                                "(least damping ratio {:.2g})",
-                                loose, ratio)};
+  return {greatest,
+          fmt::format("auto: the greatest order that is stable for every mode, because rtol is above "
+                      "{} (least damping ratio {:.2g})",
+                      loose, ratio)};
 }
 
 }  // namespace signorini::ida

@@ -2,10 +2,10 @@
 //
 //   y(t0 + x) = sum_k y^(k)(t0) x^k / k!       polynomials of the jet at the segment's beginning t0
 //
-// A restarted IDA begins at order one with a very short step, and raises order and step length slowly. Its history cannot be
-// set from outside, but IDA calls a nonlinear solver for the solution at the end of each step. So IDA starts at t0 - q h and
-// takes q steps of length h, in which this solver returns the polynomials of the jet (StepNewton::prescribe_jet). At t0, IDA
-// has the history of a motion with the same derivatives, and continues at order q with step length h.
+// After a restart, IDA begins at order one with a very short step, and raises order and step length slowly. A caller cannot set
+// IDA's history, but IDA calls a nonlinear solver for the solution at the end of each step. So IDA starts at t0 - q h and takes
+// q steps of length h, in which this solver returns the polynomials of the jet (StepNewton::prescribe_jet). At t0, IDA then has
+// the history of a motion with the derivatives of the jet, and continues at order q with step length h.
 //
 //   h = part ( (q + 1) / |y^(q+1)| )^(1/(q+1))     error of order q: h^(q+1) y^(q+1)/(q+1) = part^(q+1) tolerances
 //
@@ -34,15 +34,15 @@ struct OrderChoice {
   int max_order = 5;
   std::string reason;
 };
-/// Maximum order of run.max_order, or chosen as described above.
+/// Maximum order of BDF: run.max_order if it is given, otherwise the order for the scene as described above.
 [[nodiscard]] OrderChoice choose_order(const Model& model, const RunSpec& run);
 
 /// Number and length of the steps that IDA takes before a segment.
 struct RestartOrder {
   int steps = 0;        ///< q; 0: IDA begins at order one at t0
-  double length = 0.0;  ///< h, the step length; for q = 0 that of the first step
+  double length = 0.0;  ///< h, the step length; for q = 0 the length of the first step
 
-  /// Order of the start. Order 4 takes 5 % fewer steps on a beam, but more on bouncing bodies (measured).
+  /// Order q at t0. With order 4, a beam needs 5 % fewer steps, but bouncing bodies need more (measured).
   static constexpr int order = 3;
 };
 
@@ -53,8 +53,8 @@ template <class Row>
   for (Eigen::Index k = last; k >= p; --k) sum = row[k] + sum * x / static_cast<double>(k - p + 1);
   return sum;
 }
-/// Order of the highest derivative of a degree of freedom that the jet contains. For a massless one it is the order of the
-/// forces, which is one or two less.
+/// Order of the highest derivative of a degree of freedom that the jet contains. If the degree of freedom is massless, this is
+/// the order of the forces, which is one or two less.
 [[nodiscard]] inline Eigen::Index last_derivative(const motion::Jet& jet, bool massless) {
   return massless ? motion::Jet::orders : jet.u.cols() - 1;
 }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int looks = 16;  // number of samples of the height of a flight
 
-/// True if a Taylor series can follow the motion in these contact states. If friction depends on the slip rate, the radius of
-/// convergence is unknown. If friction depends on N, the friction limit of a sticking contact is not a polynomial.
+/// True if a Taylor series can represent the motion in these contact states. If friction depends on the slip rate, the radius
+/// of convergence is unknown. If friction depends on N, the friction limit of a sticking contact is not a polynomial.
 bool is_linear(const Model& model, const contact::ContactStates& states) {
   for (std::size_t c = 0; c < states.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -40,7 +40,7 @@ std::optional<engine::Step> ShortFlight::take(const engine::Segment& segment,
   series_->start(segment);
   engine::Step step = series_->advance();
   if (step.kind != engine::Step::Kind::event) return std::nullopt;
-  // If another guard ends the step, the flight only needs to be low up to this event.
+  // The flight must be low up to the end of the step, which may be an event of another contact before the impact.
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     if (!leaves(slot)) continue;
     const Contact& contact = model_.contacts[model_.layout.contact_of_guard(slot)];

@@ -8,9 +8,9 @@
 namespace signorini::ida {
 namespace {
 
-// Limit of the additional iterations if friction rises with the slip rate. Each iteration approaches the solution by up to one
-// slip-rate scale of the friction law; after this number of scales, friction equals its limit to all digits.
-constexpr int most_towards = 40;
+// Limit of the number of additional iterations if friction rises with the slip rate. Each iteration approaches the solution by
+// up to one slip-rate scale of the friction law; at this number of scales, friction is constant to all digits.
+constexpr int max_extra_iterations = 40;
 
 StepNewton& newton_of(SUNNonlinearSolver solver) { return *static_cast<StepNewton*>(solver->content); }
 
@@ -24,7 +24,7 @@ StepNewton::StepNewton(IdaProblem& problem, void* ida, N_Vector like, SUNContext
   ops->solve = [](SUNNonlinearSolver s, N_Vector, N_Vector e, N_Vector w, realtype tolerance,
                   booleantype setup,
                   void* memory) { return newton_of(s).solve(e, w, tolerance, setup != 0, memory); };
-  // IDA offers its own functions for F and the linear solves; they are ignored, because iterate() calls the problem directly.
+  // IDA's function for F is not used, because iterate() calls the problem directly.
   ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
   ops->setlsetupfn = [](SUNNonlinearSolver s, SUNNonlinSolLSetupFn f) {
     newton_of(s).setup_ = f;
@@ -93,7 +93,7 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   double* const change = NV_DATA_S(change_);
   bool near = !problem_.has_rate_dependent_friction();
   iteration_ = 0;
-  for (int i = 0; iteration_ < max_iterations_ && i < max_iterations_ + most_towards; ++i) {
+  for (int i = 0; iteration_ < max_iterations_ && i < max_iterations_ + max_extra_iterations; ++i) {
     const bool first = i == 0;
     if (!first) {
       N_VLinearSum(1.0, y_predicted, 1.0, e, y);
@@ -130,10 +130,10 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   return SUN_NLS_CONV_RECVR;
 }
 
-/// True if the correction is only rounding, although IDA's test reports a failure. IDA's test does not know the rate of
-/// convergence: it accepts 1/20 of the requested tolerance, and regards corrections that no longer decrease as a failure. With
+/// True if the correction is only rounding, although IDA's test reports a failure. IDA's test does not use the rate of
+/// convergence: it accepts 1/20 of the requested tolerance, and reports a failure if the corrections no longer decrease. With
 /// rate-dependent friction each iteration has a new tangent, so the error after a correction within the tolerance is smaller
-/// than the correction. If this correction no longer decreases, it is the rounding of the large displacements that determine T.
+/// than the correction. If such a correction no longer decreases, it is a rounding error of the large displacements behind T.
 bool StepNewton::is_rounding(N_Vector weights, double tolerance) const {
   return problem_.has_rate_dependent_friction() && N_VWrmsNorm(change_, weights) <= tolerance;
 }

@@ -16,7 +16,7 @@
 namespace signorini::newmark {
 namespace {
 
-constexpr double unchanged = 1e-12;  // limit of the change of a bound, relative to the greatest contact force
+constexpr double unchanged = 1e-12;  // limit of a converged bound's change, relative to the greatest force
 constexpr int slips = 100;  // key of a slipping contact: T is a load, so both directions have the same matrix
 constexpr int stops = 101;  // key of a contact without tangential stiffness that stops within the step
 
@@ -48,7 +48,7 @@ void FrictionIteration::start(const engine::Segment& segment) {
   ++counters.restarts;
 }
 
-/// Greatest contact force at the point, and the error of a converged bound that follows from it.
+/// Greatest contact force at the point, and the resulting error of a converged bound.
 FrictionIteration::ForceScale FrictionIteration::known_forces(const motion::Point& point) const {
   ForceScale known;
   double noise = 0.0;
@@ -63,8 +63,8 @@ FrictionIteration::ForceScale FrictionIteration::known_forces(const motion::Poin
   return known;
 }
 
-/// Initialises the iterates of all contacts at the beginning of a step: states, bounds, and the anchors that apply if a contact
-/// sticks again.
+/// Initialises the iterates of all contacts at the beginning of a step: states, bounds, and the anchors for contacts that stick
+/// at the end of the step.
 void FrictionIteration::begin_iterates() {
   bound_error_ = known_forces(begin_).error;
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
@@ -77,8 +77,8 @@ void FrictionIteration::begin_iterates() {
   }
 }
 
-/// Sets the rows for the contact states of this iterate. key_ identifies the coefficients in the matrix, so that factorisations
-/// can be reused.
+/// Sets the rows for the contact states of this iterate. Equal values of key_ mean equal matrices, so that factorisations are
+/// reused.
 void FrictionIteration::apply_rows() {
   std::vector<Rows>& rows = step_.own_rows();
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
@@ -103,12 +103,12 @@ void FrictionIteration::apply_rows() {
   step_.set(key_, std::move(rows));
 }
 
-/// State of contact k that follows from the motion of the last iterate and the present bound.
+/// New state of contact k, from the motion of the last iterate and the present bound of |T|.
 State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
   const ContactIterate& side = iterates_[k];
   const ContactMotion m = motion::motion_of(contact, k, *segment_.forcing, t1_, end_);
-  // Spring and dashpot together must press; a positive gap means open, whatever the dashpot force.
+  // A contact is closed if spring and dashpot together press. With a positive gap it is open, whatever the dashpot force.
   if (contact.normal_force_given()
           ? is_open(side.state)
           : m.gap > 0.0 || contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
@@ -122,7 +122,7 @@ State FrictionIteration::state_of(std::size_t k) const {
                ? State::stick
                : side.state;
   }
-  // The limit is kinetic friction if the contact slipped in the last step, otherwise static friction.
+  // The limit of |T| is kinetic friction if the contact slipped in the last step, otherwise static friction.
   const double friction = slip_sign(states_[k].state) != 0 ? contact::kinetic_friction(contact)
                                                            : contact::static_friction(contact);
   const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
@@ -134,8 +134,8 @@ State FrictionIteration::state_of(std::size_t k) const {
   return contact::slip_state(m.T);
 }
 
-/// Sets the contact states that follow from the last iterate. False: these are the states of that iterate.
-bool FrictionIteration::new_states() {
+/// Sets the contact states that follow from the last iterate. True if a state has changed.
+bool FrictionIteration::update_states() {
   bool changed = false;
   for (std::size_t k = 0; k < iterates_.size(); ++k) {
     const State state = state_of(k);
@@ -157,8 +157,8 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     if (!step_.take(*segment_.forcing, begin_, t1_, h, kept, end_))
       return "the matrix of a step is singular; another dt may help";
     if (!end_.u.allFinite()) return "the motion overflows and is no longer finite";
-    switching = new_states();
-    if (switching) continue;  // the bounds stay unchanged until the states are consistent
+    switching = update_states();
+    if (switching) continue;  // change the bounds only after the states have become consistent
     change = 0.0;
     const ForceScale known = known_forces(end_);
     force = known.greatest;
@@ -171,12 +171,11 @@ std::string FrictionIteration::iterate(double h, bool kept) {
         change = contact::kinetic_friction(contact) * std::abs(by);
         worst = k;
       }
-      // Only the bound of a slipping contact acts in the next iterate; the bound of a sticking contact takes its final
-      // value at once.
+      // Relaxation is applied only to slipping contacts, because only their bounds are loads in the next iterate.
       side.normal_force += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
     }
-    // Converged only if the new bounds give the same states.
-    switching = new_states();
+    // The iteration has converged only if the new bounds give the same states.
+    switching = update_states();
     if (!switching && change <= bound_error_) return {};
   }
   std::vector<std::string> what;
@@ -184,11 +183,11 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     if (iterates_[k].state != contact::representative_state(states_[k].state) || k == worst)
       what.push_back(model_.contacts[k].name);
   return fmt::format(
-      "the friction iteration did not converge: after {} iterations {} (contacts {}); a smaller dt, more "
-      "max_iterations or another relaxation than {} may help",
+      "the friction iteration does not converge: after {} iterations {} (contacts {}); a smaller dt, more "
+      "max_iterations or a relaxation other than {} may help",
       max_iterations_,
       switching
-          ? "states still change"
+          ? "contact states still change"
           : fmt::format("a friction limit still changes by {:.3g} {}, {:.2g} % of the greatest contact force",
                         model::in_scene_units(model_, change, unit::force), model_.units.force,
                         force > 0.0 ? 100.0 * change / force : 0.0),
@@ -202,7 +201,7 @@ engine::Step FrictionIteration::advance() {
   step.begin = step.end = t0_;
   step.resolution = motion::resolution_at(t0_, 0.0);
   changed_ = false;
-  if (t0_ >= segment_.end) {  // the previous segment ended here; there is no time left to step
+  if (t0_ >= segment_.end) {  // the last step has already reached the end of the segment
     std::swap(begin_, end_);
     return step;
   }
@@ -251,8 +250,8 @@ void FrictionIteration::solve_massless_velocities() {
     if (model_.dofs[static_cast<std::size_t>(i)].massless) end_.v[i] = settled.v[i];
 }
 
-/// Adds the accelerations of massless degrees of freedom. The step has already computed those of degrees with mass. Inside the
-/// step, the contact states are those at its beginning.
+/// Adds the accelerations of massless degrees of freedom. The step has already computed the accelerations of degrees of freedom
+/// with mass. Inside the step, the contact states are those at the beginning of the step.
 void FrictionIteration::accelerate(double t, motion::Point& point) {
   if (!consistent_.massless()) return;
   const motion::StateSystemPtr system =
@@ -274,7 +273,7 @@ void FrictionIteration::evaluate(double t, motion::Point& point) {
   if (changed_) point.forces = begin_.forces;
 }
 
-/// Adds the share (to - from) / h of the work of the whole step, computed with the contact states at its end.
+/// Adds the fraction (to - from) / h of the works of the whole step, computed with the contact states at the end of the step.
 void FrictionIteration::integrate(double from, double to, motion::WorkIntegrals& works) {
   if (!(t1_ > t0_)) return;
   works_.add(*segment_.forcing, states_, begin_, t0_, end_, t1_, (to - from) / (t1_ - t0_), works);

@@ -6,9 +6,9 @@
 //     B := B + w (f |N| - B)
 //   until no bound changes
 //
-// Events are not localised: a change of contact state takes effect at the end of its step, but a closing contact acts from the
-// beginning of the step. T = s B is a load, so the matrices are symmetric. The iteration may cycle, because high friction
-// couples T back to N. Then the engine stops the run and reports the failure.
+// Events are not located: a change of a contact state is an event at the end of the step, but a contact that closes in a step
+// acts from the beginning of this step. T = s B is a load, so the matrices are symmetric. The iteration may cycle, because with
+// high friction T has a strong effect on N. Then the engine stops the run and reports the failure.
 // Source: Lukashevich et al. 2021, the iterative algorithm.
 #pragma once
 
@@ -60,7 +60,7 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   void begin_iterates();
   void apply_rows();
   [[nodiscard]] State state_of(std::size_t k) const;
-  [[nodiscard]] bool new_states();
+  [[nodiscard]] bool update_states();
   [[nodiscard]] std::string iterate(double h, bool kept);
   void solve_massless_velocities();
 
@@ -77,7 +77,7 @@ class FrictionIteration final : public engine::Stepper, public engine::DenseOutp
   NewmarkStep::Key key_, key_in_force_;
   contact::ContactStates states_;  // states at the end of the last step
   bool changed_ = false;
-  double bound_error_ = 0.0;  // allowed error of |T| <= f |N|, as a force
+  double bound_error_ = 0.0;  // allowed violation of |T| <= f |N|, as a force
   motion::Point begin_, end_;
   double t0_ = 0.0, t1_ = 0.0;
   double segment_dt_ = 0.0;  // length of full steps: dt, or less in a short pulse

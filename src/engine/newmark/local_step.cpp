@@ -7,10 +7,10 @@ namespace signorini::newmark {
 namespace {
 
 /// Initial radius in band widths; chosen. The entries of M^-1 of a beam with a consistent mass matrix decay by the factor
-/// 2 - sqrt(3) per element, so they reach rounding after 28 elements. An element has about three positions, and the band has a
-/// width of five. The radius grows if the decay is slower.
-constexpr std::size_t first_radius = 16;  // band widths
-constexpr std::size_t least_parts = 4;    // W is at most the structure divided by this number
+/// 2 - sqrt(3) per element, so they are below rounding after 28 elements. An element has about three positions, and the band
+/// width is five. If the decay is slower, double_radius() is called.
+constexpr std::size_t first_radius = 16;
+constexpr std::size_t least_parts = 4;  // W contains at most a quarter of the structure; else no local step
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void LocalStep::predict(const Window& w, const motion::Point& from, double h) {
   }
 }
 
-/// Computes b_W, and for each contact in W the coefficients of its forces in the matrix.
+/// Computes b_W, and the coefficients in the matrix of the forces of each contact in W.
 void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, const std::vector<Rows>& rows,
                                double t1) {
   for (std::size_t place = w.begin; place < w.end; ++place) {
@@ -83,7 +83,7 @@ void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, 
   for (const std::size_t k : contacts_) {
     const Contact& contact = model_.contacts[k];
     const linear::CondensedRows::ContactCoefficients& held = rows_.coefficients(k);
-    ContactMotion m;  // only the part that does not depend on x
+    ContactMotion m;  // the part of the contact's motion that does not depend on the unknowns x
     contact::set_displacement(contact, end_.u, forcing.surface(k, t1, 0), m);
     contact::set_velocity(contact, end_.v, forcing.surface(k, t1, 1), m);
     m.applied_normal_force = forcing.applied_normal_force(k, t1, 0);
@@ -99,7 +99,7 @@ void LocalStep::assemble_loads(const Window& w, const motion::Forcing& forcing, 
   }
 }
 
-/// Solves A_WW x_W = b_W - A_WO y; b_ becomes x_W. False: the elimination loses digits.
+/// Solves A_WW x_W = b_W - A_WO y and writes x_W to b_. False: the elimination loses digits.
 bool LocalStep::solve(const Window& w, const motion::Point& from, double h, const motion::Point& whole,
                       double longer) {
   const std::size_t size = w.end - w.begin, width = rows_.width();

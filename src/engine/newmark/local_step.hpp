@@ -3,9 +3,9 @@
 //   A_WW x_W = b_W - A_WO y      A, b, x: see newmark_step.hpp, condensed (linear/condensed_matrix.hpp); O: outside W
 //   y = a0 + h/H (a1 - a0)       acceleration outside W, interpolated from a step of length H > h with the same beginning
 //
-// W contains the band positions up to a radius from those of the contact. The influence of positions outside W decays like the
-// entries of A^-1, and the error of y is of second order. No bound of the error is proven: the caller checks the result by a
-// step of the whole structure, and doubles the radius if that step differs.
+// W contains the band positions within a radius of the positions of the contact. The influence of positions outside W decays
+// like the entries of A^-1, and the error of y is of second order. No bound of the error is proven: the caller checks the
+// result by a step of the whole structure, and doubles the radius if both results differ.
 #pragma once
 
 #include "linear/band_factors.hpp"
@@ -20,8 +20,8 @@ class LocalStep {
   LocalStep(const Model& model, const linear::CondensedRows& rows);
 
   /// Motion at the end of the step from `from` at t1 - h to t1, valid only at the contact. rows: rows of the contact states,
-  /// with the sparsity pattern of the constructor's rows. whole: end of the step of length `longer` (H) from `from`. Null if W
-  /// is too large a part of the structure, or if elimination loses digits.
+  /// with the sparsity pattern of the constructor's rows. whole: motion at the end of the step of length `longer` (H) from
+  /// `from`. Null if W would be more than a quarter of the structure, or if the elimination loses digits.
   [[nodiscard]] const motion::Point* end(std::size_t contact, const motion::Forcing& forcing,
                                          const std::vector<Rows>& rows, const motion::Point& from, double t1,
                                          double h, const motion::Point& whole, double longer);
@@ -47,13 +47,13 @@ class LocalStep {
   const Model& model_;
   const linear::CondensedRows& rows_;
   std::size_t radius_;
-  std::optional<linear::BandFactors> band_;  // its size is that of the last window
+  std::optional<linear::BandFactors> band_;  // A_WW of the last window
   linear::Weights weights_;
   Vector load_, b_;                    // loads of all degrees of freedom, valid in W only; b_W, then x_W
   std::vector<Places> loads_;          // range of band positions on which each load acts
   std::vector<double> by_N_, by_T_;    // factors of N and T, one for each degree of freedom of each contact
   std::vector<std::size_t> contacts_;  // contacts in the window
-  motion::Point end_;                  // before read(), u and v contain only their known parts
+  motion::Point end_;                  // result; before read(), u and v are only predictions
 };
 
 }  // namespace signorini::newmark

@@ -18,7 +18,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_halvings = 60;
 constexpr double rounding_of_guard = 1.0 / 16.0;  // part of level() up to which a guard is regarded as zero
-constexpr int max_tangents = 4;       // after these tangents and secants the crossing is bracketed
+constexpr int max_tangents = 4;       // number of tangents and secants before Brent's method is used
 constexpr double spare = 1.0 / 16.0;  // step doubling: part of the tolerance below which steps grow
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
 constexpr double least_part = 1e-12;  // step doubling: shortest step, relative to dt
@@ -60,14 +60,15 @@ void NewmarkEngine::start(const engine::Segment& segment) {
   second_ = false;
   guards_.start(segment);
   guards_.evaluate(end_, t1_);
-  // Step doubling compares displacements. A load on a sticking contact causes none, so its frequency limits the step.
+  // Step doubling compares displacements. A load on a contact that sticks rigidly causes no displacement, so the frequency of
+  // the load limits the step.
   if (const double omega = doubling_ ? segment.forcing->max_omega() : 0.0; omega > 0.0)
     regular_ = std::min(regular_, forcing_step / omega);
   segment_dt_ = doubling_ ? dt_ : segment_step_length(model_, t0_, segment.end, dt_);
   ++counters.restarts;
 }
 
-/// Result of StepGuards::dip(). nullopt also if the dip is at the beginning of the step.
+/// Result of StepGuards::dip(). nullopt also if the dip is within the resolution of time of the beginning of the step.
 std::optional<double> NewmarkEngine::dip_of(std::size_t slot, double h) const {
   const std::optional<double> x = guards_.dip(slot, h, h_before_);
   return x && *x * h > motion::resolution_at(t0_, h) ? x : std::nullopt;
@@ -90,7 +91,7 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
   return guards_.value(slot, t0_ + h, inner_);
 }
 
-/// Approximates value_after() by a step of the contact's neighbourhood only. longer: length of the step that ends in end_. NaN:
+/// Approximates value_after() by a step of only the contact's neighbourhood. longer: length of the step that ends in end_. NaN:
 /// no local step is possible.
 double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   const motion::Point* near = step_.local_end(model_.layout.contact_of_guard(slot), *segment_.forcing, begin_,
@@ -100,22 +101,22 @@ double NewmarkEngine::value_near(std::size_t slot, double h, double longer) {
   return guards_.value(slot, t0_ + h, *near);
 }
 
-/// True if the contact has springs. Contacts without springs need a more accurate root: at an event the decision sets their
-/// remaining gap, slip rate or force to zero. This is a small impulse on modes faster than the step, which causes further
-/// events.
-bool NewmarkEngine::is_soft(std::size_t slot) const {
+/// True if the contact has springs. Contacts without springs need a more accurate root: at an event the decision sets the
+/// remaining gap, slip rate or force of such a contact to zero. This change is a small impulse that excites modes faster than
+/// the step and so causes further events.
+bool NewmarkEngine::has_springs(std::size_t slot) const {
   const Contact& contact = model_.contacts[model_.layout.contact_of_guard(slot)];
   return !contact.takes_impulses() && !contact.sticks_rigidly();
 }
 
-/// Largest magnitude of the guard that is regarded as zero. A root search for a smaller value would follow rounding errors.
+/// Largest magnitude of a guard that is regarded as zero. A root search for a smaller value would follow rounding errors.
 double NewmarkEngine::zero_of(std::size_t slot) const {
-  return is_soft(slot) ? rounding_of_guard * level(slot) : 0.0;
+  return has_springs(slot) ? rounding_of_guard * level(slot) : 0.0;
 }
 
 double NewmarkEngine::crossing_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
                                        double floor) {
-  double last = g_lo - floor;  // given to the root finder again if a matrix is singular
+  double last = g_lo - floor;  // last finite value, used instead of a value from a singular matrix
   const auto value = [&](double h) {
     if (h == lo) return g_lo - floor;
     if (h == hi) return g_hi - floor;
@@ -164,15 +165,16 @@ double NewmarkEngine::crossing_near(std::size_t slot, double h) {
   };
   const auto fall = guards_.has_rate(slot) ? path.cubic_root() : std::nullopt;
   Tangent next = fall ? Tangent{fall->x * h, fall->slope / h} : Tangent{nan, nan};
-  const auto near = is_soft(slot) && fall ? tangent_near(slot, h, next) : std::nullopt;
+  const auto near = has_springs(slot) && fall ? tangent_near(slot, h, next) : std::nullopt;
   if (near) next = *near;
   double before = nan, g_before = nan;
-  const int most = is_soft(slot) ? max_tangents : 1;
+  const int most = has_springs(slot) ? max_tangents : 1;
   for (int i = 0; i < most && next.slope < 0.0; ++i) {
     const double g = narrow(next.at);
     if (std::abs(g) <= zero_of(slot)) return next.at;
     if (i > 0 && !near) next.slope = (g - g_before) / (next.at - before);
-    if (is_soft(slot) && std::abs(g / next.slope) <= 0.25 * motion::resolution_at(t0_ + h, h)) return next.at;
+    if (has_springs(slot) && std::abs(g / next.slope) <= 0.25 * motion::resolution_at(t0_ + h, h))
+      return next.at;
     if (i == 0 && near) step_.double_radius();
     before = next.at;
     g_before = g;
@@ -183,10 +185,10 @@ double NewmarkEngine::crossing_near(std::size_t slot, double h) {
   return crossing_between(slot, lo, g_lo, hi, g_hi);
 }
 
-bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
+bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && has_springs(slot); }
 
-/// Step length by the paper's single linear interpolation. If the guard is still positive there, no event would be triggered:
-/// the step is then extended by twice the next interpolation until the guard is not positive.
+/// Step length by the paper's single linear interpolation. If the guard is still positive at this step length, the decision
+/// would find no event. Then the step is extended by twice the next interpolation until the guard is not positive.
 double NewmarkEngine::linear_root(std::size_t slot, double hi) {
   const events::GuardCubic path = guards_.path(slot, hi);
   const double g_hi = path.g1;
@@ -199,8 +201,8 @@ double NewmarkEngine::linear_root(std::size_t slot, double hi) {
   return h;
 }
 
-/// The guard that reaches zero first in the step. located: the step already ends at the root of `slot`, so other guards are
-/// candidates only if they are clearly negative.
+/// The guard that reaches zero first in the step of length h. located: this step already ends at the root of `slot`, so another
+/// guard is a candidate only if its value at the end is clearly negative.
 NewmarkEngine::Candidate NewmarkEngine::earliest_candidate(double h, bool located, std::size_t slot) {
   Candidate first;
   const auto consider = [&](Candidate::Kind kind, std::size_t s, double x) {
@@ -220,10 +222,12 @@ NewmarkEngine::Candidate NewmarkEngine::earliest_candidate(double h, bool locate
   return first;
 }
 
-/// True if this guard caused the decision at the beginning of this step (Sunk), and that decision kept its contact state.
-bool NewmarkEngine::has_sunk(std::size_t slot) const {
-  return sunk_ && sunk_->slot == slot && sunk_->guard == segment_.decision->guards[slot].kind &&
-         std::abs(t0_ - sunk_->t) <= motion::resolution_at(t0_, 0.0);
+/// True if this guard caused the decision at the beginning of this step (NeverPositiveGuard), and the same guard is active after the
+/// decision.
+bool NewmarkEngine::was_never_positive(std::size_t slot) const {
+  return never_positive_guard_ && never_positive_guard_->slot == slot &&
+         never_positive_guard_->guard == segment_.decision->guards[slot].kind &&
+         std::abs(t0_ - never_positive_guard_->t) <= motion::resolution_at(t0_, 0.0);
 }
 
 bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
@@ -236,7 +240,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       h = interpolates(slot) ? linear_root(slot, h) : crossing_near(slot, h);
       return true;
     case Candidate::Kind::dip: {
-      // The guard decreases and increases in the step. A step up to its estimated minimum shows whether it reaches zero.
+      // The guard decreases and then increases in the step. A step up to the estimated minimum shows whether it reaches zero.
       const double x = candidate.x * h;
       ++counters.rolled_back;
       const double g = value_after(slot, x);
@@ -248,10 +252,10 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       return true;
     }
     case Candidate::Kind::sink: {
-      // The guard began at zero, rose, and reached zero again within the step. If the last decision was also due to this
-      // guard, which did not rise (has_sunk), its rise is below rounding. Then its root is the place where it becomes clearly
+      // The guard began at zero, rose, and reached zero again within the step. If this guard also caused the last decision and
+      // did not rise (was_never_positive), any rise is below rounding. Then the root is the place where the guard becomes clearly
       // negative.
-      const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
+      const double floor = was_never_positive(slot) ? -2.0 * rounding_of_guard * level(slot) : 0.0;
       double hi = h, g_hi = path.g1;
       for (int i = 0; i < max_halvings; ++i) {
         const double lo = 0.5 * hi;
@@ -265,8 +269,8 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         hi = lo;
         g_hi = g;
       }
-      h = hi;  // the guard did not rise at any tried length: decide the contact states again
-      sunk_ = Sunk{t0_ + h, slot, segment_.decision->guards[slot].kind};
+      h = hi;  // the guard did not rise at any tried step length: the contact states are decided again
+      never_positive_guard_ = NeverPositiveGuard{t0_ + h, slot, segment_.decision->guards[slot].kind};
       return true;
     }
   }
@@ -281,10 +285,10 @@ engine::Step NewmarkEngine::failed(std::string reason) const {
   return step;
 }
 
-/// Step length h at which one step of 2 h and two steps of h differ by less than the tolerance.
+/// Step length h for which one step of length 2 h and two steps of length h differ by less than the tolerance.
 double NewmarkEngine::length_by_doubling(double remaining) {
   if (std::exchange(second_, !second_)) return regular_;
-  // At most half of the remainder, so that two steps fit before the end of the segment.
+  // h is at most half of the remaining time, so that two steps fit before the end of the segment.
   for (double h = std::min(regular_, 0.5 * remaining);; h *= 0.5) {
     if (h < least_part * dt_) return h;
     inner_time_ = nan;
@@ -307,12 +311,12 @@ double NewmarkEngine::length_by_doubling(double remaining) {
     }
     regular_ = h;
     second_ = !(change < spare && 2.0 * h <= dt_ && 2.0 * h < remaining);
-    if (!second_) regular_ = 2.0 * h;  // next step: twice as long
+    if (!second_) regular_ = 2.0 * h;  // the next step is twice as long
     return h;
   }
 }
 
-/// Ends the step at t0_ + h. If h is the length of the last tried step, no new step is needed. False: the matrix is singular.
+/// Ends the step at t0_ + h. If h is the length of the last tried step, its result is used. False: the matrix is singular.
 bool NewmarkEngine::end_after(double h) {
   t1_ = t0_ + h;
   if (tried_ == h)
@@ -325,7 +329,7 @@ bool NewmarkEngine::end_after(double h) {
 }
 
 engine::Step NewmarkEngine::advance() {
-  // The end of the last step is the beginning of this one. Swapping reuses the memory of the vectors.
+  // The end of the last step is the beginning of this step. Swapping reuses the memory of the vectors.
   std::swap(a_before_, begin_.a);
   if (h_ == 0.0) a_before_.resize(0);
   std::swap(begin_, end_);
@@ -362,7 +366,7 @@ engine::Step NewmarkEngine::advance() {
     slot = c.slot;
     grid_length_ = 0.0;
     if (h < longer && !end_after(h)) return failed(singular);
-    if (known && longer - h <= motion::resolution_at(t1_, h)) break;  // same time as the event found before
+    if (known && longer - h <= motion::resolution_at(t1_, h)) break;  // same time as the previous event
   }
   h_ = h;
   ++counters.steps;
@@ -377,16 +381,16 @@ engine::Step NewmarkEngine::advance() {
   return step;
 }
 
-/// True if a guard is clearly negative at `point`, the end of a shorter step to t inside the last step. This happens if the
-/// step is far longer than the periods of the highest modes, because steps of different lengths then differ.
+/// True if a guard is clearly negative at `point`, the end of a shorter step to t inside the last step. This may happen if the
+/// last step is far longer than the periods of the highest modes, because the error of a step depends on its length.
 bool NewmarkEngine::violates_guard(double t, const motion::Point& point) const {
   for (std::size_t s = 0; s < guards_.active_guards().size(); ++s)
     if (!guards_.active_guards().idle(s) && guards_.value(s, t, point) < -level(s)) return true;
   return false;
 }
 
-/// Solution at t inside the last step, by a shorter step to t. If this solution violates a guard, it is replaced by linear
-/// interpolation between the ends, which satisfies all contact laws, because these are linear or convex cones.
+/// Solution at t inside the last step, by a shorter step to t. If this solution violates a guard, linear interpolation between
+/// the ends is used instead. It satisfies all contact laws, because these are linear or convex cones.
 const motion::Point& NewmarkEngine::point_inside(double t) {
   if (t == t1_) return end_;
   if (t == t0_) return begin_;
@@ -400,7 +404,8 @@ const motion::Point& NewmarkEngine::point_inside(double t) {
 
 void NewmarkEngine::evaluate(double t, motion::Point& point) { point = point_inside(t); }
 
-/// Adds the accelerations of massless degrees of freedom. The step has already computed those of degrees with mass.
+/// Adds the accelerations of massless degrees of freedom. The step has already computed the accelerations of all other degrees
+/// of freedom.
 void NewmarkEngine::accelerate(double t, motion::Point& point) {
   if (!solves_massless_velocities_) return;
   const Vector of_step = point.a;
@@ -409,8 +414,8 @@ void NewmarkEngine::accelerate(double t, motion::Point& point) {
     if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
 }
 
-/// Interpolates degrees of freedom with mass by a parabola, as the step assumes (constant acceleration), forces and massless
-/// degrees of freedom linearly. Needs no factorisation, in contrast to evaluate().
+/// Interpolates degrees of freedom with mass by a parabola (the step assumes a constant acceleration), and forces and massless
+/// degrees of freedom linearly. Unlike evaluate(), needs no factorisation.
 void NewmarkEngine::interpolate(double t, motion::Point& point) {
   if (t == t1_ || t == t0_ || !(t1_ > t0_)) {
     point = t == t0_ && t1_ > t0_ ? begin_ : end_;
@@ -431,10 +436,11 @@ void NewmarkEngine::integrate(double from, double to, motion::WorkIntegrals& wor
   until(to, 1.0);
 }
 
-/// Error of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
+/// Bound on the guard's error due to the error of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in
+/// velocities.
 double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, std::size_t k) const {
   const Form& form = guard.form;
-  if (begin_.a.size() == 0) return 0.0;  // at the start, before any step
+  if (begin_.a.size() == 0) return 0.0;  // no step was taken yet
   const Contact& contact = model_.contacts[k];
   const auto errors = [&](const Combination& c, double& u, double& v) {
     const double change = c.dot(end_.a) - c.dot(begin_.a);

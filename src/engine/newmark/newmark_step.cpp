@@ -12,18 +12,19 @@
 namespace signorini::newmark {
 namespace {
 
-// Limits of the number and the memory of kept factors: two step lengths (dt, and 2 dt for step doubling) for each of 16 contact
-// states of a cycle. The memory limit equals that for state systems (motion/state_systems.hpp).
+// Limits of the number and the memory of cached factors: two step lengths (dt, and 2 dt for step doubling) for each of 16
+// contact states of a cycle. The memory limit is the same as for state systems (motion/state_systems.hpp).
 constexpr base::CacheLimits max_kept{32, std::size_t{8} << 20};
 
-// Ratio of the times of a factorisation and of a solve. Measured for a banded matrix with 3000 unknowns: 0.64 ms, plus 0.3 ms
-// for the preparation of the factors, and 0.045 ms.
+// Time of a factorisation divided by the time of a solve. Measured for a banded matrix with 3000 unknowns: factorisation
+// 0.64 ms, plus 0.3 ms for the preparation of the factors; solve 0.045 ms.
 constexpr double solves_a_factorisation = 20.0;
-constexpr double bytes_a_number = 12.0;  // memory of one entry of KLU's factors
-// Refinement continues while each round reduces the correction to a tenth. Eight rounds take as long as a factorisation.
+constexpr double bytes_a_number = 12.0;  // memory of one entry of KLU's factors, in bytes
+// Iterative refinement continues while each round reduces the correction at least to a tenth. Eight rounds take as long as a
+// factorisation.
 constexpr double least_gain = 0.1;
 constexpr int most_rounds = 8;
-constexpr double left_of_rounding = rounding::eps / 16.0;  // relative error of a refined solution
+constexpr double left_of_rounding = rounding::eps / 16.0;  // admissible relative error of a refined solution
 
 }  // namespace
 
@@ -32,17 +33,17 @@ NewmarkStep::NewmarkStep(const Model& model, const linear::SystemMatrices& struc
       structure_(structure),
       own_kinds_(linear::dof_kinds(model, structure)),
       massless_(linear::has_massless(model)),
-      in_rows_{own_kinds_, {}},
+      kinds_in_states_{own_kinds_, {}},
       workspace_(model, structure),
       kept_(max_kept),
       irregular_(model, structure),
-      economical_(linear::saves_factorisations(model, structure, irregular_.redundant_rows())),
+      saves_factorisations_(linear::saves_factorisations(model, structure, irregular_.redundant_rows())),
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = u_;
   x_.setZero(structure.size + model.force_count());
   work_ = x_;
-  if (economical_) condensed_ = linear::CondensedRows::create(model, structure, widest_band);
+  if (saves_factorisations_) condensed_ = linear::CondensedRows::create(model, structure, widest_band);
   if (!condensed_) return;
   kept_band_.emplace(*condensed_);
   irregular_band_.emplace(*condensed_);
@@ -62,29 +63,30 @@ void NewmarkStep::set(Key key, std::shared_ptr<const std::vector<Rows>> rows) {
       if (!beside || key[k] != key_[k]) condensed_->set_rows(k, (*rows_)[k]);
   }
   key_ = std::move(key);
-  if (massless_) in_rows_ = linear::kinds_in_states(own_kinds_, model_, *rows_);
+  if (massless_) kinds_in_states_ = linear::kinds_in_states(own_kinds_, model_, *rows_);
   last_ = nullptr;
-  updates_ = false;
+  updates_valid_ = false;
   spent_ = 0.0;
 }
 
 void NewmarkStep::set_weights(double h) {
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = in_rows_.kinds[i] == linear::DofKind::massive  ? linear::Weights{1.0, 0.5 * h, 0.25 * h * h}
-                  : in_rows_.kinds[i] == linear::DofKind::damped ? linear::Weights{0.0, 1.0, 0.5 * h}
-                                                                 : linear::Weights{0.0, 0.0, 1.0};
+    weights_[i] = kinds_in_states_.kinds[i] == linear::DofKind::massive
+                      ? linear::Weights{1.0, 0.5 * h, 0.25 * h * h}
+                  : kinds_in_states_.kinds[i] == linear::DofKind::damped ? linear::Weights{0.0, 1.0, 0.5 * h}
+                                                                         : linear::Weights{0.0, 0.0, 1.0};
 }
 
-/// Factorises the matrix. fresh: choose new pivots. The pivots of other contact states are reused in any case if each contact
-/// force is the pivot of its own row.
+/// Factorises the matrix. fresh: choose new pivots, unless each contact force is the pivot of its own row: then the pivots of
+/// other contact states are reused.
 bool NewmarkStep::factor(linear::SystemMatrix& matrix, double h, bool fresh) {
   set_weights(h);
   return matrix.set(*rows_, weights_,
-                    fresh && !(economical_ && !linear::contact_force_blocks(*rows_).empty()),
-                    in_rows_.undamped);
+                    fresh && !(saves_factorisations_ && !linear::contact_force_blocks(*rows_).empty()),
+                    kinds_in_states_.undamped);
 }
 
-/// Differences between the current rows and base_rows_, in the columns of the matrix at base_h_.
+/// Differences between the current rows and base_rows_, as rows of the matrix for the step length base_h_.
 std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
   std::vector<linear::ChangedRow> changed;
   const auto n = static_cast<std::size_t>(structure_.size);
@@ -112,20 +114,21 @@ std::vector<linear::ChangedRow> NewmarkStep::changed_rows() const {
   return changed;
 }
 
-/// Updates the base factors to the current rows. False: a factorisation is faster.
+/// Updates the base factors to the current rows. False: a new factorisation is needed, or is faster.
 bool NewmarkStep::update(double h) {
-  if (!economical_ || updated_.base() == nullptr || base_h_ != h) return false;
-  if (!updates_) {
+  if (!saves_factorisations_ || updated_.base() == nullptr || base_h_ != h) return false;
+  if (!updates_valid_) {
     set_weights(h);
-    updates_ = updated_.set(changed_rows());
+    updates_valid_ = updated_.set(changed_rows());
   }
   spent_ += static_cast<double>(updated_.numbers());
   const double factorisation =
       solves_a_factorisation * static_cast<double>(updated_.base()->bytes()) / bytes_a_number;
-  return updates_ = updates_ && spent_ <= factorisation;
+  return updates_valid_ = updates_valid_ && spent_ <= factorisation;
 }
 
-/// Solves x_ := A^-1 x_ with the factors of the band matrix. False: no such factors exist, and x_ is unchanged.
+/// Solves x_ := A^-1 x_ with the factors of the band matrix. False: there is no band matrix, or its elimination loses digits;
+/// x_ is then unchanged.
 bool NewmarkStep::solve_condensed(double h, bool kept) {
   if (!condensed_) return false;
   const linear::Weights weights{1.0, 0.5 * h, 0.25 * h * h};
@@ -150,12 +153,12 @@ void NewmarkStep::double_radius() {
   if (local_step_) local_step_->double_radius();
 }
 
-/// Solves x_ := A^-1 x_ for a step length that will recur.
+/// Solves x_ := A^-1 x_ for a step length that will recur. False: the matrix is singular.
 bool NewmarkStep::solve_kept(double h) {
   if (last_ == nullptr || last_h_ != h) {
     last_h_ = h;
     const std::pair<Key, double> place(key_, h);
-    const Factors* known = updates_ && base_h_ == h ? nullptr : kept_.find(place);
+    const Factors* known = updates_valid_ && base_h_ == h ? nullptr : kept_.find(place);
     last_ = known != nullptr ? *known : nullptr;
     if (last_ == nullptr && update(h)) {
       updated_.solve(x_.data(), work_.data());
@@ -166,11 +169,11 @@ bool NewmarkStep::solve_kept(double h) {
       if (!factor(workspace_, h, true)) return false;
       last_ = std::make_shared<const linear::TriangularFactors>(workspace_.klu().factors());
       kept_.insert(place, last_, last_->bytes());
-      if (economical_) {
+      if (saves_factorisations_) {
         updated_.set_base(last_);
         base_rows_ = *rows_;
         base_h_ = h;
-        updates_ = false;
+        updates_valid_ = false;
       }
     }
   }
@@ -206,8 +209,8 @@ void NewmarkStep::set_residual(const Vector& b, const Vector& x, double h) {
   rest_.noalias() = b - product_;
 }
 
-/// Solves x_ := A^-1 x_ for the step length h by iterative refinement: factors and initial solution are those of the last
-/// irregular length. False: slow convergence; x_ is unchanged.
+/// Solves x_ := A^-1 x_ for the step length h by iterative refinement. Factors and initial solution are those of the last
+/// irregular step length. False: the convergence is too slow; x_ is then unchanged.
 bool NewmarkStep::refine(double h) {
   const Eigen::Index n = structure_.size, m = x_.size() - n;
   const auto greatest = [](const auto& of) { return of.size() > 0 ? of.cwiseAbs().maxCoeff() : 0.0; };
@@ -239,11 +242,11 @@ bool NewmarkStep::refine(double h) {
   return false;
 }
 
-/// Solves x_ := A^-1 x_ for a step length that will hardly recur.
+/// Solves x_ := A^-1 x_ for a step length that will probably not recur. False: the matrix is singular.
 bool NewmarkStep::solve_irregular(double h) {
   const bool same_rows = irregular_key_ == key_ && irregular_h_ != 0.0;
   if (!(same_rows && irregular_h_ == h)) {
-    if (economical_ && same_rows && irregular_x_.size() > 0 && refine(h)) return true;
+    if (saves_factorisations_ && same_rows && irregular_x_.size() > 0 && refine(h)) return true;
     irregular_key_ = key_;
     irregular_h_ = factor(irregular_, h, !same_rows) ? h : 0.0;
     if (irregular_h_ == 0.0) return false;
@@ -256,13 +259,13 @@ bool NewmarkStep::solve_irregular(double h) {
 /// Sets u_ and v_ to the parts of u1 and v1 that do not depend on the unknowns of the step.
 void NewmarkStep::predict(const motion::Point& from, double h) {
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
-  for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
-    const bool massive = in_rows_.kinds[i] == linear::DofKind::massive,
-               damped = in_rows_.kinds[i] == linear::DofKind::damped;
+  for (std::size_t i = 0; i < kinds_in_states_.kinds.size(); ++i) {
+    const bool massive = kinds_in_states_.kinds[i] == linear::DofKind::massive,
+               damped = kinds_in_states_.kinds[i] == linear::DofKind::damped;
     u_.data()[i] = massive ? u0[i] + h * (v0[i] + 0.25 * h * a0[i]) : damped ? u0[i] + 0.5 * h * v0[i] : 0.0;
     v_.data()[i] = massive ? v0[i] + 0.5 * h * a0[i] : 0.0;
   }
-  for (const linear::UndampedMotion& motion : in_rows_.undamped)
+  for (const linear::UndampedMotion& motion : kinds_in_states_.undamped)
     for (const auto& [dof, factor] : motion.others)
       u_.data()[dof] -= factor * (u0[motion.dof] + 0.5 * h * v0[motion.dof]);
 }
@@ -271,13 +274,13 @@ void NewmarkStep::read_motion(const motion::Point& from, double h, motion::Point
   for (Vector* part : {&to.u, &to.v, &to.a}) part->resize(from.u.size());
   const double *u0 = from.u.data(), *v0 = from.v.data(), *x = x_.data();
   double *u1 = to.u.data(), *v1 = to.v.data(), *a1 = to.a.data();
-  for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
+  for (std::size_t i = 0; i < kinds_in_states_.kinds.size(); ++i) {
     a1[i] = 0.0;
-    if (in_rows_.kinds[i] == linear::DofKind::massive) {
+    if (kinds_in_states_.kinds[i] == linear::DofKind::massive) {
       u1[i] = u_.data()[i] + 0.25 * h * h * x[i];
       v1[i] = v_.data()[i] + 0.5 * h * x[i];
       a1[i] = x[i];
-    } else if (in_rows_.kinds[i] == linear::DofKind::damped) {
+    } else if (kinds_in_states_.kinds[i] == linear::DofKind::damped) {
       u1[i] = u_.data()[i] + 0.5 * h * x[i];
       v1[i] = x[i];
     } else {
@@ -285,7 +288,7 @@ void NewmarkStep::read_motion(const motion::Point& from, double h, motion::Point
       v1[i] = h > 0.0 ? 2.0 * (u1[i] - u0[i]) / h - v0[i] : v0[i];
     }
   }
-  for (const linear::UndampedMotion& motion : in_rows_.undamped)
+  for (const linear::UndampedMotion& motion : kinds_in_states_.undamped)
     for (const auto& [dof, factor] : motion.others) {
       u1[dof] += factor * u1[motion.dof];
       v1[dof] += factor * v1[motion.dof];
@@ -303,7 +306,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   const std::vector<Rows>& rows = *rows_;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    ContactMotion m;  // only the part that does not depend on the unknowns
+    ContactMotion m;  // the part of the contact's motion that does not depend on the unknowns
     contact::set_displacement(contact, u_, forcing.surface(k, t1, 0), m);
     contact::set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
     m.at = -forcing.surface(k, t1, 2);
@@ -313,9 +316,9 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   }
   if (!solve_condensed(h, kept)) {
     if (!(kept ? solve_kept(h) : solve_irregular(h))) return false;
-    if (economical_) {
+    if (saves_factorisations_) {
       if (!kept) irregular_x_ = x_;
-      predict(from, h);  // the refinement has overwritten u_ and v_
+      predict(from, h);  // again, because the refinement has overwritten u_ and v_
     }
   }
 
@@ -323,7 +326,7 @@ bool NewmarkStep::take(const motion::Forcing& forcing, const motion::Point& from
   to.forces.resize(x_.size() - from.u.size());
   const double* x = x_.data();
   for (std::size_t i = n; i < static_cast<std::size_t>(x_.size()); ++i) to.forces.data()[i - n] = x[i];
-  // T of a slipping contact is computed from N and not taken from the solve, so that rounding does not let it drift.
+  // T of a slipping contact is computed from N instead of taken from the solution, so that T cannot drift by rounding errors.
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (const Form& tangent = rows[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
       to.forces.data()[model_.layout.tangent(k)] = -tangent.N * to.forces.data()[model_.layout.normal(k)];
@@ -361,22 +364,22 @@ void NewmarkWorkIntegrals::add(const motion::Forcing& forcing, const contact::Co
               factor);
     if (state == State::inside)
       works.damping +=
-          factor * contact::inside_loss(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
+          factor * contact::dashpot_loss_inside(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
   }
 }
 
 namespace {
 
-constexpr std::size_t finest =
-    1024;  // number of parts: T of a half wave then has a relative error of pi^2 / 12 / 1024^2
-// Error limit relative to int |f|, for steps of length dt. Four steps over a half sine have a smaller error, three steps a
-// larger one.
+// Largest number of parts of a segment. The impulse T(1024) of a half wave has a relative error of pi^2 / 12 / 1024^2.
+constexpr std::size_t finest = 1024;
+// Largest error of an impulse for steps of length dt, relative to int |f|. The error is smaller for four steps over a half
+// sine, and larger for three steps.
 constexpr double lost = 1.0 / 16.0;
-constexpr double passed = 1e-4;  // error limit relative to int |f|, for shorter steps
+constexpr double passed = 1e-4;  // largest error of an impulse for shorter steps, relative to int |f|
 
 using Values = std::array<double, finest + 1>;
 
-/// True if the polynomial has degree 2 or higher.
+/// True if the polynomial with the coefficients c has degree 2 or higher.
 bool curves(const std::vector<double>& c) {
   return std::any_of(c.begin() + std::min<std::ptrdiff_t>(2, std::ssize(c)), c.end(),
                      [](double x) { return x != 0.0; });
@@ -407,9 +410,10 @@ double trapezoid_by_dt(const Piece& piece, double begin, double end, double dt) 
   return sum / (end - begin);
 }
 
-/// True if f is a cubic that stays between its values at both ends, as a table's cubic does between two rows.
+/// True if f is a cubic that stays between its values at both ends, like the cubic between two rows of a table.
 bool between_rows(const Piece& piece, double begin, double end) {
-  constexpr int looks = 16;  // samples; a cubic with an extreme inside exceeds its ends at several of them
+  // Number of sample intervals. A cubic with an interior extreme exceeds its end values at several samples.
+  constexpr int looks = 16;
   if (piece.function || piece.amplitude != 0.0 || piece.coefficients.size() != 4) return false;
   const auto [least, greatest] = std::minmax({piece.value(begin), piece.value(end)});
   for (int i = 1; i < looks; ++i)
@@ -418,8 +422,8 @@ bool between_rows(const Piece& piece, double begin, double end) {
   return true;
 }
 
-/// True if dt is proved short enough without the integral of |f|: for a sine plus a straight line, steps of length h have an
-/// error of at most h^2/12 |f''|, and int |f| >= |J|.
+/// True if an estimate without the integral of |f| proves that dt is short enough: for a sine plus a straight line, steps of
+/// length h have an error of at most h^2/12 |f''|, and int |f| >= |J|.
 bool dt_clearly_suffices(const Piece& piece, double begin, double end, double dt) {
   if (piece.function || curves(piece.coefficients)) return false;
   const double turn = piece.omega * std::min(dt, end - begin);
@@ -427,7 +431,7 @@ bool dt_clearly_suffices(const Piece& piece, double begin, double end, double dt
   return error <= lost * (std::abs(trapezoid_by_dt(piece, begin, end, dt)) - error);
 }
 
-/// Number of equal steps that this piece of a history needs, or 1 if dt is short enough.
+/// Number of equal steps that a piece of a history needs between `begin` and `end`. 1: dt is short enough.
 std::size_t parts_for(const Piece& piece, double begin, double end, double dt) {
   if (between_rows(piece, begin, end) || dt_clearly_suffices(piece, begin, end, dt)) return 1;
   Values f, size;

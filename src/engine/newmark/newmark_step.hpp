@@ -9,11 +9,12 @@
 // is divided by h, so a step may be as short as the resolution of time.
 //
 // Step lengths recur (dt), or are irregular (steps to an event). In large structures (at least min_condensed_size unknowns)
-// with compliant contacts and a narrow band, every irregular length is factorised anew; the factors of recurring lengths are
-// updated after changes of contact states (linear/condensed_matrix.hpp). In other structures:
+// with compliant contacts and a narrow band, the matrix is factorised anew for every irregular length, and the factors for
+// recurring lengths are updated after changes of contact states (linear/condensed_matrix.hpp). In other structures:
 //   after a change of contact states at a recurring length    low-rank update of the last factors (linear/mass_factors.hpp),
 //                                                             until its solves have taken as long as a factorisation
-//   at a length near the last irregular length                x += A_last^-1 (b - A x), down to rounding
+//   at an irregular length, contact states unchanged          refinement x += A_last^-1 (b - A x) with the last irregular
+//                                                             factors, until the correction is below rounding
 #pragma once
 
 #include <optional>
@@ -30,13 +31,13 @@
 
 namespace signorini::newmark {
 
-/// Step lengths that differ by less than this fraction are regarded as equal, so that the last step of a segment may be
-/// slightly longer than dt. Chosen: far above the rounding of t/dt for 1e6 steps, far below the error of a step.
+/// Relative difference below which step lengths are regarded as equal. So the last step of a segment may be slightly longer
+/// than dt. Chosen: far above the rounding error of t/dt for 1e6 steps, far below the error of a step.
 inline constexpr double length_tolerance = 1e-9;
 
 class NewmarkStep {
  public:
-  /// Identifies the coefficients that the rows contribute to the matrix: equal keys mean equal matrices.
+  /// Key of the coefficients that the contact rows contribute to the matrix: equal keys mean equal matrices.
   using Key = std::vector<int>;
 
   /// widest_band: largest band width for which a matrix is factorised as a band matrix.
@@ -45,18 +46,18 @@ class NewmarkStep {
 
   /// Sets the rows (normal and tangential law) of all contacts and takes ownership of them.
   void set(Key key, std::vector<Rows> rows);
-  /// Sets the rows of all contacts and shares them with their owner.
+  /// Sets the rows of all contacts, shared with the caller, who must not change them afterwards.
   void set(Key key, std::shared_ptr<const std::vector<Rows>> rows);
   /// Rows passed by value to set(): their constants may be changed without a new factorisation.
   [[nodiscard]] std::vector<Rows>& own_rows() { return *own_rows_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return *rows_; }
-  /// Takes a step of length h from `from` at t1 - h to `to` at t1. kept: keep the factorisation, because steps of this length
-  /// will recur. Returns false if the matrix is singular.
+  /// Takes a step of length h from `from` at t1 - h to `to` at t1. kept: true if steps of this length will recur, so that the
+  /// factors are stored. Returns false if the matrix is singular.
   [[nodiscard]] bool take(const motion::Forcing& forcing, const motion::Point& from, double t1, double h,
                           bool kept, motion::Point& to);
-  /// Motion of one contact at the end of the step that take() computes, from a neighbourhood of the contact; all other entries
-  /// of the point are invalid. whole: end of the step of length `longer` from the same `from`. Null if there is no
-  /// neighbourhood method for this structure, or if it would not save time.
+  /// Motion of one contact at the end of a step like that of take(), computed from a neighbourhood of the contact; all other
+  /// entries of the point are invalid. whole: motion at the end of the step of length `longer` from the same `from`. Null if
+  /// this method is not available for the structure, or would not save time.
   [[nodiscard]] const motion::Point* local_end(std::size_t contact, const motion::Forcing& forcing,
                                                const motion::Point& from, double t1, double h,
                                                const motion::Point& whole, double longer);
@@ -84,9 +85,10 @@ class NewmarkStep {
   Key key_;
   std::shared_ptr<std::vector<Rows>> own_rows_;
   std::shared_ptr<const std::vector<Rows>> rows_;
-  const std::vector<linear::DofKind> own_kinds_;  // kinds without the contact rows
+  const std::vector<linear::DofKind>
+      own_kinds_;  // kinds of the structure's degrees of freedom without contacts
   const bool massless_;
-  linear::MotionKinds in_rows_;  // unknown of each degree of freedom
+  linear::MotionKinds kinds_in_states_;  // kinds in the current contact states: they determine the unknowns
   linear::SystemMatrix workspace_;
   base::LruCache<std::pair<Key, double>, Factors> kept_;  // factors by rows and step length
   linear::SystemMatrix irregular_;                        // matrix for a length that will not recur
@@ -94,7 +96,7 @@ class NewmarkStep {
   double irregular_h_ = 0.0;  // 0: irregular_ has no factors
   Factors last_;              // factors of the last recurring step length; null after a change of rows
   double last_h_ = 0.0;
-  const bool economical_;
+  const bool saves_factorisations_;
   std::optional<linear::CondensedRows> condensed_;         // used if the band is narrow
   std::optional<linear::CondensedMatrix> kept_band_;       // band matrix for step lengths that recur
   std::optional<linear::CondensedMatrix> irregular_band_;  // band matrix for other step lengths
@@ -103,7 +105,7 @@ class NewmarkStep {
   linear::WoodburyFactors updated_;
   std::vector<Rows> base_rows_;  // rows of the base matrix
   double base_h_ = 0.0;
-  bool updates_ = false;                 // updated_ is in use, for last_h_
+  bool updates_valid_ = false;           // updated_ is valid for the current rows
   double spent_ = 0.0;                   // operations of solves with updated_ since the rows changed
   Vector irregular_x_, rest_, product_;  // last solution at an irregular length; work arrays
   std::vector<linear::Weights> weights_;
@@ -111,7 +113,7 @@ class NewmarkStep {
   long solves_ = 0;
 };
 
-// Works of the loads and of the surfaces, and dissipated energies, in a step of average acceleration.
+// Works of the loads and of the surfaces, and dissipated energies, in a step of the average acceleration method.
 //
 //   loads     1/2 (P0 + P1) . du
 //   damping   h v^T C v + sum_closed cn vn dg          v, vn: means of both ends
@@ -143,15 +145,15 @@ class NewmarkWorkIntegrals {
 //   dt    if steps of this length have |T - J| <= int |f| / 16
 //   h     otherwise: h = segment / 2^k with the smallest k for which |T(2^k) - J| <= 1e-4 int |f|
 //
-// Reason: a half sine is zero at its beginning and end, so one step over its whole length yields no impulse, and two steps lose
-// a fifth of it. If dt is short enough for a load, dt is used. For tables dt is always used, because a step ends at each of
-// their rows.
+// Reason: a half sine is zero at its beginning and end, so one step over its whole length yields no impulse, and two steps
+// yield an impulse that is a fifth too small. For tables dt is always used, because a step ends at each row of a table.
 
-/// Longer segments (in steps) use dt: even the impulse of a half wave of this length then has an error of only 1/200.
+/// Number of steps of length dt from which on a segment uses dt: the impulse of a half wave of this length then has an error of
+/// only 1/200.
 inline constexpr double short_segment_steps = 16.0;
 
-/// Step length from `begin` to `end`, at most dt. No discontinuity of a history may lie between them. Considers loads and given
-/// normal forces.
+/// Step length for the segment from `begin` to `end`, at most dt, for accurate impulses of loads and given normal forces. No
+/// discontinuity of a history may be inside the segment.
 [[nodiscard]] double segment_step_length(const Model& model, double begin, double end, double dt);
 
 }  // namespace signorini::newmark

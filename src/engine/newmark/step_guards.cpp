@@ -47,8 +47,8 @@ void StepGuards::gather(std::size_t k) {
   states_[k] = decision.states[k];
   ContactGuards& guards = contact_guards_[k];
   guards = {};
-  // Guards of a rigidly sticking contact may depend on the states of other contacts: is_linear = false collects them at every
-  // start.
+  // Guards of a rigidly sticking contact may depend on the states of other contacts. With is_linear = false, start() collects
+  // them for every segment.
   guards.is_linear = decide::is_plain(rows.normal) && decide::is_plain(rows.tangent) &&
                      rows.normal.vn == 0.0 && !segment_.forcing->is_driven(k) &&
                      !model_.contacts[k].sticks_rigidly();
@@ -131,7 +131,7 @@ void StepGuards::evaluate_linear(std::size_t k, const motion::Point& point) {
 void StepGuards::evaluate_general(std::size_t k, const motion::Point& point, double t) {
   const motion::Forcing& forcing = *segment_.forcing;
   const ContactMotion m = motion::motion_of(model_.contacts[k], k, forcing, t, point);
-  ContactMotion d;  // derivatives of m; those of N and T follow from the rows below
+  ContactMotion d;  // time derivative of m; d.N and d.T are computed from the rows below
   d.gap = m.vn;
   d.ut = m.vt;
   d.vn = m.an;
@@ -141,8 +141,8 @@ void StepGuards::evaluate_general(std::size_t k, const motion::Point& point, dou
   const Rows& rows = segment_.decision->system->rows()[k];
   d.N = -(rows.normal.gap * d.gap + rows.normal.vn * d.vn +
           rows.normal.applied_normal_force * d.applied_normal_force);
-  d.T =
-      -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);  // if rates_known(): no row of T contains velocities
+  // Used only if rates_known(): the row of T then contains no velocities.
+  d.T = -(rows.tangent.N * d.N + rows.tangent.ut * d.ut);
   for (std::size_t slot = model_.layout.guard(k); slot < model_.layout.guard_end(k); ++slot) {
     if (active_guards_.idle(slot)) continue;
     const Form& form = segment_.decision->form(slot);

@@ -16,7 +16,7 @@ Mesh make_mesh(const Scene& scene) {
   Mesh mesh;
   for (const Node& node : scene.nodes) {
     mesh.by_name.emplace(node.name, static_cast<int>(mesh.nodes.size()));
-    mesh.nodes.push_back({node.name, node.x, node.y, !node.of_mesh});
+    mesh.nodes.push_back({node.name, node.x, node.y, !node.is_mesh_node});
   }
   mesh.named = static_cast<int>(mesh.nodes.size());
   for (std::size_t i = 0; i < scene.members.size(); ++i)

@@ -56,7 +56,7 @@ class Maker {
     } else if (spec.kind == OutputKind::envelope) {
       envelope(spec, output);
     } else if (spec.kind == OutputKind::stress && spec.fibre == Fibre::both &&
-               spec.quantity != OutputQuantity::N && !is_of_body(spec.quantity)) {
+               spec.quantity != OutputQuantity::N && !is_body_stress(spec.quantity)) {
       section_extremes(spec, output);
     } else {
       PhysicalRow row(map_.size());
@@ -148,7 +148,7 @@ class Maker {
     switch (spec.kind) {
       case OutputKind::member_force:
       case OutputKind::stress:
-        return is_of_body(spec.quantity) ? body_stress(spec, row) : member_force(spec, row);
+        return is_body_stress(spec.quantity) ? body_stress(spec, row) : member_force(spec, row);
       case OutputKind::reaction:
         return reaction(spec, row);
       case OutputKind::spring:

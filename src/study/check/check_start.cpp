@@ -55,7 +55,8 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
   for (const std::size_t k : contacts) {
     const Contact& c = model.contacts[k];
     const Vector t = heavy_part(model, c.tangent);
-    if (std::string why = decide::holds_no_mass(model, c); !why.empty()) return Ambiguity{k, std::move(why)};
+    if (std::string why = decide::massless_stick_error(model, c); !why.empty())
+      return Ambiguity{k, std::move(why)};
     bool share = may_share(model, c);
     if (held.cols() > 0) {
       const Eigen::MatrixXd x = base::solve_dense(held.transpose() * held, held.transpose() * t);
@@ -89,7 +90,7 @@ std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
   std::vector<Combination> tangents;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (!c.holds_tangent_only()) continue;
+    if (!c.constrains_tangent_only()) continue;
     contacts.push_back(k);
     tangents.push_back(c.tangent);
   }

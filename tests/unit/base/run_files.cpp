@@ -92,8 +92,8 @@ TEST_CASE("run files: a manifest lists results only, in their order, and can tak
   base::remove_manifest(run.path);
   base::remove_manifest(run.path);
   CHECK(run.refusal().empty());
-  CHECK(base::unchecked_reason(run.path).starts_with(run.path.string() +
-                                                     ": no manifest.json: the run may not have finished"));
+  CHECK(base::unchecked_reason(run.path).starts_with(
+      run.path.string() + ": manifest.json is missing: the run may not have finished"));
 }
 
 TEST_CASE("run files: what is no manifest is refused") {

@@ -37,8 +37,8 @@ std::vector<Row> rows_of(std::size_t count, const std::function<Row(double)>& at
   return rows;
 }
 
-Record record(const std::vector<Row>& rows, std::size_t most, bool crowded) {
-  Record r(1.0, {.max_rows = most, .crowded = crowded});
+Record record(const std::vector<Row>& rows, std::size_t most, bool limits_rows) {
+  Record r(1.0, {.max_rows = most, .limits_rows = limits_rows});
   for (const Row& row : rows) r.add(row);
   r.close({0.0, 0.0});
   return r;

@@ -48,9 +48,9 @@ TEST_CASE(
   m.N = m.T = 0.0;
   CHECK(contact::stored_energy(c, State::inside, m) == doctest::Approx(0.125));
   CHECK(contact::stored_energy(c, State::open, m) == 0.0);
-  CHECK(contact::inside_loss(c, State::inside, -0.05, -0.01) == doctest::Approx(0.12));
-  CHECK(contact::inside_loss(c, State::open, -0.05, -0.01) == 0.0);
-  CHECK(contact::inside_loss(c, State::stick, -0.05, -0.01) == 0.0);
+  CHECK(contact::dashpot_loss_inside(c, State::inside, -0.05, -0.01) == doctest::Approx(0.12));
+  CHECK(contact::dashpot_loss_inside(c, State::open, -0.05, -0.01) == 0.0);
+  CHECK(contact::dashpot_loss_inside(c, State::stick, -0.05, -0.01) == 0.0);
 }
 
 TEST_CASE("a contact that keeps its conditions violates none; each that is broken shows by how much") {

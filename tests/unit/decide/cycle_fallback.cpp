@@ -73,7 +73,7 @@ TEST_CASE(
   REQUIRE(why);
   CHECK(why.kind == Refusal::Kind::ambiguous);
   CHECK(why.contacts == std::vector<std::size_t>{0});
-  CHECK(why.reason.find("several motions continue this one") != std::string::npos);
+  CHECK(why.reason.find("several motions continue from this instant") != std::string::npos);
   CHECK(course.undecided.empty());
 }
 

@@ -45,12 +45,13 @@ TEST_CASE(
 
 TEST_CASE("the first derivative that is not zero decides, and says how clearly") {
   const decide::Instant instant;
-  const decide::Sign falls = decide::sign_after(gap(), gap_of({0.5, -30.0, 9.0, 0.0, 0.0}, 1.0), instant, 0);
+  const decide::Sign falls =
+      decide::leading_sign(gap(), gap_of({0.5, -30.0, 9.0, 0.0, 0.0}, 1.0), instant, 0);
   CHECK(falls.sign == -1);
   CHECK(falls.order == 1);
   CHECK(falls.excess == doctest::Approx(30.0));
-  CHECK(decide::sign_after(gap(), gap_of({0.5, -0.3, 9.0, 0.0, 0.0}, 1.0), instant, 0).sign == 1);
-  CHECK(decide::sign_after(gap(), gap_of({0.5, -0.3, 0.1, 0.0, 0.0}, 1.0), instant, 0).sign == 0);
+  CHECK(decide::leading_sign(gap(), gap_of({0.5, -0.3, 9.0, 0.0, 0.0}, 1.0), instant, 0).sign == 1);
+  CHECK(decide::leading_sign(gap(), gap_of({0.5, -0.3, 0.1, 0.0, 0.0}, 1.0), instant, 0).sign == 0);
 }
 
 TEST_CASE(
@@ -90,7 +91,7 @@ TEST_CASE("a guard is told by the first order from which it is asked, though zer
     all[0] = {kind, {.gap = 1.0}};
     decide::KnownGuards known;
     known.sliding.zeros = zeros;
-    return decide::decided_by(all, 0, gap_of(derivatives, 1.0), orders, instant, known, 16.0);
+    return decide::signs_are_decided(all, 0, gap_of(derivatives, 1.0), orders, instant, known, 16.0);
   };
   CHECK(told({17.0, 0.0, 0.0, 0.0, 0.0}, 1, 0));
   CHECK_FALSE(told({15.0, 0.0, 0.0, 0.0, 0.0}, 1, 0));

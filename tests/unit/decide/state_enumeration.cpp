@@ -62,7 +62,7 @@ TEST_CASE("two combinations that go on otherwise are rivals, and are named") {
   REQUIRE(!best->alternative.empty());
   CHECK_FALSE(best->acceptable());
   CHECK(decide::several_motions(rod.model, choices, *best) ==
-        "several motions continue this one, as 'c' open and as 'c' slip+");
+        "several motions continue from this instant: one with 'c' open; another with 'c' slip+");
 }
 
 TEST_CASE("between static and kinetic friction a block at rest sticks; slipping is no rival") {

@@ -1,7 +1,7 @@
 // complex_lanes.hpp: complex numbers with fast products, and vectorised sums of complex numbers.
 //
 // std::complex checks products and quotients for infinities, which takes several times as long as the arithmetic. Infinities do
-// not occur here. With functions like inverse() and size_of(), one kernel serves real and complex numbers.
+// not occur here. Overloads such as inverse() and size_of() allow the same template code for real and complex numbers.
 #pragma once
 
 #include <cmath>
@@ -41,7 +41,7 @@ template <class R>
 [[nodiscard]] inline long double size_of(long double a) { return std::abs(a); }
 template <class R>
 [[nodiscard]] R size_of(BasicComplex<R> a) {
-  constexpr R least = R(1e-250), most = R(1e250);  // squares between these keep all digits; hypot is slow
+  constexpr R least = R(1e-250), most = R(1e250);  // a square in this range has all digits; hypot is slower
   const R square = a.re * a.re + a.im * a.im;
   return square > least && square < most ? std::sqrt(square) : std::hypot(a.re, a.im);
 }
@@ -64,7 +64,7 @@ template <class R>
 //
 //   one_i = 1/(l - D_i),   two_i = one_i^2,   sum_i one_i w_i,   sum_i two_i w_i
 //
-// Real and imaginary parts are in separate arrays. Every sum is computed as four partial sums, so that it can be vectorised.
+// Real and imaginary parts are in separate arrays. Every sum is computed as four partial sums, so that the loop is vectorised.
 
 /// Writes 1/(l - D_i), i < n, to re and im. base + tiny: the poles D_i; home_base + home_tiny: the pole `home`.
 void inverse_distances(const double* base, const double* tiny, std::ptrdiff_t n, double home_base,

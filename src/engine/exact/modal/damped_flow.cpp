@@ -34,7 +34,7 @@ void DampedFlow::forces(const ModalPoint& at, motion::Point& point) const {
 
 namespace {
 
-constexpr double max_round_trip_error = 1e-12, worst_dependence = 1e4;  // limits as in spectrum.cpp
+constexpr double max_round_trip_error = 1e-12, max_condition = 1e4;  // same as in spectrum.cpp
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
   Eigen::VectorXd q(n), rate(n);
   double entry = 0.5;
   for (Eigen::VectorXd* x : {&q, &rate})
-    for (Eigen::Index i = 0; i < n; ++i) {  // logistic map: excites all modes, the same in every run
+    for (Eigen::Index i = 0; i < n; ++i) {  // logistic map: all modes are excited, equally in every run
       entry = 3.99 * entry * (1.0 - entry) + 1e-3;
       (*x)[i] = 2.0 * entry - 1.0;
     }
@@ -77,8 +77,8 @@ void test_round_trip(const DampedPencil& pencil, DampedModes& out) {
   out.round_trip = std::sqrt(back.cwiseProduct(size).squaredNorm() + rate_back.squaredNorm()) / scale;
   if (!(out.round_trip < max_round_trip_error))
     out.failure =
-        "the modes of the contact state do not reproduce a motion that is converted to them and back";
-  else if (!(out.condition < worst_dependence))
+        "the modes of the contact state are inaccurate: a motion changes by conversion to modes and back";
+  else if (!(out.condition < max_condition))
     out.failure = "the modes of the contact state are nearly linearly dependent";
 }
 

@@ -1,4 +1,4 @@
-// damped_flow.hpp: ModalFlow in the complex modes of a contact state, for all linear laws and all histories in closed form.
+// damped_flow.hpp: ModalFlow in the complex modes of a contact state, for linear laws and for histories in closed form.
 //
 //   motion: damped_motion.hpp, proof: damped_proof.hpp, works: damped_works.hpp
 #pragma once
@@ -65,8 +65,8 @@ class DampedFlow final : public ModalFlow {
 //   | Re X y - q |,  | Re X L y - q' |   for   y = Y_q q + Y_r q',   relative to a motion of size 1
 
 /// Tests the modes with a motion that satisfies the constraints and has an energy of about 1 in each mode. Sets round_trip, and
-/// failure if the error is too large or the modes are nearly linearly dependent. The modes must be those with the rotations of
-/// the pencil.
+/// failure if the error is too large or the modes are nearly linearly dependent. The modes must refer to the rotated
+/// coordinates of the pencil (DampedPencil::rotations()).
 void test_round_trip(const DampedPencil& pencil, DampedModes& modes);
 
 }  // namespace signorini::modal

@@ -40,8 +40,8 @@ class Search {
               Vectors& out) const;
   [[nodiscard]] Wide product(Wide l, const Vectors& left, const Vectors& right) const;
   void keep(Wide l, const Vectors& v, Wide product, DampedModes& out);
-  void turn_back(DampedModes& out) const;
-  [[nodiscard]] Vectors no_vectors() const {
+  void to_given_modes(DampedModes& out) const;
+  [[nodiscard]] Vectors zero_vectors() const {
     const auto n = static_cast<std::size_t>(n_);
     return {std::vector<Wide>(n), std::vector<Wide>(n), std::vector<Wide>(rank())};
   }
@@ -69,7 +69,7 @@ bool Search::find_roots() {
   return true;
 }
 
-/// Merges equal roots into one root with their multiplicity; ascending by |l|.
+/// Merges equal roots into one root with a multiplicity, and sorts the roots by |l|, ascending.
 void Search::merge_roots() {
   std::sort(roots_.begin(), roots_.end(), [](const Root& a, const Root& b) {
     return std::pair(size_of(a.l), a.l.re) < std::pair(size_of(b.l), b.l.re);
@@ -87,7 +87,7 @@ void Search::merge_roots() {
   roots_ = std::move(parted);
 }
 
-/// Computes the entries of eigenvectors for all modes from null vectors of T. right: null if the right vector is already known.
+/// Computes the entries of eigenvectors for all modes from null vectors of T. right: null if only the left vector is needed.
 void Search::spread(const Local& local, Wide l, const SmallVector<Wide>* right, const SmallVector<Wide>& left,
                     Vectors& out) const {
   const auto near = [&](Index j) { return std::find(local.near.begin(), local.near.end(), j); };
@@ -176,7 +176,7 @@ bool Search::add_coupled_root(const Root& root, DampedModes& out) {
   for (std::size_t i = 0; i < m; ++i) {
     SmallVector<Wide> right{}, left{};
     lu.null_vectors(right, left, m, i);
-    all[i] = no_vectors();
+    all[i] = zero_vectors();
     spread(local, root.l, &right, left, all[i]);
   }
   // Multiple root: combine the right vectors x so that y_i^T L' x_k = 0 for i != k.
@@ -217,14 +217,15 @@ bool Search::add_uncoupled_roots(Index j, DampedModes& out) {
   } else {
     const Long far = -(c / 2 + std::sqrt(inside));
     if (far == Long(0) || inside == Long(0)) {
-      failure_ = d == Long(0) ? "free motions without damping" : "critically damped modes";
+      failure_ = d == Long(0) ? "the contact state has a free motion without damping"
+                              : "the contact state has a critically damped mode";
       return false;
     }
     roots.push_back({far, 0});
     roots.push_back({d / far, 0});
   }
   for (const Wide l : roots) {
-    Vectors v = no_vectors();
+    Vectors v = zero_vectors();
     v.x[static_cast<std::size_t>(j)] = v.y[static_cast<std::size_t>(j)] = Wide(1);
     if (rank() > 0) {
       Local local;
@@ -241,7 +242,7 @@ bool Search::add_uncoupled_roots(Index j, DampedModes& out) {
   return true;
 }
 
-void Search::turn_back(DampedModes& out) const {
+void Search::to_given_modes(DampedModes& out) const {
   for (const auto& [first, vectors] : pencil_.rotations()) {
     const Index rows = vectors.rows();
     out.shape.middleRows(first, rows) = (vectors * out.shape.middleRows(first, rows)).eval();
@@ -266,10 +267,10 @@ DampedModes Search::run() {
   out.from_q.setZero(count, n_);
   out.from_rate = out.from_q;
   for (const Root& root : roots_)
-    if (!add_coupled_root(root, out)) failure_ = "frequencies of the contact state that are nearly equal";
+    if (!add_coupled_root(root, out)) failure_ = "the contact state has nearly equal frequencies";
   for (const Index j : pencil_.uncoupled_modes())
     if (failure_.empty() && !add_uncoupled_roots(j, out) && failure_.empty())
-      failure_ = "an uncoupled mode resonates with another mode";
+      failure_ = "two modes of the contact state have nearly the same frequency";
   if (!failure_.empty()) {
     out.failure = failure_;
     return out;
@@ -284,7 +285,7 @@ DampedModes Search::run() {
   out.from_q = out.from_q(order, Eigen::all).eval();
   out.from_rate = out.from_rate(order, Eigen::all).eval();
   test_round_trip(pencil_, out);
-  turn_back(out);
+  to_given_modes(out);
   return out;
 }
 

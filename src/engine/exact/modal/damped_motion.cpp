@@ -9,8 +9,8 @@
 namespace signorini::modal {
 namespace {
 
-/// Limit of the amplification of rounding errors in the response of a slow mode, or a mode near resonance, to a force. Equal to
-/// the limit for works in modal_works.cpp.
+/// Limit of TimeBasis::cancellation(), the amplification of rounding errors in the response of a slow mode, or of a mode near
+/// resonance, to a force. Equal to the limit for works in modal_works.cpp.
 constexpr double max_loss = 1e3;
 
 }  // namespace
@@ -84,7 +84,7 @@ std::string DampedMotion::start(const engine::Segment& segment, const Vector& q,
   time_ = TimeBasis(model_, t);
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
     if (!(time_.cancellation(modes.root[k], t_end_) < max_loss))
-      return "decay rates that are neither zero nor fast compared with the run, or resonance";
+      return "a decay rate is neither zero nor fast compared with the run, or a load is in resonance";
   time_.reserve_slow_roots(modes.root, segment.end - t);
   contacts_.resize(model_.contacts.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -106,16 +106,16 @@ std::string DampedMotion::start(const engine::Segment& segment, const Vector& q,
   forced_response_ += base::complex_product(modes.shape, answers).real();
   forced_response_rate_ = time_.derivative(forced_response_);
   change_ = time_.derivative(forced_response_rate_);
-  place_lengths_ = forced_response_.colwise().norm().transpose();
-  rate_lengths_ = forced_response_rate_.colwise().norm().transpose();
-  place_swings_ = (omega.asDiagonal() * forced_response_).colwise().norm().transpose();
+  response_norms_ = forced_response_.colwise().norm().transpose();
+  response_rate_norms_ = forced_response_rate_.colwise().norm().transpose();
+  response_omega_norms_ = (omega.asDiagonal() * forced_response_).colwise().norm().transpose();
   find_contacts(p, answers);
   return {};
 }
 
 void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::MatrixXcd& answers) {
   const DampedModes& modes = state_->modes;
-  const auto of_constraint = [&](int term) {
+  const auto constraint_force = [&](int term) {
     const Eigen::Index row =
         std::find(state_->rigid.begin(), state_->rigid.end(), term) - state_->rigid.begin();
     const Eigen::VectorXcd own = modes.force.row(term).transpose();
@@ -131,7 +131,7 @@ void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::Mat
     out.gap.time_coefficients[0] += contact.gap;
     if (own.normal.an != 0.0) {
       out.gap.time_coefficients.setZero();
-      out.N = of_constraint(own.normal_term);
+      out.N = constraint_force(own.normal_term);
     } else {
       out.N = -own.normal.gap * out.gap;
       if (own.normal.vn != 0.0) out.N += -own.normal.vn * derivative(out.gap);
@@ -140,7 +140,7 @@ void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::Mat
     }
     const Form tangent = contact::rows(contact, decision_->states[c]).tangent;
     if (tangent.at != 0.0) {
-      out.T = of_constraint(own.tangent_term);
+      out.T = constraint_force(own.tangent_term);
       continue;
     }
     out.T = -tangent.ut * out.ut;
@@ -192,9 +192,9 @@ engine::FastModeBound DampedMotion::fast_mode_bound(const ModalPoint& from, doub
 
 SumTerms DampedMotion::terms(const ModalPoint& at) const {
   const Eigen::VectorXd y = at.y.cwiseAbs(), b = time_.at(at.time).cwiseAbs();
-  return {lengths_.dot(y) + place_lengths_.dot(b),
-          lengths_.cwiseProduct(root().cwiseAbs()).dot(y) + rate_lengths_.dot(b),
-          omega_shape_norms_.dot(y) + place_swings_.dot(b)};
+  return {lengths_.dot(y) + response_norms_.dot(b),
+          lengths_.cwiseProduct(root().cwiseAbs()).dot(y) + response_rate_norms_.dot(b),
+          omega_shape_norms_.dot(y) + response_omega_norms_.dot(b)};
 }
 
 void DampedMotion::advance(const ModalPoint& from, double time, ModalPoint& to) const {

@@ -4,9 +4,9 @@
 //   f = Re sum_k row_k y_k + time_coefficients . b(x)          f: gap, ut, force or guard
 //
 // Q is the response to loads and moving constraints: the sum of the responses of all modes (time_basis.hpp) and of the
-// displacement u_c that constraints prescribe. The force of a constraint is the sum of the forces of all modes and of the
-// reaction to the loads p:
-//   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p
+// displacement u_c that the constraints prescribe. The force lambda of a constraint is the sum of the forces due to all modes
+// and of the direct reaction to the loads p:
+//   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p,   z_k = y_k + (response of mode k to p)
 #pragma once
 
 #include "engine/exact/modal/damped_system.hpp"
@@ -36,7 +36,7 @@ struct ModalQuantity {
 
 class DampedMotion {
  public:
-  /// kept: existing system of a structure with the same matrices (ModalCache), or null to create one.
+  /// kept: system to use, of a structure with the same matrices (ModalCache). Null: the object creates a system.
   DampedMotion(const Model& model, const UnconstrainedBasis& basis, double t_end,
                DampedSystem* kept = nullptr)
       : model_(model),
@@ -58,7 +58,7 @@ class DampedMotion {
   [[nodiscard]] const TimeBasis& time() const { return time_; }
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const decide::Decision& decision() const { return *decision_; }
-  /// Q and its time derivative, n rows and one column for each function in b.
+  /// Q of this file's header, and its time derivative: n rows, one column for each function in b.
   [[nodiscard]] const Eigen::MatrixXd& forced_response() const { return forced_response_; }
   [[nodiscard]] const Eigen::MatrixXd& forced_response_rate() const { return forced_response_rate_; }
 
@@ -70,9 +70,9 @@ class DampedMotion {
   [[nodiscard]] ModalQuantity derivative(const ModalQuantity& f) const {
     return {f.row.cwiseProduct(root()), time_.derivative(f.time_coefficients)};
   }
-  /// Quantity that a form has at a contact.
+  /// Value of a form of a contact's motion, as a quantity.
   [[nodiscard]] ModalQuantity quantity_of(const Form& form, std::size_t contact) const;
-  /// Quantity of a form of the structure, which is given in unconstrained modes.
+  /// Value of a form of the structure, as a quantity. form: coefficients in unconstrained modes.
   [[nodiscard]] ModalQuantity quantity_of(const Vector& form) const {
     return {state_->modes.shape.transpose() * form, forced_response_.transpose() * form};
   }
@@ -108,7 +108,7 @@ class DampedMotion {
   TimeBasis time_;
   Eigen::MatrixXd forced_response_, forced_response_rate_, change_;
   Eigen::VectorXd lengths_, omega_shape_norms_;  // norms of the shapes, and of omega times the shapes
-  Eigen::VectorXd place_lengths_, rate_lengths_, place_swings_;
+  Eigen::VectorXd response_norms_, response_rate_norms_, response_omega_norms_;
   std::vector<ContactQuantities> contacts_;
 };
 

@@ -14,8 +14,8 @@ using Long = DampedPencil::Long;
 constexpr Long near_pole = 0.03L;      // modes with |P_j| below this part of |l|^2 + d_j are in G; chosen
 constexpr std::size_t max_near = 3;    // largest number of modes in G
 constexpr double equal_poles = 1e-13;  // relative distance below which poles are regarded as equal
-constexpr double uncoupled_part =
-    1e-13;                     // largest coupling of an uncoupled mode, relative to that of equal poles
+// Largest coupling of an uncoupled mode, relative to the greatest coupling of all modes with an equal pole.
+constexpr double uncoupled_part = 1e-13;
 constexpr int max_steps = 30;  // limit of Newton steps; 3 to 5 are usual
 
 }  // namespace
@@ -49,7 +49,7 @@ DampedPencil::DampedPencil(const Eigen::VectorXd& square, const Eigen::VectorXd&
     reference_omega_ = std::sqrt(static_cast<Long>(pull));
 }
 
-/// Rotates the modes of each group of equal poles so that not more of them are coupled than there are terms.
+/// Rotates the modes of each group of equal poles so that at most as many modes of the group are coupled as there are terms.
 void DampedPencil::rotate_equal_poles() {
   const auto terms = static_cast<Index>(terms_.size());
   for (Index first = 0, last = 0; first < size(); first = last) {
@@ -150,8 +150,8 @@ bool DampedPencil::assemble_at(Wide l, Local& local) const {
     }
     add_far(j, l, local);
   }
-  if (local.near.size() >
-      max_near) {  // keep the modes with the smallest |P_j| in G; the sums take the others
+  // The modes with the smallest |P_j| stay in G. The contributions of the other modes are added to the sums.
+  if (local.near.size() > max_near) {
     std::sort(local.near.begin(), local.near.end(), [&](Index i, Index j) {
       return size_of(pole(i, l)) * (own + Long(omega_squared_[j])) <
              size_of(pole(j, l)) * (own + Long(omega_squared_[i]));
@@ -197,7 +197,7 @@ std::optional<DampedPencil::Wide> DampedPencil::refined_root(Wide l) const {
     if (!std::isfinite(size)) return size_of(value) == Long(0) ? std::optional(l) : std::nullopt;
     l += step;
     if (size <= 8 * std::numeric_limits<Long>::epsilon() * own) return l;
-    if (size <= Long(1e-15) * own && size >= last) return l;  // steps no longer decrease: only rounding
+    if (size <= Long(1e-15) * own && size >= last) return l;  // the steps are only rounding errors
     last = size;
   }
   return std::nullopt;

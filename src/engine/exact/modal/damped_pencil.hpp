@@ -3,7 +3,7 @@
 //   T(l) (lambda, x_G) = 0,   l <- l - d^T T c / d^T T' c      Newton step with approximate null vectors d, c of T
 //
 // Terms are scaled: springs by sqrt(k), constraints to length 1. Modes with equal poles are rotated so that as few as possible
-// are coupled to terms. A mode is in G if its pole is near l; otherwise T contains it in the sums.
+// are coupled to terms. A mode is in G if its pole is near l; all other modes contribute to the sums in T.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ namespace signorini::modal {
 //   P (K - s M) P^T = L D L^T,   negative pivots in D = number of omega_i^2 < s   (Sylvester)
 //
 // P orders the degrees of freedom so that the band is narrow (reverse Cuthill-McKee). The number type R is double for counting
-// frequencies, and long double for computing them, because the rounding error of a low frequency grows with the highest
+// frequencies, and long double for computing frequencies, because the rounding error of a low frequency grows with the highest
 // frequency.
 
 /// Position of each degree of freedom in an order in which both matrices have a narrow band.
@@ -56,7 +56,7 @@ class BandPencil {
     std::size_t negative = 0;
     for (std::size_t j = 0; j < n_; ++j) {
       R* column = factor_.data() + j * rows;
-      // A zero pivot may have either sign within rounding; it is replaced by a tiny positive one.
+      // Within rounding, a zero pivot may have either sign. A tiny positive pivot replaces it.
       if (column[0] == R(0))
         column[0] = std::numeric_limits<R>::epsilon() * (std::abs(k_[j * rows]) + R(1e-300L));
       if (column[0] < R(0)) ++negative;
@@ -125,7 +125,7 @@ class BandPencil {
   std::vector<R> m_, k_, factor_;  // columns of width + 1 entries, the diagonal first
 };
 
-/// Limit below which a pivot of T is regarded as zero, relative to the greatest pivot, or to 1; chosen.
+/// Limit below which a pivot of T is regarded as zero, relative to the greatest pivot or 1, whichever is larger; chosen.
 inline constexpr long double singular_pencil = 1e-10L;
 
 class DampedPencil {
@@ -152,8 +152,8 @@ class DampedPencil {
   [[nodiscard]] std::size_t rank() const { return terms_.size(); }
   [[nodiscard]] const Eigen::VectorXd& omega_squared() const { return omega_squared_; }
   [[nodiscard]] const Eigen::VectorXd& decay() const { return decay_; }
-  /// Rotated and scaled terms, with kappa = stiffness() + l damping(). Their lambda equals that of the given terms divided by
-  /// scale().
+  /// Rotated and scaled terms, with kappa = stiffness() + l damping(). lambda of a scaled term is lambda of the given term
+  /// divided by scale().
   [[nodiscard]] const std::vector<ModalTerm>& terms() const { return terms_; }
   [[nodiscard]] double stiffness(std::size_t term) const { return stiffness_[term]; }
   [[nodiscard]] double damping(std::size_t term) const { return damping_[term]; }

@@ -9,9 +9,9 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double quarter_of_guard = 0.25;        // part of a guard: limit of the sum of all fast modes
-constexpr double guard_noise_part = 1.0 / 16.0;  // part of the decision's rounding bound
-constexpr double turn_of_step = 4.0;             // largest |l| h of a slow mode
+constexpr double max_fast_part_of_guard = 0.25;  // limit of the sum of all fast modes, as a part of the guard
+constexpr double guard_noise_part = 1.0 / 16.0;  // part of the decision's rounding bound in a guard's slack
+constexpr double max_slow_phase = 4.0;           // largest |l| h of a slow mode
 constexpr std::size_t highest_degree = 30;
 constexpr double slow_rounding = 1.0 + 1e-12;
 
@@ -65,8 +65,8 @@ void DampedProof::measure(const ModalPoint& at) {
   for (Watched& guard : guards_) guard.now = motion_.value(watched(guard), at);
 }
 
-/// Number of slow modes, at least `first`, such that the other modes contribute at most `most` to f.
-Eigen::Index DampedProof::slow_for(const ModalQuantity& f, Eigen::Index first, double most) const {
+/// Smallest number of slow modes, at least `first`, for which all faster modes together contribute at most `most` to f.
+Eigen::Index DampedProof::count_slow_modes(const ModalQuantity& f, Eigen::Index first, double most) const {
   double sum = 0.0;
   Eigen::Index k = amplitude_.size();
   for (; k > first; --k) {
@@ -78,7 +78,7 @@ Eigen::Index DampedProof::slow_for(const ModalQuantity& f, Eigen::Index first, d
 
 void DampedProof::set_step(double h, bool all_slow) {
   h_ = h;
-  turn_ = all_slow ? std::numeric_limits<double>::infinity() : turn_of_step * slow_rounding;
+  turn_ = all_slow ? std::numeric_limits<double>::infinity() : max_slow_phase * slow_rounding;
   slow_ = all_slow ? size_.size() : std::partition_point(size_.begin(), size_.end(), [&](double size) {
                                       return size * h_ <= turn_;
                                     }) - size_.begin();
@@ -92,19 +92,19 @@ void DampedProof::choose_step(double remaining) {
     if (first == n) break;
     first = unknown(guard) || !(guard.now > 0.0)
                 ? n
-                : slow_for(watched(guard), first, quarter_of_guard * guard.now);
+                : count_slow_modes(watched(guard), first, max_fast_part_of_guard * guard.now);
   }
   if (n > 0 && size_[std::min(first, n - 1)] > 0.0)
-    h = std::min(h, turn_of_step / size_[std::min(first, n - 1)]);
+    h = std::min(h, max_slow_phase / size_[std::min(first, n - 1)]);
   const auto& omega = motion_.time().omega();
   auto place = static_cast<Eigen::Index>(motion_.time().degree()) + 1;
   for (const double w : omega) {
     const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
       const TimeCoefficients& c = watched(guard).time_coefficients;
       return std::hypot(c[place], c[place + 1]) * static_cast<double>(omega.size()) >
-             0.5 * quarter_of_guard * guard.now;
+             0.5 * max_fast_part_of_guard * guard.now;
     });
-    if (shows || first == n) h = std::min(h, turn_of_step / w);
+    if (shows || first == n) h = std::min(h, max_slow_phase / w);
     place += 2;
   }
   set_step(h, first == n);
@@ -200,7 +200,8 @@ double DampedProof::length_without_turning(const ModalPoint& at, const events::T
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double off_place = part.fast_bound + part.rest;
-      if (range.is_exceeded(part.p[0], part.p[1], off_place) &&  // see ModalProof::length_without_turning
+      if (range.is_exceeded(part.p[0], part.p[1],
+                            off_place) &&  // reason: see ModalProof::length_without_turning()
           range.is_exceeded(
               part.p[0], part.p[1],
               off_place + rounding::elimination * motion_.magnitude(*watched_quantities(c)[f], at)))
@@ -225,12 +226,12 @@ double DampedProof::expand_for_turning(const ModalPoint& at, const events::Turni
       const ModalQuantity& quantity = *watched_quantities(c)[f];
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
-      first = slow_for(quantity, first, share * range.width(motion_.value(quantity, at)));
+      first = count_slow_modes(quantity, first, share * range.width(motion_.value(quantity, at)));
     }
   double h = remaining;
   if (n > 0 && size_[std::min(first, n - 1)] > 0.0)
-    h = std::min(h, turn_of_step / size_[std::min(first, n - 1)]);
-  for (const double w : motion_.time().omega()) h = std::min(h, turn_of_step / w);
+    h = std::min(h, max_slow_phase / size_[std::min(first, n - 1)]);
+  for (const double w : motion_.time().omega()) h = std::min(h, max_slow_phase / w);
   set_step(h, first == n);
   expand(at);
   return h_;
@@ -248,7 +249,7 @@ const std::vector<motion::ContactSeries>& DampedProof::series(const ModalPoint& 
   return series_;
 }
 
-/// Finds extremes exactly at the beginning of a passage: quantities that were monotone up to this point and reverse there.
+/// Finds extremes exactly at the beginning of a passage: a quantity exceeds its earlier range there, and its rate points back.
 void DampedProof::find_turning_at_start(const ModalPoint& at, double time,
                                         events::TurningPointDetector& turning,
                                         LastTurningTimes& turns) const {

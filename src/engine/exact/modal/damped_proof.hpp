@@ -51,7 +51,7 @@ class DampedProof {
     return !active_guards_.armed(guard.slot) && active_guards_.leading_order(guard.slot) == 0;
   }
   [[nodiscard]] const Watched* find(std::size_t slot) const;
-  [[nodiscard]] Eigen::Index slow_for(const ModalQuantity& f, Eigen::Index first, double most) const;
+  [[nodiscard]] Eigen::Index count_slow_modes(const ModalQuantity& f, Eigen::Index first, double most) const;
   void measure(const ModalPoint& at);
   void choose_step(double remaining);
   void set_step(double h, bool all_slow);

@@ -18,14 +18,14 @@ using Index = Eigen::Index;
 constexpr Index max_damper_dofs = 24;  // largest number of degrees of freedom with discrete dampers
 constexpr double hardly = 1e-3;        // limit of |l_k + l_i| t_end for RootSums::slow
 
-/// Decomposition of the damping matrix: C = alpha M + beta K + sum of r d d^T for a few dampers; each entry is a pair r, d.
+/// Decomposition of the damping matrix: C = alpha M + beta K + sum of r d d^T. dampers: a few pairs r, d.
 struct Damping {
   double alpha = 0.0, beta = 0.0;
   std::vector<std::pair<double, Vector>> dampers;
 };
 
-/// Excess R = C - alpha M - beta K (more), and the sums of the magnitudes of its terms, on the degrees of freedom on which R
-/// exceeds the rounding of these terms.
+/// Excess R = C - alpha M - beta K (more), and |C| + |alpha M| + |beta K| (terms), both only for the degrees of freedom with an
+/// entry of R above the rounding error of `terms`.
 struct Rest {
   std::vector<int> dofs;
   Eigen::MatrixXd more, terms;
@@ -67,7 +67,7 @@ std::optional<Damping> dampers_of(const Model& model, double alpha, double beta)
   Damping result{alpha, beta, {}};
   if (rest.dofs.empty()) return result;
   const Eigen::VectorXd root = rest.terms.diagonal().cwiseSqrt();
-  if (!(root.minCoeff() > 0.0)) return std::nullopt;  // no damper has a zero diagonal entry
+  if (!(root.minCoeff() > 0.0)) return std::nullopt;  // R has a zero on its diagonal: not a sum of dampers
   const Eigen::VectorXd inverse = root.cwiseInverse();
   const double rounded =
       rounding::many_operations * (inverse.asDiagonal() * rest.terms * inverse.asDiagonal()).norm();
@@ -84,8 +84,8 @@ std::optional<Damping> dampers_of(const Model& model, double alpha, double beta)
   return result;
 }
 
-/// Decomposition with the alpha and beta of the scene, or else with the alpha and beta that fit C best. nullopt: neither leads
-/// to few dampers.
+/// Decomposition with the alpha and beta of the scene or, if this needs too many dampers, with the alpha and beta that fit C
+/// best. nullopt: both decompositions need too many dampers.
 std::optional<Damping> damping_of(const Model& model) {
   if (auto given = dampers_of(model, model.alpha, model.beta)) return given;
   const auto product = [](const SparseMatrix& a, const SparseMatrix& b) { return a.cwiseProduct(b).sum(); };
@@ -204,7 +204,7 @@ void DampedSystem::find_constraints(DampedState& out) const {
     v.col(i) = term.v;
   }
   out.from_forces = base::solve_dense(v.transpose() * u, v.transpose());
-  // Several displacements satisfy the constraints: take one of low stiffness, so that stiff modes contribute little.
+  // Many displacements satisfy the constraints. static_shapes have a low elastic energy, so stiff modes contribute little.
   const Vector soft =
       (basis_.omega_squared().array() + basis_.omega_squared()[std::min(n - 1, m + 3)]).inverse().matrix();
   const Eigen::MatrixXd weighted = soft.asDiagonal() * v;
@@ -243,11 +243,11 @@ DampedState DampedSystem::make(const contact::ContactStates& contact_states) con
   out.terms = dampers_;
   for (std::size_t c = 0; c < contact_states.size(); ++c) add_contact(c, contact_states[c], out);
   if (out.terms.size() > max_damped_terms) {
-    out.modes.failure = "too many springs, constraints and dampers for the modes of a contact state";
+    out.modes.failure = "the contact state has too many springs, constraints and dampers for modes";
     return out;
   }
   if (has_redundant_constraints(out.terms)) {
-    out.modes.failure = "several contacts that restrain the same motion";
+    out.modes.failure = "several rigid contacts constrain the same motion";
     return out;
   }
   out.modes = damped_modes(basis_.omega_squared(), decay_, out.terms);

@@ -6,7 +6,7 @@
 //   state    terms of a contact                                      further forces
 //   closed   compliant: kn + cn d/dt along n;  rigid: n . u = -g0
 //   stick    kt along t;  without kt: t . u follows the surface
-//   slip s   the force along n acts along n - s f t                  slider: s f q t with the normal force q
+//   slip s   the term's force acts along n - s f t instead of n      slider: s f q t with the normal force q
 //
 // Sizes in this file: n unconstrained modes, K complex modes (one of each conjugate pair).
 #pragma once
@@ -21,27 +21,27 @@
 
 namespace signorini::modal {
 
-/// Reason why complex modes cannot represent a scene. Empty: they can.
+/// Reason why complex modes cannot represent a scene. Empty: complex modes can represent the scene.
 [[nodiscard]] std::string damped_refusal(const Model& model);
 /// Number of springs, constraints and dampers of a state in which all contacts are closed and stick.
 [[nodiscard]] std::size_t max_state_terms(const Model& model);
 
-/// Gap and tangential displacement of one contact per unit amplitude of each complex mode. Zero if a constraint prescribes
-/// them.
+/// Gap and tangential displacement of one contact per unit amplitude of each complex mode. Zero if a constraint prescribes the
+/// gap or the displacement.
 struct ContactRows {
   Eigen::VectorXcd gap, slide;
-  int normal_term = -1, tangent_term = -1;  ///< indices of the contact's terms
+  int normal_term = -1, tangent_term = -1;  ///< indices of the contact's terms; -1: no such term
   Form normal, tangent;                     ///< the contact's rows in this contact state
 };
 
-/// direct: 1 / (l_k + l_i) of all pairs of roots; conjugate: the same with the conjugate of l_i. 0 for pairs whose sum is so
-/// small that the product of both modes hardly changes during the run; these pairs are listed in `slow`.
+/// direct: 1 / (l_k + l_i) of all pairs of roots; conjugate: 1 / (l_k + conj(l_i)). Exception: if the sum of both roots is so
+/// small that the product of both modes hardly changes during the run, the entry is 0 and the pair is listed in `slow`.
 struct RootSums {
   Eigen::MatrixXcd direct, conjugate;
   struct Slow {
     Eigen::Index k, i;
     bool conjugate;
-    std::complex<double> loss;  ///< entry of DampedState::loss, but not divided by the sum of roots
+    std::complex<double> loss;  ///< dissipated power as in DampedState::loss, not divided by the sum of roots
   };
   std::vector<Slow> slow;
 };
@@ -52,9 +52,9 @@ struct DampedState {
   std::vector<ContactRows> contacts;
   std::vector<Eigen::Index> rigid;  ///< indices of the rigid terms in `terms`
   Eigen::MatrixXd from_forces;      ///< rigid x n: (V^T U)^-1 V^T
-  Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes = 1
+  Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes is the unit matrix
   RootSums sums;
-  /// Dissipated power of the rates of two modes, divided by the sum of their roots, so that it gives the work.
+  /// Dissipated power of each pair of modes, divided by the sum of both roots: the integral over time is the dissipated energy.
   Eigen::MatrixXcd loss, loss_conjugate;
   [[nodiscard]] std::size_t bytes() const;
 };
@@ -68,7 +68,7 @@ class DampedSystem {
 
   /// Data of a contact state, from the cache or newly computed. Check modes.failure before use.
   [[nodiscard]] std::shared_ptr<const DampedState> state(const contact::ContactStates& states);
-  /// Number of contact states whose modes were computed, not taken from the cache.
+  /// Number of contact states whose modes were computed instead of taken from the cache.
   [[nodiscard]] long made() const { return made_; }
   /// c_j of all unconstrained modes; dampers(): the dashpots d_i; damped(): true if there is any damping.
   [[nodiscard]] const Vector& decay() const { return decay_; }

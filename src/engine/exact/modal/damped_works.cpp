@@ -10,7 +10,7 @@
 namespace signorini::modal {
 namespace {
 
-/// Computes (e^(s h) - 1) / s for |s| h < 1e-3 by a series. The first omitted term is at most 1e-15 of the sum.
+/// Computes (e^(s h) - 1) / s for |s| h < 1e-3 by a power series. The omitted terms are at most 1e-15 of the sum.
 std::complex<double> grown(std::complex<double> s, double h) {
   const std::complex<double> x = s * h;
   return h * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x / 120.0))));
@@ -106,8 +106,8 @@ DampedWorkIntegrals::ProductIntegral DampedWorkIntegrals::product_integral(Modal
 }
 
 /// Returns the integral of (Re a . y)(Re b . y) over the interval s.
-double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
-                                     const Stretch& s) const {
+double DampedWorkIntegrals::integral_of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
+                                              const Stretch& s) const {
   const RootSums& sums = motion_.state().sums;
   const auto form = [&](const ModalPoint& at) {
     const Eigen::VectorXcd left = a.cwiseProduct(at.y), right = b.cwiseProduct(at.y);
@@ -127,7 +127,7 @@ double DampedWorkIntegrals::of_pairs(const Eigen::VectorXcd& a, const Eigen::Vec
 }
 
 /// Contribution of the products of modes and forced parts to an integral. answers: ProductIntegral::responses.
-double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const Stretch& s) {
+double DampedWorkIntegrals::integral_with_forced_part(const Eigen::MatrixXcd& answers, const Stretch& s) {
   if (answers.size() == 0) return 0.0;
   return (s.to.y.transpose() * (answers * s.b_to) - s.from.y.transpose() * (answers * s.b_from))
       .value()
@@ -135,8 +135,8 @@ double DampedWorkIntegrals::with_courses(const Eigen::MatrixXcd& answers, const 
 }
 
 double DampedWorkIntegrals::integral(const ProductIntegral& pairing, const Stretch& s) const {
-  double sum = with_courses(pairing.responses, s);
-  if (pairing.pairs) sum += of_pairs(pairing.f.row, pairing.g.row, s);
+  double sum = integral_with_forced_part(pairing.responses, s);
+  if (pairing.pairs) sum += integral_of_pairs(pairing.f.row, pairing.g.row, s);
   if (pairing.courses) sum += pairing.f.time_coefficients.dot(s.products * pairing.g.time_coefficients);
   return sum;
 }
@@ -156,7 +156,7 @@ double DampedWorkIntegrals::loss(const Stretch& s) const {
     const std::complex<double> rate = l[k] + (turned ? std::conj(l[i]) : l[i]);
     sum += 0.5 * (taken * s.from.y[k] * right * grown(rate, s.to.time - s.from.time)).real();
   }
-  sum += with_courses(loss_responses_, s);
+  sum += integral_with_forced_part(loss_responses_, s);
   if (forced_loss_.size() > 0 && s.products.size() > 0) sum += forced_loss_.cwiseProduct(s.products).sum();
   return sum;
 }
@@ -166,8 +166,8 @@ void DampedWorkIntegrals::add_contact(std::size_t c, const Stretch& s, motion::W
   const ContactState& state = motion_.decision().states[c];
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   if (state.state == State::inside)
-    works.damping += contact::inside_loss(contact, state.state, motion_.value(own.gap, s.from),
-                                          motion_.value(own.gap, s.to));
+    works.damping += contact::dashpot_loss_inside(contact, state.state, motion_.value(own.gap, s.from),
+                                                  motion_.value(own.gap, s.to));
   const ContactProducts& pairings = contacts_[c];
   if (pairings.applied_normal_force)
     works.applied_normal_force[c] -= integral(*pairings.applied_normal_force, s);

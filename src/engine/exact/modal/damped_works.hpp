@@ -1,12 +1,12 @@
 // damped_works.hpp: works and dissipated energies in an interval, in complex modes and in closed form.
 //
-//   int y_k y_i = [y_k y_i] / (l_k + l_i)       and the same with the conjugate of y_i
+//   int y_k y_i = [y_k y_i] / (l_k + l_i),      int y_k conj(y_i) = [y_k conj(y_i)] / (l_k + conj(l_i))
 //   int y_k (c . b) = [y_k (r . b)],  r D = -l_k r + c                       time_basis.hpp
 //
 // Damping dissipates int q'^T C q', friction int T p'. The work of surfaces is int -T s', that of loads int f d . u'. Each
-// integral is a sum over three kinds of pairs: two modes, a mode and a forced part c . b, and two forced parts. Pairs of modes
-// whose sum s = l_k + l_i is small relative to the run use the series of (e^(s h) - 1) / s. The energy balance checks the
-// result independently.
+// integral is a sum over three kinds of pairs: two modes, a mode and a forced part c . b, and two forced parts. If the sum
+// s = l_k + l_i is small relative to 1 / (length of the run), the integral uses the series of (e^(s h) - 1) / s. The energy
+// balance checks the result independently.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ class DampedWorkIntegrals {
   struct ProductIntegral {
     ModalQuantity f, g;
     Eigen::MatrixXcd responses;           // modes x functions b; empty if there are no such products
-    bool pairs = false, courses = false;  // true if f g has products of two modes; of two forced parts
+    bool pairs = false, courses = false;  // f g contains products of two modes; of two forced parts
   };
   [[nodiscard]] ProductIntegral product_integral(ModalQuantity f, ModalQuantity g);
   [[nodiscard]] ModalQuantity without_modes(TimeCoefficients course) const;
@@ -45,14 +45,15 @@ class DampedWorkIntegrals {
                      Eigen::MatrixXcd& answers) const;
   void prepare_contact(std::size_t c);
   void prepare_loss();
-  [[nodiscard]] double of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, const Stretch& s) const;
-  [[nodiscard]] static double with_courses(const Eigen::MatrixXcd& answers, const Stretch& s);
+  [[nodiscard]] double integral_of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
+                                         const Stretch& s) const;
+  [[nodiscard]] static double integral_with_forced_part(const Eigen::MatrixXcd& answers, const Stretch& s);
   [[nodiscard]] double integral(const ProductIntegral& pairing, const Stretch& s) const;
   [[nodiscard]] double loss(const Stretch& s) const;
   void add_contact(std::size_t c, const Stretch& s, motion::WorkIntegrals& works) const;
 
   const DampedMotion& motion_;
-  std::vector<ProductIntegral> loads_;  // power of each active load
+  std::vector<ProductIntegral> loads_;  // integrals of the powers of the active loads
   struct ContactProducts {
     std::optional<ProductIntegral> applied_normal_force, slip, surface, dashpot;
   };

@@ -15,10 +15,10 @@
 namespace signorini::modal {
 namespace {
 
-constexpr std::size_t max_parts = 256;   // limit of the parts of a step: each stores all amplitudes
-constexpr int max_touches = 5;           // number of warnings about touches
-constexpr double lost_in_modes = 1e-12;  // limit of the error of a conversion to modes and back
-constexpr int max_corrections = 4;       // limit of corrections of an event time; one is usually enough
+constexpr std::size_t max_parts = 256;  // limit of the number of parts of a step: each stores all amplitudes
+constexpr int max_touches = 5;          // limit of the number of warnings about touches
+constexpr double max_conversion_error = 1e-12;  // limit of the error of a conversion to modes and back
+constexpr int max_corrections = 4;  // limit of the corrections of an event time; one is usually enough
 
 }  // namespace
 
@@ -33,7 +33,7 @@ ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& struc
       taylor_(model, structure, systems, t_end, {false, use.step_seed}),
       turning_points_(model.contacts.size()),
       peaks_(use.peaks) {
-  resolves_low_flights = true;  // a guard that leaves zero is followed by its leading derivative
+  resolves_low_flights = true;  // a gap that starts at zero is examined through its leading derivative
   if (!basis_.failure().empty()) return;
   if (proportional_refusal(model).empty()) {
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
@@ -42,7 +42,7 @@ ModalEngine::ModalEngine(const Model& model, const linear::SystemMatrices& struc
       kept_->damped = std::make_unique<DampedSystem>(kept_->model, kept_->basis, kept_->t_end);
     flow_ = std::make_unique<DampedFlow>(model, basis_, t_end, kept_ ? kept_->damped.get() : nullptr);
   }
-  of_contacts_ = rows_of({});
+  contact_shape_rows_ = rows_of({});
   if (use.watched) watched_ = rows_of(*use.watched);
   if (use.share != nullptr) use.share->modes = flow_->modes();
 }
@@ -53,8 +53,8 @@ void ModalEngine::warn_of_fallback(double t, const std::string& why) {
                                  model::time_in_scene_units(model_, t), why));
 }
 
-/// Continues a segment with the Taylor series. The series starts at the beginning of the segment; its steps up to t_, which
-/// were already reported, are skipped.
+/// Continues a segment with the Taylor series. The series starts at the beginning of the segment. Its steps up to t_ are
+/// skipped, because the modal flow has already computed this part of the motion.
 engine::Step ModalEngine::fall_back_to_series() {
   warn_of_fallback(t_, "a guard stays too close to zero for the error bounds of the modal flow");
   modal_ = false;
@@ -102,7 +102,7 @@ void ModalEngine::update_cancellation() {
       std::max({max_displacement_, q_.norm(), model_.omega1 > 0.0 ? max_velocity_ / model_.omega1 : 0.0});
   const SumTerms terms = flow_->terms(now_);
   const auto over = [](double sum, double motion) {
-    return motion > 0.0 ? rounding::many_operations * sum / (lost_in_modes * motion) : 0.0;
+    return motion > 0.0 ? rounding::many_operations * sum / (max_conversion_error * motion) : 0.0;
   };
   cancellation_ = std::max({1.0, over(terms.amplitude, max_displacement_), over(terms.rate, max_velocity_),
                             over(terms.omega_amplitude, max_velocity_)});
@@ -112,8 +112,8 @@ void ModalEngine::warn_of_touches(const Passage& passage, double begin) {
   for (const std::size_t slot : passage.touches)
     if (++touches_ <= max_touches)
       warnings.push_back(
-          fmt::format("contact '{}': its {} touches zero near {:.9g}; this precision cannot decide whether "
-                      "it crosses zero; no event is recorded",
+          fmt::format("contact '{}': its {} touches zero near t = {:.9g}; double precision cannot decide "
+                      "whether it crosses zero, so no event is recorded",
                       model_.contacts[model_.layout.contact_of_guard(slot)].name,
                       contact::to_string(segment_.decision->guards[slot].kind),
                       model::time_in_scene_units(model_, begin)));
@@ -139,7 +139,7 @@ double ModalEngine::refine_crossing(std::size_t slot) {
     t_ = part.begin + part.length;
     Motion reached = motion(now_, true);
     motion::Point point;
-    fill_rows(of_contacts_, now_, reached, point);
+    fill_rows(contact_shape_rows_, now_, reached, point);
     const ZeroCrossing fall = crossing_of(slot, point);
     const bool sharp =
         std::abs(fall.offset) <= std::max(0.25 * motion::resolution_at(t_, 0.0), fall.uncertainty);
@@ -199,7 +199,7 @@ engine::Step ModalEngine::advance() {
     if (parts_.size() >= max_parts) break;
   }
   for (const auto& [kind, time] : last_turning_times_)
-    if (time < t_) turning_times_.push_back(time);  // not after the refined event
+    if (time < t_) turning_times_.push_back(time);  // the step ends at t_, the refined time of the event
   std::sort(turning_times_.begin(), turning_times_.end());
   step.end = t_;
   step.resolution = std::max(step.resolution, motion::resolution_at(t_, parts_.back().length));
@@ -211,7 +211,7 @@ engine::Step ModalEngine::advance() {
 ModalPoint ModalEngine::at(double t) const {
   if (t == t_) return now_;
   ModalPoint point;
-  if (t > t_) {  // after the refined event
+  if (t > t_) {  // t is after the refined time of the event
     flow_->advance(now_, t - t_, point);
     return point;
   }
@@ -222,7 +222,7 @@ ModalPoint ModalEngine::at(double t) const {
   return point;
 }
 
-/// Energy 1/2 (q'^2 + omega^2 q^2); no terms of this sum cancel.
+/// Energy 1/2 (q'^2 + omega^2 q^2). All terms are positive, so none cancel.
 motion::StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
   return {0.5 * rate.squaredNorm(), 0.5 * basis_.omega_squared().dot(q.cwiseAbs2())};
 }
@@ -344,7 +344,7 @@ engine::StepFacts ModalEngine::facts() const {
     return facts;
   }
   facts = taylor_.facts();
-  facts.contact_turning_points = nullptr;  // evaluation computes all contacts
+  facts.contact_turning_points = nullptr;  // evaluate_watched() is not faster for one contact
   return facts;
 }
 
@@ -353,8 +353,8 @@ std::optional<engine::FastModeBound> ModalEngine::fast_mode_bound(double omega) 
 }
 
 /// Each amplitude is a sum over the whole structure, so its rounding error is relative to |q|, not to the amplitude. The errors
-/// of velocities and accelerations are larger by the factors w and w^2, where w is the highest circular frequency. Contact
-/// forces are bounded by those of springs and dashpots.
+/// of velocities and accelerations are larger by the factors w and w^2, where w is the highest circular frequency. The forces
+/// of springs and dashpots bound the contact forces.
 engine::FastModeBound ModalEngine::term_sizes() const {
   const Motion m = motion(parts_.front().at, false);
   const auto norm = [](const Vector& of) { return of.norm(); };

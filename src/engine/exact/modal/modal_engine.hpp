@@ -1,11 +1,11 @@
-// modal_engine.hpp: engine `exact` in modes: its time per step depends on the motion, hardly on the mesh.
+// modal_engine.hpp: engine `exact` in modes. The cost of a step depends on the motion and hardly on the mesh.
 //
 //   start     unconstrained modes q = Phi^T M u,  modes of the contact state z = Y q
 //   advance   find an interval that provably contains no event; z at its end in closed form
 //   event     q = X z,  u = Phi q
 //
-// ExactEngine's Taylor series takes the segments that modes cannot: segments with forces that have no closed form in modes, and
-// segments whose modes are not accurate enough. Such segments are counted, and a warning reports the first of them.
+// The Taylor series of ExactEngine computes the other segments: those with forces that have no closed form in modes, and those
+// whose modes are not accurate enough. These segments are counted, and a warning reports the first one.
 #pragma once
 
 #include "engine/exact/exact_engine.hpp"
@@ -16,7 +16,7 @@ namespace signorini::modal {
 /// Options of ModalEngine.
 struct ModalOptions {
   SharedModalData* share = nullptr;              ///< data shared with a listener, or null
-  bool peaks = true;                             ///< search turning points of the contacts
+  bool peaks = true;                             ///< true: search for turning points of the contacts
   std::uint64_t step_seed = 0;                   ///< seed of random step lengths of the Taylor series
   std::optional<std::vector<int>> watched = {};  ///< entries of u for evaluate_watched(); nullopt: all
 };
@@ -24,14 +24,14 @@ struct ModalOptions {
 class ModalEngine final : public engine::Stepper, public engine::DenseOutput, private engine::FastModes {
  public:
   /// All arguments except t_end must outlive the object. Computes the unconstrained modes; if this fails, the Taylor series
-  /// takes all segments.
+  /// computes all segments.
   ModalEngine(const Model& model, const linear::SystemMatrices& structure, motion::StateSystems& systems,
               double t_end, const ModalOptions& use = {});
 
   void start(const engine::Segment& segment) override;
   [[nodiscard]] engine::Step advance() override;
   [[nodiscard]] engine::DenseOutput& dense_output() override { return *this; }
-  /// Omits the accelerations inside a step, which saves two thirds of the time.
+  /// Evaluates u, v and forces. Inside a step, the accelerations are omitted, which saves two thirds of the time.
   void evaluate(double t, motion::Point& point) override;
   void evaluate_watched(double t, std::optional<std::size_t> contact, motion::Point& point) override;
   void accelerate(double t, motion::Point& point) override;
@@ -44,7 +44,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
     return modal_ ? 0.0 : taylor_.guard_error(guard, motion, contact);
   }
   [[nodiscard]] engine::StepFacts facts() const override;
-  /// The uncoupled modes that the engine uses. Null if it uses complex modes or none.
+  /// The uncoupled modes that the engine uses. Null if the engine uses complex modes or no modes.
   [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
   [[nodiscard]] engine::StepperReport report() override;
 
@@ -79,7 +79,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   void fill_rest(const ModalPoint& z, const Motion& motion, motion::Point& point) const;
   void fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, motion::Point& point) const;
   struct ZeroCrossing {
-    double offset = 0.0, uncertainty = 0.0;  // times
+    double offset = 0.0, uncertainty = 0.0;  // time of the zero minus t_, and its error bound
   };
   [[nodiscard]] ZeroCrossing crossing_of(std::size_t slot, const motion::Point& point) const;
   [[nodiscard]] double refine_crossing(std::size_t slot);
@@ -91,7 +91,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   std::shared_ptr<ModalCache::Entry> kept_;  // null if no ModalCache is used
   std::unique_ptr<UnconstrainedBasis> own_basis_;
   const UnconstrainedBasis& basis_;
-  Rows watched_, of_contacts_;
+  Rows watched_, contact_shape_rows_;
   std::unique_ptr<ModalFlow> flow_;  // null if there are no unconstrained modes
   exact::ExactEngine taylor_;
   events::TurningPointDetector turning_points_;
@@ -107,7 +107,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   // Largest norms |u|_M and |v|_M of the motion so far.
   double max_displacement_ = 0.0, max_velocity_ = 0.0;
   double cancellation_ = 1.0;  // see update_cancellation(); for the last step
-  double works_end_ = 0.0;     // end of the last interval of integrate()
+  double works_end_ = 0.0;     // end of the interval of the last call of integrate()
   ModalPoint works_point_;
   bool has_works_ = false;
   LastTurningTimes last_turning_times_;  // turning points of the last step

@@ -5,9 +5,9 @@
 namespace signorini::modal {
 namespace {
 
-// Chosen for orbit searches: the transient takes about 40 periods; later runs to a section are short, and their works are not
-// used.
-constexpr double headroom = 8.0, much_longer = 1e4;
+// stored_length_factor: stored data are computed for this multiple of the first run's length. much_longer: a run may be shorter than the
+// stored length by this factor. Chosen for orbit searches: a transient of about 40 periods, then many short runs without works.
+constexpr double stored_length_factor = 8.0, much_longer = 1e4;
 
 }  // namespace
 
@@ -15,7 +15,7 @@ std::shared_ptr<ModalCache::Entry> ModalCache::entry_for(const Model& model, dou
   const bool serves = kept_ && t_end <= kept_->t_end && kept_->t_end <= much_longer * t_end &&
                       model::same_contact_states(model, kept_->model) &&
                       model::same_load_directions(model, kept_->model);
-  if (!serves) kept_ = std::make_shared<Entry>(model, headroom * t_end);
+  if (!serves) kept_ = std::make_shared<Entry>(model, stored_length_factor * t_end);
   return kept_;
 }
 

@@ -33,8 +33,8 @@ struct Passage {
 /// Time of the last turning point of each TurningPointDetector::TurningPoint::kind.
 using LastTurningTimes = std::map<std::size_t, double>;
 
-/// Magnitudes, in the norm of M, of the terms that are summed to the amplitudes of the unconstrained modes, their rates, and
-/// omega times the amplitudes.
+/// Sums of the magnitudes of the terms of a motion, in the norm of M: terms of the amplitudes of the unconstrained modes, of
+/// their rates, and of omega times the amplitudes.
 struct SumTerms {
   double amplitude = 0.0, rate = 0.0, omega_amplitude = 0.0;
 };
@@ -44,14 +44,14 @@ class ModalFlow {
   virtual ~ModalFlow() = default;
   /// Starts a segment, which must stay valid until the next start. q, rate: amplitudes of the unconstrained modes and their
   /// rates at its beginning. now: receives the same motion in the modes of the flow. Returns the reason why the flow cannot
-  /// take the segment, or an empty string.
+  /// compute the segment, or an empty string.
   [[nodiscard]] virtual std::string start(const engine::Segment& segment, const Vector& q, const Vector& rate,
                                           ModalPoint& now) = 0;
   /// Longest interval from `at` that provably contains no event before its end; at most `remaining` long.
   [[nodiscard]] virtual Passage pass(const ModalPoint& at, double remaining) = 0;
   /// Called after a passage without an event: arms waiting guards that are clearly positive at `at`.
   virtual void rearm(const ModalPoint& at) = 0;
-  /// Computes the motion `to`, a time `time` after `from`, in closed form.
+  /// Computes `to`, the motion at the time `time` after `from`, in closed form.
   virtual void advance(const ModalPoint& from, double time, ModalPoint& to) const = 0;
   /// Writes the amplitudes of the unconstrained modes, their rates and, if change is not null, their accelerations.
   virtual void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const = 0;
@@ -66,7 +66,7 @@ class ModalFlow {
   /// the passage is the first of a step, so its beginning was already examined.
   virtual void find_turning_points(const ModalPoint& from, double begin, double length, bool observed,
                                    events::TurningPointDetector& turning, LastTurningTimes& turns) = 0;
-  /// Adds the works between two points of the segment. time: interval between both.
+  /// Adds the works between two points of the segment. time: length of this interval.
   virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time,
                          motion::WorkIntegrals& works) const = 0;
   /// Same meaning as FastModes::fast_mode_bound(), for the interval of length `time` from `from`.
@@ -87,11 +87,11 @@ class ModalFlow {
 //
 //   ModalCache memory;      ListenerNeeds::modal->memory = &memory: for successive runs, e.g. of orbits and branches
 //
-// Computing the complex modes of a contact state takes as long as many periods of motion in these modes. The modes depend on
-// the structure alone. Only the list of pairs with a small sum of roots (RootSums::slow in damped_system.hpp) depends on the
-// length of the run. Stored data are computed for 8 times the length of the first run. They are used for runs up to this
-// length, and for runs up to 1e4 times shorter. In the shortest runs the works of listed pairs are less accurate; the motion is
-// not affected.
+// Computing the complex modes of a contact state takes as long as computing many periods of the motion. The modes depend on the
+// structure alone. Only the list of pairs with a small sum of roots (RootSums::slow in damped_system.hpp) depends on the length
+// of the run. Stored data are computed for 8 times the length of the first run. These data are used for runs up to this length,
+// and for runs up to 1e4 times shorter. In the shortest runs the works of listed pairs are less accurate; the motion is not
+// affected.
 
 class ModalSystem;
 
@@ -101,10 +101,10 @@ class ModalCache {
     Entry(const Model& of, double longest) : model(of), basis(model), t_end(longest) {}
     Entry(const Entry&) = delete;
     Entry& operator=(const Entry&) = delete;
-    const Model model;  ///< load directions are used; load histories and start are not
+    const Model model;  ///< its load histories and initial state are not used
     const UnconstrainedBasis basis;
     const double t_end;
-    std::unique_ptr<DampedSystem> damped;  ///< created on first use; null before
+    std::unique_ptr<DampedSystem> damped;  ///< null before the first use
   };
 
   /// Returns the stored data if they fit this structure and the run length t_end, otherwise new data.
@@ -117,7 +117,7 @@ class ModalCache {
 /// Data that the engine shares with a listener of its run.
 struct SharedModalData {
   ModalCache* memory = nullptr;  ///< data of earlier runs, or null
-  ModalSystem* modes = nullptr;  ///< set by the engine: its uncoupled modes; null if it has none
+  ModalSystem* modes = nullptr;  ///< set by the engine: its uncoupled modes, or null
 };
 
 // Extreme values of N, T, g and ut within a passage, in modes.
@@ -127,14 +127,14 @@ struct SharedModalData {
 //
 // A Proof (modal_proof.hpp, damped_proof.hpp) represents a step of length step_length() from a point. It has these functions:
 //   length_without_turning(at, known, x_end)         x up to which [0, x_end] contains no extreme beyond the ranges
-//   expand_for_turning(at, known, share, remaining)  makes a new step whose fast part is at most this share of the
-//                                                    ranges; returns its length
-//   find_turning_at_start(at, time, turning, turns)  extremes at the point `at`
+//   expand_for_turning(at, known, share, remaining)  begins a new step, on which the fast modes contribute at most this
+//                                                    share of each range; returns the length of the step
+//   find_turning_at_start(at, time, turning, turns)  finds extremes at the point `at`
 //   series(at)                                       slow parts of the contacts' quantities on the step
 
 /// Admissible contribution of fast modes, relative to the range of the quantity; chosen. To locate an extreme, the contribution
-/// must be as small as rounding. To exclude an extreme, it may be larger: a larger limit allows longer steps, but cannot
-/// exclude an extreme if the quantity is close to its greatest value so far.
+/// must be as small as rounding. To exclude an extreme, a larger limit allows longer steps, but fails if the quantity is close
+/// to its greatest value so far.
 inline constexpr double fine_fast_share = rounding::elimination, max_fast_share = 1e-4,
                         min_fast_share = 1e-10, fast_share_step = 10.0;
 
@@ -157,7 +157,7 @@ void find_turning_points_in_passage(Proof& proof, const Advance& advance, const 
   };
   double share = max_fast_share;
   for (bool moved = true; done < length;) {
-    // A quantity that was monotone in the last step may have its extreme at this point.
+    // A quantity that was monotone in the last step may have an extreme at this point.
     if (moved) proof.find_turning_at_start(point, begin + done, turning, turns);
     const double look = proof.expand_for_turning(point, turning, share, length - done);
     const double safe =
@@ -174,7 +174,7 @@ void find_turning_points_in_passage(Proof& proof, const Advance& advance, const 
       share = std::max(min_fast_share, share / fast_share_step);
       continue;
     }
-    // Stop at the end of the passage, where slopes may be only rounding and have no significant sign.
+    // Stop at the end of the passage: a slope there may be only a rounding error without a significant sign.
     if (!(done < length)) return;
     const double step = proof.expand_for_turning(point, turning, fine_fast_share, length - done);
     if (!(step > 0.0)) return;

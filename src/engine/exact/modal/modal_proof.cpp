@@ -29,8 +29,8 @@ bool decreases(const GuardOnStep& guard, double h, double from, double to) {
   return q[0] > 0.0 && events::first_root(q.data(), q.size() - 1, 0.0).kind == events::FirstRoot::Kind::none;
 }
 
-/// Only zero of g between two places of the step, by the Illinois method (bracketed secants). `from` if g(from) <= 0; `to` if
-/// g(to) >= 0.
+/// Returns the only zero of g between two places of the step, by the Illinois method (bracketed secants). Without a change of
+/// sign: `from` if g(from) <= 0, otherwise `to`.
 double only_crossing(const std::function<double(double)>& g, double from, double to) {
   double low = g(from), high = g(to);
   if (!(low > 0.0)) return from;
@@ -59,13 +59,14 @@ double only_crossing(const std::function<double(double)>& g, double from, double
   return x;
 }
 
-/// Part of find_guard_zero() for a guard that starts at zero and is represented by its leading derivative.
+/// find_guard_zero() for a guard that starts at zero and is represented by its leading derivative. False: this representation
+/// is not used any more, and the step must be repeated.
 bool examine_rising_guard(GuardOnStep& guard, std::size_t slot, events::ActiveGuards& arming, double& limit) {
   std::vector<double>& q = guard.p;
   double scale = 0.0;
   for (const double entry : q) scale += std::abs(entry);
-  // Subtracts the bounds on fast modes and rounding, but at most half of the derivative: the decision has proved that it is
-  // positive.
+  // Subtract the bounds on fast modes and rounding, but at most half of the derivative at x = 0, which the decision has proved
+  // to be positive.
   q[0] -= std::min(guard.fast_bound + rounding::many_operations * scale, 0.5 * q[0]);
   if (!(q[0] > 0.0)) {
     arming.discard_leading_order(slot);
@@ -128,7 +129,8 @@ bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
 
 std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event, double h,
                                    bool& full) {
-  if (doubted || (limit == 0.0 && !full)) {  // if not doubted: a guard is too small to treat modes as fast
+  // limit == 0: a guard is so small that the bound on the fast modes exceeds it, so the next attempt has no fast modes.
+  if (doubted || (limit == 0.0 && !full)) {
     full = full || !doubted;
     return std::nullopt;
   }
@@ -151,8 +153,8 @@ double stays_above(const double* a, std::size_t degree, double x_end, double sig
 
 namespace {
 
-constexpr double quarter = 0.25;                  // part of a guard: limit of the sum of all fast modes
-constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound
+constexpr double quarter = 0.25;  // limit of the sum of all fast modes, as a part of the guard
+constexpr double rounding_of_guard = 1.0 / 16.0;  // part of the decision's rounding bound in a guard's slack
 
 double sum_of(const Amplitudes& weights, const Amplitudes& values) {
   double sum = 0.0;
@@ -169,8 +171,8 @@ double size_of_sum(const Amplitudes& weights, const Amplitudes& values) {
   return sum;
 }
 
-/// Replaces N and T in the guard's form by their laws: returns the coefficients of g, ut, vn and vt. constant: receives the
-/// rest.
+/// Replaces N and T in the guard's form by their laws. Returns the coefficients of g, ut, vn and vt; constant: receives the
+/// constant term.
 ModalKinematics reduced(const Form& form, const ForceLaw& law, double& constant) {
   ModalKinematics result;
   const double N = form.N;
@@ -257,7 +259,7 @@ double ModalProof::magnitude(std::size_t slot, const ModalPoint& at) const {
   return std::abs(guard->constant) + size_of_sum(guard->place, at.z) + size_of_sum(guard->rate, at.rate);
 }
 
-/// Value of the leading derivative of the guard.
+/// Value of the guard's leading derivative: its time derivative of order leading_order().
 double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
   const std::size_t order = active_guards_.leading_order(guard.slot);
   double sum = 0.0;
@@ -304,7 +306,7 @@ void ModalProof::measure(const ModalPoint& at) {
   }
 }
 
-/// Coefficient |w_k| of mode k in the bound on the guard. For a leading derivative of order m, times omega_k^m.
+/// Coefficient |w_k| of mode k in the bound on the guard; for the leading derivative of order m: |w_k| omega_k^m.
 double ModalProof::weight_of(const Watched& guard, std::size_t k) const {
   double weight = guard.size[k];
   if (starts_at_zero(guard)) weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * order_of(guard));
@@ -336,7 +338,8 @@ void ModalProof::choose_step(double remaining) {
     const double fastest = l[std::min(first, l.size() - 1)];
     if (fastest > 0.0) h_ = std::min(h_, max_slow_angle / std::sqrt(fastest));
   }
-  // Pairs of complex modes may grow. So a pair limits the step, and is slow, unless its contribution to all guards is small.
+  // Pairs of complex modes may grow. So every pair with a significant contribution to a guard is treated as slow, and limits
+  // the step length.
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
       const double root = std::sqrt(size_of(pairs[k]));
@@ -376,7 +379,7 @@ void ModalProof::bound_fast_modes() {
   }
 }
 
-/// Computes the polynomial p of the guard's slow part, and the bound `slack` on its error.
+/// Computes the polynomial p of the guard's slow part, and the bound `slack` on the error of p.
 void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
   const std::size_t c = decision_->layout.contact_of_guard(guard.slot);
   p.assign(degree_ + 1, 0.0);

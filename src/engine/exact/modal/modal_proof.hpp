@@ -3,14 +3,15 @@
 //   g(t0 + h x) = sum of slow modes (a polynomial in x) + fast modes,   |fast modes| <= sum |w_k| A_k
 //
 // A_k is the amplitude of mode k and w_k its coefficient in the guard. Modes with an index below J are slow. J is chosen so
-// that the other modes together contribute less than a quarter of every guard; the step length is h = 4 / omega_J. A guard has
+// that the fast modes together contribute less than a quarter of every guard; the step length is h = 4 / omega_J. A guard has
 // no zero as long as its slow part exceeds the sum of the bound on the fast modes, the remainder of the polynomial and rounding
-// (engine/events/first_root.hpp). If this is true only on a part of the step, the next step starts there with more slow modes.
+// (engine/events/first_root.hpp). If a guard satisfies this condition only on a part of the step, the next step starts at the
+// end of this part, with more slow modes.
 //
 // A zero crossing is an event if the rate of the guard, fast modes included, is negative on the whole interval that may contain
-// the crossing. The closed form with all modes then has exactly one zero there. A guard that starts at zero is represented by
-// its first nonzero derivative. The proof relies on the computed modes; their accuracy is tested by converting a motion to
-// modes and back.
+// the crossing. The closed form with all modes then has exactly one zero in this interval. A guard that starts at zero is
+// represented by its first nonzero derivative. The proof relies on the computed modes; their accuracy is tested by converting a
+// motion to modes and back.
 #pragma once
 
 #include <array>
@@ -30,43 +31,44 @@ namespace signorini::modal {
 //   g(t + h x) = p(x) + fast part,  |fast part| <= R,  |rate of the fast part| <= R',  |error of p| <= slack
 //   p > R + slack                     no zero
 //   p decreases through +-(R + slack) in an interval with p' < -R' h:   one zero, located by the closed form
-//   otherwise                         no decision beyond the zero of p - 2 (R + slack); the step ends there
+//   otherwise                         undecided: the step ends at the first zero of p - 2 (R + slack)
 //
-// A guard that starts at zero is represented by its first nonzero derivative: p is then that derivative.
+// If a guard starts at zero, p is its first nonzero time derivative instead of the guard itself.
 
 /// A guard g(t + h x) on a step of length h, 0 <= x <= 1.
 struct GuardOnStep {
-  std::vector<double> p;  ///< p; if leading_order > 0, the time derivative of this order
+  std::vector<double>
+      p;  ///< coefficients of p: the guard or, if leading_order > 0, its derivative of this order
   double slack = 0.0, fast_bound = 0.0,
-         fast_rate_bound = 0.0;   ///< slack, R and R' (per time); of p if leading_order > 0
+         fast_rate_bound = 0.0;   ///< slack, R and R' (per time) of p
   double noise = 0.0;             ///< rounding bound of the guard at the beginning of the segment
   std::size_t leading_order = 0;  ///< see ActiveGuards::leading_order()
-  bool armed = false;             ///< the guard was clearly positive
+  bool armed = false;             ///< see ActiveGuards::armed()
 };
 
 /// Coefficients of the time derivative of order m of a polynomial p in t / h.
 [[nodiscard]] std::vector<double> derivative_of(const std::vector<double>& p, std::size_t m, double h);
 
-/// Examines one guard on a step of length h. Updates limit, the place x up to which no guard reaches zero; event, the place of
-/// the first zero of all guards examined so far; and passage. value_at(x): the guard in closed form. False: the prediction by
-/// the guard's derivatives at the start is wrong and no longer used, so the step must be repeated.
+/// Examines one guard on a step of length h. value_at(x): the guard in closed form. Updates the results for all guards so far:
+/// limit, the place x up to which no guard is undecided; event, the place of the first zero; and passage. False: the guard does
+/// not rise as its leading derivative predicts; this derivative is discarded, and the step must be repeated.
 [[nodiscard]] bool find_guard_zero(GuardOnStep& guard, std::size_t slot, double h,
                                    const std::function<double(double)>& value_at,
                                    events::ActiveGuards& arming, Passage& passage, double& limit,
                                    double& event);
 
-/// Ends a step of length h after all guards have been examined: the passage reaches to the smaller of `limit` and `event`.
-/// doubted: find_guard_zero() has returned false for a guard. nullopt: the step must be repeated; unless doubted, `full` is
-/// then set, so that all modes are treated as slow.
+/// Ends a step of length h after all guards have been examined: the passage extends to the smaller of `limit` and `event`.
+/// doubted: find_guard_zero() has returned false for a guard. nullopt: the step must be repeated. full: set to true if the next
+/// attempt or step must treat all modes as slow.
 [[nodiscard]] std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event,
                                                  double h, bool& full);
 
-/// The greatest s <= 1 such that sign a(x x_end) + above > 0 for all x in [0, s], where a(x) is the polynomial with the
+/// The greatest s <= 1 for which sign * a(x x_end) + above > 0 on 0 <= x <= s, where a(x) is the polynomial with the
 /// coefficients a. p: work array.
 [[nodiscard]] double stays_above(const double* a, std::size_t degree, double x_end, double sign, double above,
                                  std::vector<double>& p);
 
-/// Kinematic quantities of a contact, or their coefficients in a guard.
+/// Gap, tangential displacement and their rates at a contact, or the coefficients of these quantities in a guard.
 struct ModalKinematics {
   double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0;
 };
@@ -110,7 +112,7 @@ class ModalProof {
     Amplitudes place, rate;                          // coefficients of z and z' in the guard
     std::vector<double> size;                        // |place| + |rate| sqrt(l) of real modes
     double now = 0.0;                                // value of the guard, or of its leading derivative
-    double fast_bound = 0.0, fast_rate_bound = 0.0;  // of the leading derivative if starts_at_zero()
+    double fast_bound = 0.0, fast_rate_bound = 0.0;  // R and R' of the guard, or of its leading derivative
   };
   struct Size {
     double place = 0.0, rate = 0.0;
@@ -155,12 +157,12 @@ class ModalProof {
   std::vector<double> surface_;
   events::ActiveGuards active_guards_;
   std::vector<Watched> guards_;
-  std::vector<std::vector<double>> static_normal_,
-      static_tangent_;  // [c][k]: sum of a_i p_i / l_i for i >= k
+  // [c][k]: static values of n . u and t . u of contact c due to all real modes i >= k: sum of a_i p_i / l_i
+  std::vector<std::vector<double>> static_normal_, static_tangent_;
   std::vector<double> amplitude_, pair_amplitude_, coefficients_;
   std::vector<Complex> pair_coefficients_;
   std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes of terms, for rounding bounds
-  std::vector<Size> normal_rest_, tangent_rest_;
+  std::vector<Size> normal_rest_, tangent_rest_;  // bounds on the remainders of the slow modes' polynomials
   std::vector<motion::ContactSeries> slow_;
   std::vector<bool> pair_slow_;
   std::size_t fast_ = 0, degree_ = 0, count_ = 0;  // number of slow modes; degree and length of their series

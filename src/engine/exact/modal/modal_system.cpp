@@ -24,9 +24,9 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double app
   return law;
 }
 
-/// Limit of the relative error eps (omega/alpha)^2 of works. The error is due to the division by (l_k - l_i)^2 + 2 alpha^2
-/// (l_k + l_i) (modal_works.hpp).
-constexpr double most_lost = 1e-12;
+/// Limit of the relative error eps (omega/alpha)^2 of works. Cause of this error: the division by
+/// (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) in modal_works.hpp.
+constexpr double max_work_error = 1e-12;
 
 std::string coupling_refusal(const Model& model) {
   if (model.size() == 0) return "no degrees of freedom";
@@ -54,7 +54,7 @@ std::string proportional_refusal(const Model& model) {
   if (std::string why = coupling_refusal(model); !why.empty()) return why;
   const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
   if (!(alpha > 0.0)) return "no damping proportional to the mass";
-  if (!(alpha * alpha * most_lost >= rounding::eps * model.omega1 * model.omega1))
+  if (!(alpha * alpha * max_work_error >= rounding::eps * model.omega1 * model.omega1))
     return "damping so small that work integrals of two modes lose accuracy";
   return {};
 }
@@ -105,7 +105,7 @@ std::shared_ptr<const StateModes> ModalSystem::state(const contact::ContactState
                        bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * contact_states.size())));
 }
 
-/// Computes the modes of the contact states: D plus U V^T, with at most two columns of U and V for each contact.
+/// Computes the modes of the contact states, the eigenvectors of D + U V^T. Each contact adds at most two columns to U and V.
 StateModes ModalSystem::make(const contact::ContactStates& contact_states) const {
   std::vector<Vector> u, v;
   bool symmetric = true;
@@ -153,14 +153,14 @@ namespace {
 constexpr std::size_t most_degree = 30;
 
 /// Errors of N, T, g and ut (order of TurningPointDetector::watched_fields) due to the error `normal` of g and `tangent` of ut.
-std::array<double, 4> of_law(const ForceLaw& law, double normal, double tangent) {
+std::array<double, 4> errors_by_law(const ForceLaw& law, double normal, double tangent) {
   return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
           tangent};
 }
 
 }  // namespace
 
-/// Selects the slow modes, which a step of length h_ represents by polynomials.
+/// Selects the slow modes: those that polynomials represent on a step of length h_.
 void ModalProof::split_modes(bool all_slow) {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
@@ -173,8 +173,8 @@ void ModalProof::split_modes(bool all_slow) {
   for (std::size_t k = 0; k < pairs.size(); ++k) pair_slow_[k] = size_of(pairs[k]) * h_ * h_ <= square;
 }
 
-/// Bounds on the contributions of fast modes, and of the remainders of slow modes, to N, T, g and ut, or to their rates
-/// (of_rate). The amplitude of mode k is at most A_k, its rate at most sqrt(l_k) A_k.
+/// Bounds on the sum of the fast modes and the remainders of the slow modes in N, T, g and ut, or in their rates (of_rate).
+/// The amplitude of mode k is at most A_k, its rate at most sqrt(l_k) A_k.
 ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) const {
   const ForceLaw& law = laws_[c];
   double normal = of_rate ? normal_rest_[c].rate : normal_rest_[c].place;
@@ -184,11 +184,11 @@ ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) c
     normal += std::abs(state_->normal[c].real[k]) * most;
     tangent += std::abs(state_->tangent[c].real[k]) * most;
   }
-  return of_law(law, normal, tangent);
+  return errors_by_law(law, normal, tangent);
 }
 
-/// For each of N, T, g and ut: the s up to which it is monotone or constant on [0, s x_end], s <= 1. N is a function of g; T is
-/// a function of g in slip and of ut in stick.
+/// For each quantity N, T, g and ut: the largest s <= 1 for which the quantity is monotone or constant on [0, s x_end]. N is a
+/// function of g; T is a function of g in slip and of ut in stick.
 ModalProof::WatchedValues ModalProof::monotone_parts(std::size_t c, double x_end,
                                                      std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
@@ -211,14 +211,14 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
   double safe = 1.0;  // relative to x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
     const WatchedValues ripple = fast_bounds(c, false), forth = monotone_parts(c, x_end, p);
-    const WatchedValues unsure = of_law(laws_[c], rounding::elimination * normal_size_[c].place,
-                                        rounding::elimination * tangent_size_[c].place);
+    const WatchedValues unsure = errors_by_law(laws_[c], rounding::elimination * normal_size_[c].place,
+                                               rounding::elimination * tangent_size_[c].place);
     for (std::size_t f = 0; f < ripple.size(); ++f) {
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double* a = slow_[c].coefficients(events::TurningPointDetector::watched_fields[f]);
-      // Includes rounding, because find_turning_at_start() sums the slope in another order: if the slope is only rounding, its
-      // sign may differ there.
+      // `unsure` covers rounding: find_turning_at_start() sums the slope in another order, so a slope that is only a rounding
+      // error may have the opposite sign there.
       if (range.is_exceeded(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
       if (forth[f] >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
@@ -230,7 +230,7 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
   return safe * x_end;
 }
 
-/// Finds extremes exactly at the beginning of a passage: quantities that were monotone up to this point and reverse there.
+/// Finds extremes exactly at the beginning of a passage: a quantity exceeds its earlier range there, and its rate points back.
 void ModalProof::find_turning_at_start(const ModalPoint& at, double time,
                                        events::TurningPointDetector& turning, LastTurningTimes& turns) const {
   for (std::size_t c = 0; c < laws_.size(); ++c) {
@@ -281,7 +281,7 @@ double ModalProof::expand_for_turning(const ModalPoint& at, const events::Turnin
   return h_;
 }
 
-/// Vectorised taylor_of_mode() for all slow real modes, term by term.
+/// Same result as taylor_of_mode() for all slow real modes, in loops over the modes that the compiler can vectorise.
 SIGNORINI_WIDE_LANES void ModalProof::expand_real(const ModalPoint& at) {
   const double* l = oscillators_->real().data();
   const double square = h_ * h_, *z = at.z.real.data(), *rate = at.rate.real.data();
@@ -303,7 +303,7 @@ SIGNORINI_WIDE_LANES void ModalProof::expand_real(const ModalPoint& at) {
   }
 }
 
-/// Computes the Taylor coefficients of the slow modes in t / h, count_ for each mode.
+/// Computes count_ Taylor coefficients of each slow mode, in powers of t / h.
 void ModalProof::expand_modes(const ModalPoint& at) {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
@@ -321,8 +321,9 @@ void ModalProof::expand_modes(const ModalPoint& at) {
                      pairs.size(), pair_coefficients_.data() + k);
 }
 
-/// Sums a row over all modes: polynomials of the slow modes, static values of the fast modes. still: sum of the static values
-/// of fast real modes. Returns bounds on the remainder of the value and of the rate.
+/// Writes the polynomial of a form to `out`: the sum over all modes of the mode's coefficient in the form (row) times the
+/// polynomial of a slow mode or the static value of a fast mode. still: sum of the static values of fast real modes. Returns
+/// bounds on the remainder of the value and of the rate.
 ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vector<double>& out) const {
   const std::vector<Complex>& pairs = oscillators_->pairs();
   out.assign(count_, 0.0);
@@ -349,7 +350,7 @@ ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vecto
   return {left, left * static_cast<double>(degree_ + 3) / h_};
 }
 
-/// Expands gap, ut, their rates, N and T of all contacts as polynomials in t / h. Fast modes enter by their static values.
+/// Expands gap, ut, their rates, N and T of all contacts as polynomials in t / h. Fast modes contribute their static values.
 void ModalProof::expand(const ModalPoint& at) {
   expand_modes(at);
   const std::size_t contacts = model_.contacts.size();

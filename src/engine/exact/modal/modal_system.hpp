@@ -17,7 +17,7 @@
 
 namespace signorini::modal {
 
-/// Forces of one contact as linear functions of its gap and ut. All coefficients of a force that does not act are zero.
+/// N and T of one contact as linear functions of its gap and ut. All coefficients of a force that does not act are zero.
 struct ForceLaw {
   double N_gap = 0.0, N_constant = 0.0;
   double T_gap = 0.0, T_ut = 0.0, T_constant = 0.0;
@@ -32,7 +32,7 @@ struct ForceLaw {
 
 /// Reason why damping or contacts couple the modes of contact states. Empty: the modes are uncoupled.
 [[nodiscard]] std::string coupling_refusal(const Model& model);
-/// Reason why uncoupled modes cannot represent a scene. Empty: they can.
+/// Reason why uncoupled modes cannot represent a scene. Empty: uncoupled modes can represent the scene.
 [[nodiscard]] std::string proportional_refusal(const Model& model);
 /// Number of contact springs that act if all contacts are closed and stick.
 [[nodiscard]] std::size_t max_state_springs(const Model& model);
@@ -43,7 +43,7 @@ struct StateModes {
   std::vector<Amplitudes> normal, tangent;            ///< coefficients of each mode in n_k . u and t_k . u
   std::vector<Amplitudes> from_normal, from_tangent;  ///< Y n_k, Y t_k
   std::vector<Amplitudes> load, from_load;            ///< coefficients of each mode in load_i . u; Y load_i
-  ModePairs pairs;  ///< computed if a contact slips and X is stored explicitly
+  ModePairs pairs;  ///< available only if a contact slips and the spectrum stores X
 };
 
 /// Modal forces Y p due to the loads after time t and the constant parts of the contact forces in the contact state.
@@ -51,7 +51,7 @@ struct StateModes {
                                          const contact::ContactStates& states, const motion::Forcing& forcing,
                                          double t);
 
-/// Limits of the cache of modes, for motions that return to earlier contact states.
+/// Limits of the number and bytes of the cached modes, which are reused if a motion returns to earlier contact states.
 inline constexpr base::CacheLimits max_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {
@@ -63,7 +63,7 @@ class ModalSystem {
   [[nodiscard]] const UnconstrainedBasis& basis() const { return basis_; }
   /// Modes of the contact states, from the cache or newly computed. Check the failure() of the spectrum before use.
   [[nodiscard]] std::shared_ptr<const StateModes> state(const contact::ContactStates& states);
-  /// Number of contact states whose modes were computed, not taken from the cache.
+  /// Number of contact states whose modes were computed instead of taken from the cache.
   [[nodiscard]] long made() const { return made_; }
 
  private:

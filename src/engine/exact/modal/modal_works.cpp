@@ -9,10 +9,10 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double least_velocity =
-    1e-9;  // relative to the greatest modal velocity: works of slower modes are below rounding
-constexpr double no_frequency = 1e-12,
-                 least_frequency = 1e-3;  // limits of omega^2 t_end^2: below the first, zero
+// Modal velocity, relative to the greatest one, below which the works of a mode are only rounding.
+constexpr double least_velocity = 1e-9;
+// Limits of omega^2 t_end^2. Below zero_frequency_bound, a frequency is regarded as zero. Below least_frequency, works are inaccurate.
+constexpr double zero_frequency_bound = 1e-12, least_frequency = 1e-3;
 
 template <class S>
 using Ends = ModalWorkIntegrals::Ends<S>;
@@ -20,10 +20,10 @@ using Ends = ModalWorkIntegrals::Ends<S>;
 template <class S>
 struct Integrals {
   S rates{}, mixed{};  // int y_k' y_l', int y_k y_l'
-  S changed{};         // y_k y_l
+  S changed{};         // [y_k y_l]: difference of y_k y_l between end and beginning
 };
 
-/// Computes both integrals in the form a [y_k y_l] + b [y_k' y_l'] + c1 [y_k y_l'] + c2 [y_k' y_l].
+/// Computes the integrals `rates` and `mixed`, each as a [y_k y_l] + b [y_k' y_l'] + c1 [y_k y_l'] + c2 [y_k' y_l].
 template <class S>
 Integrals<S> integrals(const Ends<S>& k, const Ends<S>& l, double alpha) {
   const S yy = k.y1 * l.y1 - k.y0 * l.y0, rr = k.r1 * l.r1 - k.r0 * l.r0;
@@ -48,7 +48,7 @@ Integrals<S> integrals(const Ends<S>& k, const Ends<S>& l, double alpha) {
 
 Ends<Complex> complex(const Ends<double>& a) { return {a.l, a.y0, a.r0, a.y1, a.r1}; }
 
-/// Sum over all modes of the row entry times a quantity: real(k) of real modes, pair(k) of pairs.
+/// Sum over all modes of the mode's entry in `row` times a quantity of the mode: real(k) for real modes, pair(k) for pairs.
 template <class Real, class Pair>
 double sum_over(const Amplitudes& row, const Real& real, const Pair& pair) {
   double sum = 0.0;
@@ -62,7 +62,7 @@ double sum_over(const Amplitudes& row, const Real& real, const Pair& pair) {
 bool ModalWorkIntegrals::is_accurate_for(const Spectrum& spectrum, double t_end) {
   const double square = t_end * t_end;
   const auto bad = [&](double l) {
-    return std::abs(l) * square > no_frequency && l * square < least_frequency;
+    return std::abs(l) * square > zero_frequency_bound && l * square < least_frequency;
   };
   return std::none_of(spectrum.real().begin(), spectrum.real().end(), bad) &&
          std::none_of(spectrum.pairs().begin(), spectrum.pairs().end(),
@@ -75,7 +75,7 @@ void ModalWorkIntegrals::start(const engine::Segment& segment, const StateModes&
   state_ = &state;
   oscillators_ = &oscillators;
   forces_ = &forces;
-  zero_frequency_limit_ = no_frequency / (t_end * t_end);
+  zero_frequency_limit_ = zero_frequency_bound / (t_end * t_end);
   loads_.clear();
   for (std::size_t i = 0; i < model_.loads.size(); ++i) {
     const double t = decision_->jet.t, f = model_.loads[i].history.piece(t).value(t);
@@ -113,7 +113,7 @@ ModalWorkIntegrals::Stretch ModalWorkIntegrals::stretch(const ModalPoint& from, 
   return s;
 }
 
-/// Contribution of the drifts d_k and d_l to x_k^T x_l int z_k' z_l'. product: x_k^T x_l of the mode shapes.
+/// Part of x_k^T x_l int z_k' z_l' that is due to the drifts d_k and d_l. product: x_k^T x_l of the mode shapes.
 double ModalWorkIntegrals::with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const {
   const auto change = [&](std::size_t i) { return s.real[i].y1 - s.real[i].y0; };
   return product * (s.drift[k] * s.drift[l] * s.time + s.drift[k] * change(l) + s.drift[l] * change(k));
@@ -144,7 +144,7 @@ void ModalWorkIntegrals::add_two(const Stretch& s, std::size_t k, std::size_t l,
                        state_->normal[c].real[l] * state_->tangent[c].real[k] * (both.changed - both.mixed);
 }
 
-/// Arrays of the ends of all modes up to the last mode in `oscillating`. Zero for modes that are not in this list.
+/// Ends of all modes up to the last mode in `oscillating`, as arrays. Modes that are not in `oscillating` have zero entries.
 ModalWorkIntegrals::EndArrays ModalWorkIntegrals::end_arrays(
     const Stretch& s, const std::vector<std::size_t>& oscillating) const {
   const Eigen::Index n = oscillating.empty() ? 0 : static_cast<Eigen::Index>(oscillating.back()) + 1;
@@ -253,7 +253,7 @@ double ModalWorkIntegrals::gap_integral(const Stretch& s, std::size_t c) const {
                                                [&](std::size_t k) { return s.area.pair[k]; });
 }
 
-/// Integral int g ut', with g = g_a + g_d t + sum a y and ut' = v_d + sum b y'. gap: g at the beginning; crossed: see Sums.
+/// Integral int g ut', with g = g_a + g_d t + sum a y and ut' = v_d + sum b y'. gap: g at the beginning; crossed: Sums::crossed
 double ModalWorkIntegrals::gap_times_slide(const Stretch& s, std::size_t c, double gap,
                                            double crossed) const {
   const Amplitudes &a = state_->normal[c], &b = state_->tangent[c];

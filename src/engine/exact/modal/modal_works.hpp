@@ -5,7 +5,8 @@
 //
 // Damping dissipates alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l'. If no contact slips, this is alpha sum int z_k'^2.
 // Friction dissipates int T p', a sum over pairs of modes, because T depends on g. The energy balance checks the result
-// independently. Forces are constant in the interval; a mode with zero frequency moves like z = a + d t + y, d = p/alpha.
+// independently. Forces are constant in the interval. The amplitude of a mode with zero frequency is z = a + d t + y, with the
+// drift velocity d = p/alpha.
 #pragma once
 
 #include "engine/exact/modal/modal_proof.hpp"
@@ -17,17 +18,17 @@ class ModalWorkIntegrals {
  public:
   ModalWorkIntegrals(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
 
-  /// False if a frequency is too low for the closed form of the works, but too high to be regarded as zero.
+  /// False if a frequency is too low for accurate works in closed form, but too high to be regarded as zero.
   [[nodiscard]] static bool is_accurate_for(const Spectrum& spectrum, double t_end);
 
   /// Starts a segment. All references must stay valid until the next start.
   void start(const engine::Segment& segment, const StateModes& state, const Oscillators& oscillators,
              const Amplitudes& forces, double t_end);
-  /// Adds the works between two points of the segment. time: interval between both.
+  /// Adds the works between two points of the segment. time: length of this interval.
   void add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to, double time,
            motion::WorkIntegrals& works) const;
 
-  /// l of a mode, and its oscillating part y and rate r = y' at the beginning (0) and the end (1) of an interval.
+  /// l of a mode, and the mode's oscillating part y and rate r = y' at the beginning (0) and the end (1) of an interval.
   template <class S>
   struct Ends {
     S l{}, y0{}, r0{}, y1{}, r1{};
@@ -44,10 +45,10 @@ class ModalWorkIntegrals {
     double time;
     std::vector<Ends<double>> real;
     std::vector<Ends<Complex>> pair;
-    std::vector<double> drift;  // d of real modes; 0 if they oscillate
-    Amplitudes area;            // int z
+    std::vector<double> drift;  // drift velocity d of each real mode; 0 if the mode has a nonzero frequency
+    Amplitudes area;            // time integrals of the amplitudes z
   };
-  /// rates: int q'^T q'. crossed: for each contact int (sum a_k y_k)(sum b_k y_k'); 0 unless it slips.
+  /// rates: int q'^T q'. crossed: int (sum a_k y_k)(sum b_k y_k') of each contact; 0 if the contact does not slip.
   struct Sums {
     double rates = 0.0;
     std::vector<double> crossed;

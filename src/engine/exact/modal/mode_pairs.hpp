@@ -2,7 +2,7 @@
 //
 //   e_kl = 1 / ( (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l) ),      shared_kl = x_k^T x_l e_kl
 //
-// Defined for real modes k != l; 0 if both frequencies are zero. Symmetric, so only l < k is stored.
+// Both are defined for real modes k != l, and 0 if both frequencies are zero. shared_kl is symmetric, so only l < k is stored.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,12 @@
 
 namespace signorini::modal {
 
-/// shared_kl of all pairs of modes. Not available if the spectrum does not store X.
+/// Table of shared_kl for all pairs of modes.
 class ModePairs {
  public:
   ModePairs() = default;
   ModePairs(const Spectrum& spectrum, double alpha);
+  /// False if the table was not computed.
   [[nodiscard]] bool available() const { return !shared_.empty(); }
   /// shared_kl for all l < k.
   [[nodiscard]] const double* row(Eigen::Index k) const { return shared_.data() + k * (k - 1) / 2; }
@@ -44,13 +45,13 @@ struct ModeEnds {
   const double *l, *y0, *r0, *y1, *r1;
 };
 
-/// For mode k and all i < k: writes [yy] to yy and int y_k y_i' to mixed. Returns the sum of -x_k^T x_i int y_k' y_i'. shared:
-/// the coefficients shared_ki.
+/// Writes [yy] to yy and int y_k y_i' to mixed, for mode k and all i < k. shared: coefficients shared_ki. Returns the sum of
+/// -x_k^T x_i int y_k' y_i'.
 [[nodiscard]] double pair_integrals(const ModeEnds& ends, double alpha, std::ptrdiff_t k,
                                     const double* shared, double* yy, double* mixed);
 
-/// Contribution of the pairs of mode k with all i < k to int (sum n y)(sum t y'): the sum of n_k t_i mixed_i + t_k n_i ( yy_i -
-/// mixed_i ).
+/// Part of int (sum n y)(sum t y') that is due to the pairs of mode k with all i < k: the sum of
+/// n_k t_i mixed_i + t_k n_i ( yy_i - mixed_i ).
 [[nodiscard]] double cross_integral(const double* n, const double* t, std::ptrdiff_t k, const double* yy,
                                     const double* mixed);
 

@@ -9,8 +9,8 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double small_turn = 1.0;     // largest l time^2 for which the series is used
-constexpr std::size_t max_terms = 64;  // 40 are enough for alpha time <= 4 and l time^2 <= 1
+constexpr double small_turn = 1.0;     // largest l time^2 for which the Taylor series is used
+constexpr std::size_t max_terms = 64;  // limit of the terms; alpha time <= 4 and l time^2 <= 1 need 40
 
 Complex cosine(Complex a) { return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)}; }
 Complex sine(Complex a) { return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)}; }
@@ -19,7 +19,7 @@ double sine(double a) { return std::sin(a); }
 
 template <class S>
 void by_series(S& z, S& rate, S& integral, S p, S l, double alpha, double time) {
-  S a = z, b = rate * time;  // coefficients j and j + 1
+  S a = z, b = rate * time;  // terms j and j + 1 of the series
   S sum = a + b, slope = b, area = a + b * 0.5, force = p * (time * time);
   for (std::size_t j = 0; j < max_terms; ++j) {
     const double down = 1.0 / static_cast<double>(j + 2);
@@ -60,8 +60,8 @@ Oscillators::Oscillators(const Spectrum& spectrum, double alpha)
     pair_damped_omega_.push_back(complex_sqrt(l - Complex(0.25 * alpha * alpha)));
 }
 
-/// Advances the first `count` real modes by their series, in blocks of eight. A majorant for the fastest mode of the block
-/// shows when further terms are negligible.
+/// Advances the first `count` real modes by their series, in blocks of eight. The series of a block ends when a majorant of the
+/// terms of its fastest mode is negligible.
 void Oscillators::slow_by_series(const Amplitudes& p, std::size_t count, double time, ModalPoint& to) const {
   constexpr std::size_t width = 8;
   const double square = time * time;
@@ -108,7 +108,7 @@ void Oscillators::advance(const ModalPoint& from, const Amplitudes& p, double ti
   const auto turns = [&](std::size_t k) {
     return real_[k] * square > small_turn && damped_omega_[k] * time > 0.5;
   };
-  std::size_t first = 0;  // first mode for the closed form; eigenvalues ascend
+  std::size_t first = 0;  // first mode for the closed form; all later modes are faster
   while (first < real_.size() && !turns(first)) ++first;
   slow_by_series(p, first, time, to);
   for (std::size_t k = first; k < real_.size(); ++k)

@@ -20,8 +20,8 @@ struct ModalPoint {
   double time = 0.0;
 };
 
-/// Bound on |sum_k A_k x_k| for shapes with |x_k| = 1: square root of the sum of A_k^2 if the x_k are orthogonal, otherwise the
-/// sum of |A_k|.
+/// Bound on |sum_k A_k x_k| for shapes with |x_k| = 1 and A_k >= 0: the square root of the sum of A_k^2 if the x_k are
+/// orthogonal, otherwise the sum of A_k.
 class SumOfModes {
  public:
   /// dependence: see StepFacts::eigenvector_condition.
@@ -46,16 +46,16 @@ class Oscillators {
   [[nodiscard]] const std::vector<double>& damped_omega() const { return damped_omega_; }
   /// w of pairs. The imaginary part is the growth rate of one mode of the pair, relative to e^(-alpha t/2).
   [[nodiscard]] const std::vector<Complex>& pair_damped_omega() const { return pair_damped_omega_; }
-  /// Computes the motion `to` a time `time` after `from`, under constant forces p. Requires alpha time <= 4.
+  /// Computes `to`, the motion at the time `time` after `from`, under constant forces p. Requires alpha time <= 4.
   void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
   /// Accelerations z''.
   [[nodiscard]] Amplitudes accelerations(const ModalPoint& at, const Amplitudes& p) const;
-  /// Stands for an infinite amplitude (of a mode that does not oscillate). Finite, because zero times infinity is NaN.
+  /// Amplitude of a mode that does not oscillate, used instead of infinity, because zero times infinity is NaN.
   static constexpr double never = 1e300;
-  /// Amplitude of the oscillation of each mode about p/l. For a pair, which may grow or decay, the initial amplitude.
+  /// Computes the amplitude of the oscillation of each mode about p/l. A pair may grow or decay: its amplitude is that at `at`.
   void amplitudes(const ModalPoint& at, const Amplitudes& p, std::vector<double>& real,
                   std::vector<double>& pair) const;
-  /// Integrals of z from one point to the other. time: interval between both.
+  /// Computes the time integrals of z between two points. time: length of this interval.
   void integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
                  Amplitudes& out) const;
 

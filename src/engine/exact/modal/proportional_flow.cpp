@@ -12,13 +12,13 @@ ProportionalFlow::ProportionalFlow(const Model& model, const UnconstrainedBasis&
       proof_(model, system_.alpha()),
       works_(model, system_.alpha()) {}
 
-/// Reason why uncoupled modes cannot represent the motion in a segment. Empty: they can.
+/// Sets state_. Returns the reason why uncoupled modes cannot represent the motion in a segment, or an empty string.
 std::string ProportionalFlow::unsupported_reason(const engine::Segment& segment) {
-  if (segment.forcing->varies()) return "forces or surface motions that vary";
+  if (segment.forcing->varies()) return "forces or surface motions are not constant";
   state_ = system_.state(segment.decision->states);
   if (!state_->spectrum.failure().empty()) return state_->spectrum.failure();
   if (!ModalWorkIntegrals::is_accurate_for(state_->spectrum, t_end_))
-    return "frequencies that are neither zero nor fast compared with the run";
+    return "a frequency is neither zero nor fast compared with the run";
   return {};
 }
 

@@ -1,4 +1,5 @@
-// small_matrices.hpp: L U factors of small matrices with complete pivoting, null vectors of singular ones, and thin products.
+// small_matrices.hpp: L U factors of small matrices with complete pivoting, null vectors of singular matrices, and products of
+// a large matrix with a few vectors.
 //
 //   P G Q = L U
 #pragma once
@@ -12,7 +13,7 @@
 
 namespace signorini::modal {
 
-/// Largest size of a small matrix: limit of the springs of closed contacts in a contact state of the modal flow.
+/// Largest size of a small matrix, and so the largest number of contact springs in a contact state of the modal flow.
 inline constexpr std::size_t max_rank = 12;
 
 template <class S>
@@ -101,8 +102,8 @@ class SmallLu {
     return result;
   }
 
-  /// Computes null vectors c, d with G c = 0 and d^T G = 0. The last `nullity` pivots are regarded as zero; `which` (0 ..
-  /// nullity - 1) selects one of the null vectors.
+  /// Computes null vectors c, d with G c = 0 and d^T G = 0. The last `nullity` pivots are regarded as zero. which: index of the
+  /// null vector, 0 to nullity - 1.
   void null_vectors(SmallVector<S>& c, SmallVector<S>& d, std::size_t nullity = 1,
                     std::size_t which = 0) const {
     SmallVector<S> x{}, w{};
@@ -135,9 +136,9 @@ class SmallLu {
 
 // A large matrix times a few vectors, A x_1, A x_2, ..., in one pass through memory.
 //
-// Four rows and up to three vectors are processed at once, so that loaded entries are used several times and additions do not
-// wait for each other. Every sum is computed as four partial sums (entries k, k + 4, ...), so the result is identical in every
-// build.
+// Four rows and up to three vectors are processed at once, so that each loaded entry is used several times, and several
+// additions run in parallel. Every sum is computed as four partial sums (entries k, k + 4, ...), so the result is identical in
+// every build.
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

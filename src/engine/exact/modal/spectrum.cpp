@@ -9,12 +9,13 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double filling = 1e-30;  // replaces zero entries of U, relative to the greatest entry
+constexpr double filling = 1e-30;  // replaces zero rows of U, relative to the greatest entry of U
 constexpr double equal = 1e-13;    // relative distance below which poles are regarded as equal
-constexpr double uncoupled_share =
-    1e-13;  // largest coupling of an uncoupled mode, relative to that of equal modes
-/// Limit of |X Y q - q| for a q with entries between -1 and 1; chosen. The contact states of the pipeline have 1e-13 at 201
-/// unknowns, and the relative error of an event is about the same. The test "flows: stiff beside soft" depends on this limit.
+// Largest coupling of an uncoupled mode, relative to the greatest coupling of all modes with an equal pole.
+constexpr double uncoupled_share = 1e-13;
+/// Limit of |X Y q - q| for a q with entries between -1 and 1; chosen. The contact states of the pipeline with 201 unknowns
+/// have 1e-13; the relative error of an event time is about as large as this value. The test "flows: stiff beside soft" depends
+/// on this limit.
 constexpr double worst_round_trip = 1e-12;
 constexpr double worst_condition = 1e4;
 
@@ -36,12 +37,12 @@ Poles::Poles(const Eigen::VectorXd& values)
 }
 
 Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
-                   std::size_t written_up_to)
+                   std::size_t max_stored)
     : rank_(static_cast<std::size_t>(u.cols())), order_(poles.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t(0));
   values_ = poles.base;
   if (rank_ > max_rank) {
-    failure_ = "too many springs of closed contacts for the modes of a contact state";
+    failure_ = "the contact state has too many contact springs for modes";
     return;
   }
   if (rank_ == 0) {  // the modes are the unconstrained modes
@@ -77,10 +78,10 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   find_vectors(pairs_);
   order_values();
   find_squares();
-  find_alike();
+  compute_close_products();
   split_close_roots();
   find_products();
-  if (order_.size() + 2 * pairs_.size() <= written_up_to) store_matrices();
+  if (order_.size() + 2 * pairs_.size() <= max_stored) store_matrices();
   test();
 }
 
@@ -151,20 +152,21 @@ void Spectrum::order_values() {
 void Spectrum::test() {
   Eigen::VectorXd q(static_cast<Eigen::Index>(order_.size() + 2 * pairs_.size())), back;
   double entry = 0.5;
-  for (Eigen::Index i = 0; i < q.size(); ++i) {  // logistic map: excites all modes, the same in every run
+  for (Eigen::Index i = 0; i < q.size(); ++i) {  // logistic map: all modes are excited, equally in every run
     entry = 3.99 * entry * (1.0 - entry) + 1e-3;
     q[i] = 2.0 * entry - 1.0;
   }
   Amplitudes z;
   to_modes(q, z);
   from_modes({&z}, {&back});
-  round_trip_ = (back - q).norm();  // a norm keeps a NaN; maxCoeff may skip it
+  round_trip_ = (back - q).norm();  // not maxCoeff(), which may ignore a NaN
   if (!(round_trip_ < worst_round_trip))
-    failure_ = "the modes of the contact state do not reproduce a motion that is converted to them and back";
+    failure_ =
+        "the modes of the contact state are inaccurate: a motion changes by conversion to modes and back";
   if (!(condition_ < worst_condition)) failure_ = "the modes of the contact state are nearly parallel";
 }
 
-// Conversions between a motion and its amplitudes, as sums with the factors 1 / (D_i - l_k).
+// Conversions between a motion q and its modal amplitudes z, as sums with the factors 1 / (D_i - l_k).
 
 template <class S>
 void Spectrum::project(const Roots<S>& roots, const Eigen::VectorXd& q, bool form, std::vector<S>& z) const {
@@ -222,7 +224,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     z.pair.clear();
     return;
   }
-  if (form && x_.size() > 0) return of_form_written(q, z);
+  if (form && x_.size() > 0) return stored_form_coefficients(q, z);
   Eigen::VectorXd turned = q;
   for (const auto& [row, vectors] : rotations_)
     turned.segment(row, vectors.rows()) = vectors.transpose() * q.segment(row, vectors.rows());
@@ -233,7 +235,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     const std::vector<double> mixed = real;
     for (const Close& pair : close_) real[pair.k] -= pair.product * mixed[pair.l];
   }
-  if (form) {  // X has entries of all modes in the rows of uncoupled modes
+  if (form) {  // a row of X for an uncoupled mode may have entries in all columns
     for (std::size_t j = 0; j < uncoupled_.size(); ++j)
       if (const double entry = turned[uncoupled_[j]]; entry != 0.0) {
         for (std::size_t k = 0; k < real_.size(); ++k)
@@ -253,7 +255,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
 
 void Spectrum::to_modes(const std::vector<const Eigen::VectorXd*>& q,
                         const std::vector<Amplitudes*>& z) const {
-  if (x_.size() > 0) return to_modes_written(q, z);
+  if (x_.size() > 0) return to_modes_stored(q, z);
   for (std::size_t s = 0; s < q.size(); ++s) project(*q[s], false, *z[s]);
 }
 
@@ -265,7 +267,7 @@ void Spectrum::from_modes(const std::vector<const Amplitudes*>& z,
           Eigen::Map<const Eigen::VectorXd>(z[s]->real.data(), static_cast<Eigen::Index>(z[s]->real.size()));
     return;
   }
-  if (x_.size() > 0) return from_modes_written(z, q);
+  if (x_.size() > 0) return from_modes_stored(z, q);
   const auto n = static_cast<Eigen::Index>(n_), rank = static_cast<Eigen::Index>(rank_);
   std::vector<std::vector<double>> real(z.size(), std::vector<double>(order_.size()));
   for (std::size_t s = 0; s < z.size(); ++s)

@@ -6,10 +6,10 @@
 //
 // D contains the squares of the frequencies of the unconstrained modes, called poles. U and V are the springs of closed
 // contacts in these modes; U V^T is not symmetric if a contact slips. All roots l are computed simultaneously (Ehrlich,
-// Aberth). A root is stored as a pole and an offset from it, so that D_i - l is accurate however small it is. The matrices X
-// and Y of the eigenvectors have entries with the factor 1 / (D_i - l_k); products with them take n^2 operations. X and Y are
-// stored if they are small enough. Equal poles are separated, and zero rows are filled, by far less than rounding, so that
-// every root is simple.
+// Aberth). A root is stored as a pole and an offset from this pole, so that even a small D_i - l is accurate. The matrices X
+// and Y of the eigenvectors have entries with the factor 1 / (D_i - l_k); products with X or Y take n^2 operations. X and Y are
+// stored if they are small enough. So that every root is simple, equal poles are separated, and zero rows get tiny entries;
+// both changes are far below rounding.
 // Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994), 1266.
 #pragma once
 
@@ -43,41 +43,41 @@ struct Poles {
 template <class S>
 struct Roots {
   std::vector<std::size_t> pole_index;  ///< index of the pole to which the offset refers
-  std::vector<S> offset;                ///< distance from that pole
+  std::vector<S> offset;                ///< value minus this pole
   std::vector<S> value;
   std::vector<S> right, left;  ///< c and d, `rank` numbers for each root, scaled to |x| = 1, y^T x = 1
   [[nodiscard]] std::size_t size() const { return pole_index.size(); }
 };
 
-/// Amplitudes of all modes of a spectrum. Of a conjugate pair only one amplitude is stored; the other is its conjugate.
+/// Amplitudes of all modes of a spectrum. For a conjugate pair, only the amplitude of one mode is stored.
 struct Amplitudes {
   std::vector<double> real;
   std::vector<Complex> pair;
 };
 
-/// c and h = U^T x of each mode, `rank` numbers each. They give the products of two different modes:
+/// c and h = U^T x of each mode, `rank` numbers each, for the products of two different modes:
 ///   x_k^T x_l = (h_k . c_l - c_k . h_l) / (l_k - l_l)
 struct VectorProducts {
   std::vector<double> c, h;
   std::vector<Complex> c_pair, h_pair;
 };
 
-/// Number of modes up to which X and Y are stored. They take 16 n^2 bytes for each contact state, 16 MB at the limit.
+/// Largest number of modes for which X and Y are stored. Memory: 16 n^2 bytes for each contact state, 16 MB at the limit.
 inline constexpr std::size_t max_stored_modes = 1024;
 
 class Spectrum {
  public:
-  /// u, v: U and V, n x rank; sets failure() if rank > max_rank. symmetric: V is U up to positive factors of its columns, so
-  /// that all roots are real. written_up_to: number of modes up to which X and Y are stored.
+  /// u, v: U and V, n x rank; sets failure() if rank > max_rank. symmetric: each column of V is a positive multiple of the same
+  /// column of U, so that all roots are real. max_stored: largest number of modes for which X and Y are stored.
   Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
-           std::size_t written_up_to = max_stored_modes);
+           std::size_t max_stored = max_stored_modes);
 
-  /// Reason why the modes cannot be used. Empty: they can.
+  /// Reason why the modes cannot be used. Empty: the modes can be used.
   [[nodiscard]] const std::string& failure() const { return failure_; }
-  /// Eigenvalues in the order of Amplitudes: ascending real ones; pairs() contains one of each conjugate pair.
+  /// Real eigenvalues, ascending. pairs(): one eigenvalue of each conjugate pair. Both in the order of Amplitudes.
   [[nodiscard]] const std::vector<double>& real() const { return values_; }
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_.value; }
-  /// Greatest |x| |y| of all modes. round_trip(): |X Y q - q| for a test vector q with entries between -1 and 1.
+  /// Greatest |x| |y| of all modes with y^T x = 1. round_trip(): |X Y q - q| for a test vector q, entries between -1 and 1.
   [[nodiscard]] double condition() const { return condition_; }
   [[nodiscard]] double round_trip() const { return round_trip_; }
 
@@ -85,14 +85,13 @@ class Spectrum {
   [[nodiscard]] Amplitudes zero() const {
     return {std::vector<double>(real().size(), 0.0), std::vector<Complex>(pairs().size())};
   }
-  /// Computes the amplitudes z := Y q of a motion. of_form(): computes row := X^T form, the coefficients of the modes in a
-  /// form.
+  /// Computes the amplitudes z := Y q of a motion. of_form(): computes row := X^T form, the coefficient of each mode in a form.
   void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { to_modes({&q}, {&z}); }
   void to_modes(const std::vector<const Eigen::VectorXd*>& q, const std::vector<Amplitudes*>& z) const;
   void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }
   [[nodiscard]] const VectorProducts& products() const { return products_; }
-  /// x_k^T x_l of two different real modes. norm_squared() and pair_norm_squared(): x_k^T x_k of a real mode and of a complex
-  /// one.
+  /// x_k^T x_l of two different real modes. norm_squared(): x_k^T x_k of a real mode. pair_norm_squared(): x_k^T x_k of a
+  /// complex mode (without conjugation).
   [[nodiscard]] double product(std::size_t k, std::size_t l) const;
   [[nodiscard]] double norm_squared(std::size_t k) const { return squares_[k]; }
   [[nodiscard]] Complex pair_norm_squared(std::size_t k) const { return pair_squares_[k]; }
@@ -115,9 +114,9 @@ class Spectrum {
   };
   template <class S>
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
-  /// Equations of a root near a group of poles (by default, all poles equal to that of index home). g: G0 = 1 + V^T (D - l)^-1
-  /// U, summed over the poles outside the group; slope: derivative of G0; s: the matrix S of the group, which stays finite near
-  /// its poles:
+  /// Equations of a root near a group of poles (by default, all poles equal to the pole with index home). g: the matrix
+  /// G0 = 1 + V^T (D - l)^-1 U, with a sum over the poles outside the group; slope: derivative of G0 by l; s: the matrix S of
+  /// the group, which stays finite near the poles of the group:
   ///   S = D_group - l + U_group G0^-1 V_group^T
   ///   det(A - l) = product of (D_i - l) outside * det G0 * det S
   template <class S>
@@ -143,10 +142,10 @@ class Spectrum {
   void reassign_pole(std::size_t k, std::vector<S>& offset);
   template <class S>
   void find_vectors(Roots<S>& roots);
-  /// Clusters of roots that double precision cannot separate: lists of indices of roots.
+  /// Clusters of roots that double precision cannot separate. Each cluster is a list of indices of roots.
   [[nodiscard]] std::vector<std::vector<std::size_t>> find_clusters(const Roots<double>& roots) const;
-  [[nodiscard]] std::pair<std::size_t, std::size_t> poles_of(const std::vector<std::size_t>& members,
-                                                             const Roots<double>& roots) const;
+  [[nodiscard]] std::pair<std::size_t, std::size_t> cluster_poles(const std::vector<std::size_t>& members,
+                                                                  const Roots<double>& roots) const;
   bool split_cluster(const std::vector<std::size_t>& members, Roots<double>& roots);
   template <class S>
   void outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
@@ -166,18 +165,17 @@ class Spectrum {
   void entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small, const Eigen::MatrixXd& side,
                std::vector<S>& out) const;
   void store_matrices();
-  void to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
-                        const std::vector<Amplitudes*>& z) const;
-  void of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const;
-  void from_modes_written(const std::vector<const Amplitudes*>& z,
-                          const std::vector<Eigen::VectorXd*>& q) const;
+  void to_modes_stored(const std::vector<const Eigen::VectorXd*>& q, const std::vector<Amplitudes*>& z) const;
+  void stored_form_coefficients(const Eigen::VectorXd& form, Amplitudes& row) const;
+  void from_modes_stored(const std::vector<const Amplitudes*>& z,
+                         const std::vector<Eigen::VectorXd*>& q) const;
   template <class S>
   void cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
               std::vector<S>& out) const;
   [[nodiscard]] Eigen::VectorXd coupled_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
                                                std::size_t k) const;
   void split_close_roots();
-  void find_alike();
+  void compute_close_products();
   [[nodiscard]] double difference(std::size_t k, std::size_t l) const {
     return (value_base_[k] - value_base_[l]) + (value_offset_[k] - value_offset_[l]);
   }
@@ -190,8 +188,8 @@ class Spectrum {
   void test();
 
   std::size_t rank_;
-  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>>
-      rotations_;                                  // per group of equal poles: first index, rotation
+  // Index of the first mode and rotation of each group of modes with equal poles.
+  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> rotations_;
   std::vector<Eigen::Index> coupled_, uncoupled_;  // indices among all modes
   Eigen::MatrixXd u_uncoupled_;
   std::vector<double> uncoupled_poles_;
@@ -200,25 +198,26 @@ class Spectrum {
   Poles poles_;
   Eigen::MatrixXd u_, v_;
   std::vector<double> terms_;    // v_i u_i^T, rank^2 numbers for each pole
-  std::vector<double> weights_;  // same numbers, ordered by matrix entry: n numbers for each
-  std::vector<std::size_t> home_, group_begin_,
-      group_end_;  // pole of each root; ends of each group of equal poles
+  std::vector<double> weights_;  // the numbers of terms_, ordered by matrix entry: n numbers for each entry
+  // Index of the pole of each root; for each pole, begin and end of its group of equal poles.
+  std::vector<std::size_t> home_, group_begin_, group_end_;
   Roots<double> real_;
   Roots<Complex> pairs_;
-  std::vector<std::size_t> order_;  // for each amplitude: index in real_ or, after its end, in uncoupled_
+  std::vector<std::size_t> order_;  // for each amplitude: index in the list real_, uncoupled_
   std::vector<double> values_;
   struct Close {
     std::size_t k, l;
-    double product;  // in close_: y_k^T x_l, zero except for rounding; in alike_: x_k^T x_l
+    double product;  // in close_: y_k^T x_l, which is only rounding; in close_products_: x_k^T x_l
   };
   std::vector<Close> close_;
   // x_k^T x_l of modes k > l whose difference l_k - l_l is so small that products_ are inaccurate.
-  std::vector<Close> alike_;
+  std::vector<Close> close_products_;
   std::vector<double> squares_;
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // real eigenvalues as sums, for accurate differences
   VectorProducts products_;
-  RowMatrix x_, y_;  // X, Y; a conjugate pair has columns 2 Re x, -2 Im x and rows Re y, Im y
+  // X and Y. A conjugate pair has the columns 2 Re x, -2 Im x in X and the rows Re y, Im y in Y.
+  RowMatrix x_, y_;
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
 };

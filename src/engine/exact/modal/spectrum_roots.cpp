@@ -17,10 +17,10 @@ namespace signorini::modal {
 namespace {
 
 constexpr int max_sweeps = 200;
-constexpr double nearly = 1e-9;     // relative step below which convergence may be limited by rounding
-constexpr double straight = 1e-14;  // relative step for which a linear update of G0 is accurate
-constexpr double lift =
-    1e-3;  // imaginary shift of initial values: complex roots are not found from the real axis
+constexpr double nearly = 1e-9;     // relative step length below which rounding may limit the convergence
+constexpr double straight = 1e-14;  // relative step length for which a linear update of G0 is accurate
+// Imaginary part of initial values, relative to the real part. From real initial values no complex root would be found.
+constexpr double lift = 1e-3;
 constexpr double real_share = 1e-7;  // largest relative imaginary part of the offset of a real root
 constexpr double paired = 1e-8;      // largest relative distance of a root from the conjugate of its partner
 
@@ -84,8 +84,8 @@ void Spectrum::start(std::vector<S>& offset) const {
       const double part = (1.0 + static_cast<double>(j)) / (1.0 + static_cast<double>(count));
       if (size > limit) value[j] *= 2.0 * part * limit / size;
       const std::size_t k = first + j;
-      offset[k] = start_of<S>(value[j] - poles_.pole_difference(k, first),
-                              k);  // relative to pole k instead of the group's first pole
+      // The offset refers to pole k, value[j] to the first pole of the group.
+      offset[k] = start_of<S>(value[j] - poles_.pole_difference(k, first), k);
       if (!(size_of(offset[k]) > 0.0)) offset[k] = S(pole_separation * std::max(poles_.base[k], 1e-250));
     }
   }
@@ -137,7 +137,7 @@ S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   return poles;
 }
 
-/// Derivative of the group's matrix: S' = -1 - U G0^-1 G0' G0^-1 V^T.
+/// Derivative of the matrix S of a group by l: S' = -1 - U G0^-1 G0' G0^-1 V^T.
 template <class S>
 SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local) const {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -158,7 +158,7 @@ SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local
   return change;
 }
 
-/// Vectorised version for complex roots.
+/// Vectorised specialisation of gather() for complex roots.
 template <>
 Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) const {
   begin_local(home, local);
@@ -179,7 +179,7 @@ Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) c
   return complex_sum(re, im, n);
 }
 
-/// Derivative of log(det G0 det S): tr(G0^-1 G0') + tr(S^-1 S'). nullopt if G0 or S is singular.
+/// Derivative of log(det G0 det S) by l: tr(G0^-1 G0') + tr(S^-1 S'). nullopt if G0 or S is singular.
 template <class S>
 std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const {
   const SmallLu<S> lu(local.g, rank_);
@@ -217,8 +217,8 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
   return {inverse(poles + *slope), inverse(sum + *slope)};
 }
 
-/// Refines the offset of a real root by one Newton step in extended precision, because offsets of close roots are inaccurate.
-/// local: receives G0 at the refined root.
+/// Refines the offset of a real root by one Newton step in extended precision, because double precision gives inaccurate
+/// offsets of close roots. local: receives G0 at the refined root.
 Spectrum::Wide Spectrum::refined_offset(std::size_t home, Wide own, Local<Wide>& local) const {
   const Wide poles = gather(home, own, local);
   const std::optional<Wide> slope = trace(home, own, local);
@@ -265,7 +265,7 @@ bool Spectrum::search(std::vector<S>& offset) {
     std::vector<std::size_t> left;
     for (const std::size_t k : unsettled) {
       const Correction<S> found = correction(k, offset, shift);
-      // If two approximations nearly coincide, the deflated step is too short to separate them: take part of the Newton step.
+      // If two approximations nearly coincide, the deflated step is too short to separate them: use a part of the Newton step.
       const bool collides =
           size_of(found.newton) > 1e3 * size_of(found.deflated) || !std::isfinite(size_of(found.deflated));
       const S step =
@@ -342,16 +342,16 @@ template void Spectrum::group_matrix(const SmallLu<Wide>&, Wide, std::size_t, Lo
 template SmallMatrix<Spectrum::Wide> Spectrum::group_slope(const SmallLu<Wide>&, const Local<Wide>&) const;
 template void Spectrum::group_matrix(const SmallLu<Complex>&, Complex, std::size_t, Local<Complex>&) const;
 
-// Eigenvectors of clusters of roots that are too close for the search: all from one small matrix S.
+// Eigenvectors of clusters of roots that are too close for search(). One small matrix S gives all eigenvectors of a cluster.
 //
 //   S(l + e) = S + e S';  in the space of the null vectors R (right), L (left) of S:   (L^T S R + e L^T S' R) w = 0
 //
-// The group of S contains the poles of all roots of the cluster, so that G0 is not singular.
+// The group of poles of S contains the poles of all roots of the cluster, so that G0 is not singular.
 
 namespace {
 
-/// Largest distance of neighbouring roots in a cluster, relative to their offsets: ten times the error of the search. S is
-/// linear on this distance, up to its square.
+/// Largest distance of neighbouring roots in a cluster, relative to their offsets: ten times the error of search(). Within this
+/// distance S is linear, except for terms of the order of the square of the distance.
 constexpr double together = 1e-8;
 
 }  // namespace
@@ -383,10 +383,10 @@ std::vector<std::vector<std::size_t>> Spectrum::find_clusters(const Roots<double
   return lists;
 }
 
-/// Range of poles for a cluster: the poles of its roots, extended by neighbouring poles until it has at least as many poles as
-/// roots.
-std::pair<std::size_t, std::size_t> Spectrum::poles_of(const std::vector<std::size_t>& members,
-                                                       const Roots<double>& roots) const {
+/// Range of poles for a cluster: the poles of its roots, and as many neighbouring poles as needed so that the range contains at
+/// least as many poles as roots. Returns the first pole and the end of the range.
+std::pair<std::size_t, std::size_t> Spectrum::cluster_poles(const std::vector<std::size_t>& members,
+                                                            const Roots<double>& roots) const {
   std::size_t first = n_, last = 0;
   for (const std::size_t k : members) {
     first = std::min(first, group_begin_[roots.pole_index[k]]);
@@ -433,8 +433,8 @@ struct Turned {
   std::vector<SmallVector<Extended>> left;  // scaled so that L^T S' R becomes the unit matrix
 };
 
-/// Solves the eigenproblem (here + e by_e) w = 0 of size m. nullopt if by_e is singular or an e is complex. rounding:
-/// values of e that differ by less are regarded as equal.
+/// Solves the eigenproblem (here + e by_e) w = 0 of size m. nullopt if by_e is singular or an e is complex. rounding: values of
+/// e whose difference is smaller are regarded as equal.
 std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatrix<Extended>& by_e,
                              std::size_t m, double rounding) {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
@@ -472,14 +472,14 @@ std::optional<Turned> turned(const SmallMatrix<Extended>& here, const SmallMatri
 
 }  // namespace
 
-/// Separates a cluster of close roots and stores their eigenvectors. False: the cluster needs too many poles for the small
-/// matrices, or the matrices are singular for another reason.
+/// Separates a cluster of close roots and stores their eigenvectors. False: the cluster needs more poles than a small matrix
+/// can contain, or a matrix is singular.
 bool Spectrum::split_cluster(const std::vector<std::size_t>& members, Roots<double>& roots) {
   const std::size_t m = members.size(), home = roots.pole_index[members.front()];
   Wide own = 0;
   for (const std::size_t k : members)
     own += (Wide(roots.offset[k]) + poles_.pole_difference(roots.pole_index[k], home)) / static_cast<Wide>(m);
-  const auto [first, last] = poles_of(members, roots);
+  const auto [first, last] = cluster_poles(members, roots);
   Local<Wide> local;
   local.first = first;
   local.count = last - first;
@@ -489,7 +489,7 @@ bool Spectrum::split_cluster(const std::vector<std::size_t>& members, Roots<doub
   if (lu.singular()) return false;
   group_matrix(lu, own, home, local);
   const NullVectors null = null_vectors_of(local.s, local.count, m);
-  // Poles are known only up to rounding, so roots closer than that are treated as equal.
+  // Poles have rounding errors, so roots with a smaller distance than these errors are treated as equal.
   const double rounding = rounding::eps * static_cast<double>(std::abs(own + Wide(poles_.base[home])));
   const std::optional<Turned> turn = turned(between(null, local.s, local.count),
                                             between(null, group_slope(lu, local), local.count), m, rounding);

@@ -12,16 +12,16 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double close_roots =
-    1e-3;  // relative distance of eigenvalues below which rounding mixes their vectors
+// Relative distance of eigenvalues below which rounding errors mix their eigenvectors.
+constexpr double close_roots = 1e-3;
 constexpr std::size_t max_neighbours = 6;
-constexpr double alike =
-    1e-5;  // relative distance of eigenvalues below which products by c and h lose five digits
+// Relative distance of eigenvalues below which products computed from c and h lose more than five digits.
+constexpr double alike = 1e-5;
 
 }  // namespace
 
-/// Eigenvector of root k for the coupled modes: side small / (D - l). side, small: U, c for a right vector; V, d for a left
-/// one.
+/// Entries of the eigenvector of root k for the coupled modes: side small / (D - l). Right vector: side = U, small = c; left
+/// vector: side = V, small = d.
 template <class S>
 void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
                       std::vector<S>& out) const {
@@ -57,8 +57,8 @@ void Spectrum::outside_group(const SmallLu<S>& lu, const Local<S>& local, const 
   d = lu.solve_transposed(d);
 }
 
-/// Computes c and d of all roots from null vectors of small matrices. Real roots use extended precision, because double
-/// precision loses up to five digits if roots are close to each other.
+/// Computes c and d of all roots from null vectors of small matrices. For real roots in extended precision, because double
+/// precision would lose up to five digits of close roots.
 template <class S>
 void Spectrum::find_vectors(Roots<S>& roots) {
   constexpr bool is_real = std::is_same_v<S, double>;
@@ -91,8 +91,8 @@ void Spectrum::find_vectors(Roots<S>& roots) {
   }
 }
 
-/// Stores the offset, c and d of root k, rounded to doubles, and then scales c and d so that |x| = 1 and y^T x = 1 for the
-/// vectors computed from the rounded values.
+/// Stores the offset, c and d of root k, rounded to doubles. Then scales c and d so that the vectors x and y computed from the
+/// rounded values satisfy |x| = 1 and y^T x = 1.
 template <class S, class W>
 void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c_wide,
                             const SmallVector<W>& d_wide) {
@@ -132,8 +132,8 @@ Eigen::VectorXd Spectrum::coupled_vector(const std::vector<double>& small, const
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(n_));
 }
 
-/// Finds the corrections that make the vectors of close eigenvalues orthogonal: Y := (1 - E) Y, where E contains the entries
-/// y_k^T x_l of pairs of close eigenvalues.
+/// Computes the matrix E of the correction Y := (1 - E) Y, which makes y_k^T x_l = 0 for close eigenvalues k and l. E contains
+/// the uncorrected products y_k^T x_l.
 void Spectrum::split_close_roots() {
   std::vector<std::size_t> order;
   for (const std::size_t k : order_)
@@ -149,7 +149,7 @@ void Spectrum::split_close_roots() {
   }
 }
 
-/// Computes x^T x of all modes, and the factor of the condition due to uncoupled modes.
+/// Computes x^T x of all modes. Also corrects condition_ for the entries of x for uncoupled modes.
 void Spectrum::find_squares() {
   double worst = 1.0;
   const auto square = [&](const auto& roots, std::size_t k) {
@@ -164,7 +164,7 @@ void Spectrum::find_squares() {
       sum += entry * entry;
       beside = std::hypot(beside, size_of(entry));
     }
-    // condition_ was computed with |x| = 1 of the coupled entries alone; `beside` corrects it.
+    // condition_ was computed as if |x| = 1, but only the coupled entries have this norm; `beside` is the norm of all entries.
     worst = std::max(worst, std::isfinite(beside) ? beside : std::numeric_limits<double>::infinity());
     return sum;
   };
@@ -178,8 +178,8 @@ void Spectrum::find_squares() {
   condition_ *= worst;
 }
 
-/// Computes x_k^T x_l directly from the vectors, for pairs of modes with so small l_k - l_l that products() is inaccurate.
-void Spectrum::find_alike() {
+/// Computes x_k^T x_l directly from the vectors, for pairs of modes whose l_k - l_l is so small that products() is inaccurate.
+void Spectrum::compute_close_products() {
   for (std::size_t l = 0; l < order_.size(); ++l)
     for (std::size_t k = l + 1; k < order_.size() && std::abs(difference(k, l)) <= alike * values_[k]; ++k) {
       const std::size_t own = order_[k], other = order_[l];
@@ -188,14 +188,14 @@ void Spectrum::find_alike() {
       for (std::size_t j = 0; j < uncoupled_.size(); ++j)
         product += uncoupled_coordinate(real_, own, j, uncoupled_poles_[j]) *
                    uncoupled_coordinate(real_, other, j, uncoupled_poles_[j]);
-      alike_.push_back({k, l, product});
+      close_products_.push_back({k, l, product});
     }
 }
 
 double Spectrum::product(std::size_t k, std::size_t l) const {
   const double apart = difference(k, l);
   if (std::abs(apart) <= alike * std::abs(values_[k]))
-    for (const Close& pair : alike_)
+    for (const Close& pair : close_products_)
       if (pair.k == std::max(k, l) && pair.l == std::min(k, l)) return pair.product;
   const std::vector<double>&c = products_.c, &h = products_.h;
   double sum = 0.0;
@@ -227,8 +227,8 @@ void Spectrum::find_products() {
   fill(pairs_, c_pair, h_pair);
   std::vector<double> c_seen, h_seen;
   fill(real_, c_seen, h_seen);
-  // The shape of an uncoupled mode is a unit vector, so its product with another shape has one term only: c = 0, and h is its
-  // row of U.
+  // The shape of an uncoupled mode is a unit vector, so the product with another shape has only one term: c = 0, and h is the
+  // row of U of the uncoupled mode.
   c.assign(order_.size() * rank_, 0.0);
   h = c;
   for (std::size_t p = 0; p < order_.size(); ++p)
@@ -250,7 +250,7 @@ template void Spectrum::cauchy(const Roots<Complex>&, std::size_t, const Complex
 template void Spectrum::find_vectors(Roots<double>&);
 template void Spectrum::find_vectors(Roots<Complex>&);
 
-// X and Y stored as matrices. Products with them then need n^2 multiplications instead of n^2 divisions.
+// X and Y stored as matrices. Products with stored matrices need n^2 multiplications instead of n^2 divisions.
 
 std::size_t Spectrum::stored_bytes() const {
   return sizeof(double) * static_cast<std::size_t>(x_.size() + y_.size());
@@ -270,7 +270,8 @@ void Spectrum::store_matrices() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
              n = static_cast<Eigen::Index>(coupled_.size() + uncoupled_.size());
-  std::vector<Eigen::Index> place(order_.size());  // position of real_ and uncoupled_ in Amplitudes
+  // Index in Amplitudes of each mode of the list real_, uncoupled_.
+  std::vector<Eigen::Index> place(order_.size());
   for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<Eigen::Index>(p);
   y_.setZero(reals + 2 * pairs, n);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, reals + 2 * pairs);
@@ -305,8 +306,8 @@ void Spectrum::store_matrices() {
   for (const Close& pair : close_) y_.row(place[pair.k]) -= pair.product * mixed.at(pair.l);
   for (std::size_t j = 0; j < uncoupled_.size(); ++j) {
     const Eigen::Index at = place[real_.size() + j];
-    y_.row(at) =
-        -(right.row(uncoupled_[j]) * y_).eval();  // this row of y_ and this column of `right` are still zero
+    // Before this line, this row of y_ and this column of `right` are zero.
+    y_.row(at) = -(right.row(uncoupled_[j]) * y_).eval();
     y_(at, uncoupled_[j]) += 1.0;
     right(uncoupled_[j], at) = 1.0;
   }
@@ -317,7 +318,7 @@ void Spectrum::store_matrices() {
   x_ = right;
 }
 
-void Spectrum::of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const {
+void Spectrum::stored_form_coefficients(const Eigen::VectorXd& form, Amplitudes& row) const {
   const Eigen::VectorXd all = x_.transpose() * form;
   const auto reals = static_cast<Eigen::Index>(order_.size());
   row.real.assign(all.data(), all.data() + reals);
@@ -325,8 +326,8 @@ void Spectrum::of_form_written(const Eigen::VectorXd& form, Amplitudes& row) con
   for (Eigen::Index k = reals; k < all.size(); k += 2) row.pair.push_back({0.5 * all[k], -0.5 * all[k + 1]});
 }
 
-void Spectrum::to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
-                                const std::vector<Amplitudes*>& z) const {
+void Spectrum::to_modes_stored(const std::vector<const Eigen::VectorXd*>& q,
+                               const std::vector<Amplitudes*>& z) const {
   std::vector<Eigen::VectorXd> all(q.size());
   std::vector<Eigen::VectorXd*> lists;
   for (Eigen::VectorXd& list : all) lists.push_back(&list);
@@ -339,8 +340,8 @@ void Spectrum::to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
   }
 }
 
-void Spectrum::from_modes_written(const std::vector<const Amplitudes*>& z,
-                                  const std::vector<Eigen::VectorXd*>& q) const {
+void Spectrum::from_modes_stored(const std::vector<const Amplitudes*>& z,
+                                 const std::vector<Eigen::VectorXd*>& q) const {
   std::vector<Eigen::VectorXd> all(z.size(), Eigen::VectorXd(x_.cols()));
   std::vector<const Eigen::VectorXd*> lists;
   const auto reals = static_cast<Eigen::Index>(order_.size());

@@ -8,8 +8,8 @@
 namespace signorini::modal {
 namespace {
 
-constexpr double turn_of_panel =
-    2.0;  // phase angle of the fastest wave per panel of quadrature, rad; exact to rounding
+// Largest phase angle of the fastest wave on a panel of the quadrature, rad. The error is then only rounding.
+constexpr double turn_of_panel = 2.0;
 
 std::size_t degree_of(const Piece& piece) {
   std::size_t degree = piece.coefficients.size();

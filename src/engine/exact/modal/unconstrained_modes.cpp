@@ -61,11 +61,12 @@ using Long = long double;
 using LongVector = std::vector<Long>;
 
 constexpr std::size_t widest_band = 48;  // largest half-width of the band, without the diagonal
-constexpr double free_share = 1e-14;     // part of the highest omega^2 below which a motion is free
-constexpr double doubtful = 100.0;  // times free_share: below, free motion and mode cannot be distinguished
+constexpr double free_share = 1e-14;     // omega^2 of a free motion is below this part of the highest omega^2
+// Below doubtful * free_share of the highest omega^2, a mode cannot be distinguished from a free motion.
+constexpr double doubtful = 100.0;
 constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are computed together
-constexpr int more_halvings =
-    11;  // of a bracket with one mode; each inverse iteration then reduces the error by 2000
+// Halvings of a bracket that contains one mode. Each inverse iteration then reduces the error by a factor of 2000.
+constexpr int more_halvings = 11;
 constexpr int quick_solves = 3;
 constexpr int max_quotients = 6;
 constexpr double worst_product = 1e-4;  // limit of the product of two shapes before orthogonalisation
@@ -75,7 +76,8 @@ struct Bracket {
   std::size_t below = 0, up_to = 0;  // number of modes below `low` and below `high`
 };
 
-/// Divides `all` into brackets with one mode each, or with several nearly equal modes; ascending.
+/// Divides `all` into brackets, each with one mode or with several modes of nearly equal frequency. Returns them in ascending
+/// order.
 std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
   std::vector<Bracket> unsettled{all}, done;
   while (!unsettled.empty()) {
@@ -115,8 +117,8 @@ class Shapes {
     rotate(x, square);
   }
 
-  /// Computes the only mode in a bracket: first by inverse iteration in doubles, then with the Rayleigh quotient as shift, so
-  /// that each step triples the number of correct digits.
+  /// Computes the only mode in a bracket: first by inverse iteration in doubles, then by Rayleigh quotient iteration in
+  /// extended precision. Each step of the latter triples the number of correct digits.
   void find_one(BandPencil<double>& quick, const Bracket& bracket, LongVector& x, Long& square) {
     std::vector<double> begun(pencil_.size()), mx(pencil_.size());
     for (double& entry : begun) entry = uniform_(random_);
@@ -150,7 +152,7 @@ class Shapes {
     return sum;
   }
 
-  /// One inverse iteration: x := (K - s M)^-1 M x, then made M-orthonormal.
+  /// One inverse iteration: x := (K - s M)^-1 M x. Then the columns of x are made M-orthonormal.
   void sweep(std::vector<LongVector>& x) {
     for (LongVector& column : x) {
       pencil_.times_mass(column.data(), mx_.data());
@@ -163,7 +165,7 @@ class Shapes {
   void orthonormal(std::vector<LongVector>& x) {
     for (std::size_t k = 0; k < x.size(); ++k)
       for (int twice = 0; twice < (k > 0 ? 2 : 1); ++twice) {
-        // Scale, because a solve with a shift near an eigenvalue yields large numbers, whose squares would overflow.
+        // Scale first: a solve with a shift near an eigenvalue yields numbers so large that their squares overflow.
         Long greatest = 0;
         for (const Long entry : x[k]) greatest = std::max(greatest, std::abs(entry));
         scale(x[k], 1 / greatest);
@@ -181,7 +183,7 @@ class Shapes {
     for (Long& entry : x) entry *= factor;
   }
 
-  /// Rotates the columns so that x^T K x is diagonal too. square: the diagonal, omega^2.
+  /// Rotates the M-orthonormal columns so that x^T K x is diagonal. square: receives the diagonal, omega^2.
   void rotate(std::vector<LongVector>& x, LongVector& square) {
     const std::size_t count = x.size();
     std::vector<Long> energy(count * count);
@@ -218,14 +220,14 @@ class Shapes {
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
 
-/// Makes the shapes M-orthonormal: Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order. Each column changes only by
-/// columns of lower modes. False: the shapes are not nearly orthogonal.
+/// Makes the shapes M-orthonormal: Phi := Phi R^-1 with R^T R = Phi^T M Phi, to first order. Only shapes of lower modes are
+/// added to a shape. False: the shapes are not nearly orthogonal.
 bool orthonormal_from_low_to_high(const SparseMatrix& mass, Eigen::MatrixXd& shapes) {
   for (int twice = 0; twice < 2; ++twice) {
     Eigen::MatrixXd products = shapes.transpose() * (mass * shapes);
     products.diagonal().array() -= 1.0;
     if (!(products.cwiseAbs().maxCoeff() < worst_product)) return false;
-    const bool good = products.cwiseAbs().maxCoeff() < 1e-9;  // the neglected square is below rounding
+    const bool good = products.cwiseAbs().maxCoeff() < 1e-9;  // terms of second order are below rounding
     products.diagonal() *= 0.5;
     shapes -= (shapes * products.triangularView<Eigen::Upper>()).eval();
     if (good) break;

@@ -3,8 +3,8 @@
 //   K phi = omega^2 M phi,   Phi^T M Phi = 1
 //
 // Frequencies are bracketed by counting negative pivots of K - s M (damped_pencil.hpp). Shapes are computed by inverse
-// iteration and the Rayleigh quotient in extended precision. They are made orthonormal one after the other, from low to high
-// frequencies; a symmetric correction would add forces of high modes to low modes. Free motions get omega = 0 exactly.
+// iteration and the Rayleigh quotient in extended precision. The shapes are made orthonormal from low to high frequencies: a
+// symmetric correction would add forces of high modes to low modes. Free motions have omega = 0 exactly.
 // Sources: Bathe, Finite Element Procedures, section 11.4 (Sturm); Parlett, The Symmetric Eigenvalue Problem,
 // chapter 4 (Rayleigh quotient iteration).
 #pragma once
@@ -25,7 +25,7 @@ struct UnconstrainedModes {
   [[nodiscard]] bool found() const { return failure.empty(); }
 };
 
-/// True if the band of both matrices is so narrow that modes by band matrices save time.
+/// True if the band of both matrices is so narrow that band matrices save time in the computation of modes.
 [[nodiscard]] bool has_narrow_band(const SparseMatrix& mass, const SparseMatrix& stiffness);
 
 /// Computes all modes. mass, stiffness: symmetric, mass positive definite. Takes about n^2 (10 + band^2) operations, and 3 n^3
@@ -49,7 +49,8 @@ class UnconstrainedBasis {
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// omega^2, ascending.
   [[nodiscard]] const Vector& omega_squared() const { return omega_squared_; }
-  /// Phi^T times the normal form of a contact; tangent(), load(): Phi^T times the tangential form and the load direction.
+  /// Phi^T times the normal form of a contact. tangent(): Phi^T times the tangential form; load(): Phi^T times the load's
+  /// direction.
   [[nodiscard]] const Vector& normal(std::size_t contact) const { return normal_[contact]; }
   [[nodiscard]] const Vector& tangent(std::size_t contact) const { return tangent_[contact]; }
   [[nodiscard]] const Vector& load(std::size_t load) const { return load_[load]; }
@@ -59,7 +60,7 @@ class UnconstrainedBasis {
 
   /// Phi, stored by rows.
   [[nodiscard]] const RowMatrix& shapes() const { return shapes_; }
-  /// Phi^T M
+  /// Phi^T M, the matrix of q = Phi^T M u.
   [[nodiscard]] const Eigen::MatrixXd& projection() const { return projection_; }
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
   /// Phi^T form: coefficients of a form, or of a force direction, in the modes.

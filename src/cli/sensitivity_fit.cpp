@@ -190,7 +190,8 @@ std::string method_of(const Sensitivities& s) {
   const Stretches& n = s.stretches;
   text += fmt::format("; derivatives over {} intervals by modes, {} by series", n.modes, n.series);
   if (n.followed > 0) text += fmt::format("; {} recomputed from event to event", n.followed);
-  if (n.correction > 0.0) text += fmt::format(", event times within {:.2g} of the engine's", n.correction);
+  if (n.correction > 0.0)
+    text += fmt::format(", event times differ from those of the engine by at most {:.2g}", n.correction);
   if (n.taken > 0) text += fmt::format(", {} times restarted from the engine's state", n.taken);
   return text + fmt::format(", {:.2f} s\n", s.report.wall_time);
 }

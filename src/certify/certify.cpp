@@ -134,11 +134,12 @@ class CompanionTask {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
     } else if (tracker_.too_long) {
-      track.stop = "the companion takes far longer than expected; --certify lets it continue";
+      track.stop =
+          "the companion took far longer than expected and was stopped; --certify lets it run to the end";
     } else if (report_.outcome.kind == Outcome::Kind::stopped) {
       track.stop = "the companion stopped: " + report_.outcome.reason;
     } else if (report_.outcome.kind == Outcome::Kind::interrupted) {
-      track.stop = "the companion was stopped with the run";
+      track.stop = "the companion was interrupted together with the run";
     }
     return track;
   }
@@ -225,7 +226,7 @@ std::string why_not(const Model& model, const RunSpec& run, const certify::Compa
   if (run::engine_row(plan.runs.front().run.engine).capabilities.closed_form_flow)
     seconds += static_cast<double>(report.counters.restarts) * run::seconds_of_event(model);
   return fmt::format(
-      "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "
+      "a companion run ({}) would take {} s (order of magnitude), but the run took only {:.2g} s; "
       "--certify starts one",
       plan.name, run::seconds_text(seconds), report.wall_time);
 }

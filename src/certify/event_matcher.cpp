@@ -88,8 +88,8 @@ class EventMatcher {
     if (const auto& graze = companion.graze)
       certified_until_.at(
           graze->t,
-          fmt::format("the {} of '{}' returns to within the companion's tolerance of zero at t = {:.9g} "
-                      "without an event; a smaller rtol, or engine exact, decides whether it crossed zero",
+          fmt::format("the {} of '{}' is zero within the companion's tolerance at t = {:.9g}, but there "
+                      "is no event; a smaller rtol, or engine exact, decides whether zero was crossed",
                       graze->guard, names_[static_cast<std::size_t>(graze->contact)], graze->t));
     if (companion.reached < run_.reached)
       certified_until_.at(companion.reached,

@@ -151,8 +151,8 @@ std::string warning_lines(const check::CheckReport& report) {
 }
 
 std::string free_motion_lines(const check::CheckReport& report) {
-  if (report.free_motions.empty()) return "rigid-body motions with the closed contacts: none\n\n";
-  std::string text = "rigid-body motions with the closed contacts, without friction:\n";
+  if (report.free_motions.empty()) return "rigid-body motions that the closed contacts allow: none\n\n";
+  std::string text = "rigid-body motions that the closed contacts allow without friction:\n";
   for (std::size_t i = 0; i < report.free_motions.size() && i < max_table_rows; ++i)
     text += "  " + report.free_motions[i] + "\n";
   return text + more(report.free_motions.size()) + "\n";
@@ -230,7 +230,7 @@ std::string load_factor_lines(const check::CheckReport& report) {
 std::string stiffness_rows(const Model& model, const check::CheckReport& report) {
   if (report.stiffness.empty()) return "";
   const std::string stiffness = unit(model.units.force + "/" + model.units.length);
-  Table table({"contact", "direction", "its stiffness" + stiffness, "structure" + stiffness, "ratio"},
+  Table table({"contact", "direction", "contact stiffness" + stiffness, "structure" + stiffness, "ratio"},
               {false, false, true, true, true});
   for (std::size_t i = 0; i < report.stiffness.size() && i < max_table_rows; ++i) {
     const check::StiffnessRatio& s = report.stiffness[i];
@@ -238,8 +238,7 @@ std::string stiffness_rows(const Model& model, const check::CheckReport& report)
                number(s.stiffness), s.rest > 0.0 ? fmt::format("{:.4g}", s.rest) : "0",
                s.rest > 0.0 ? fmt::format("{:.3g}", s.stiffness / s.rest) : "only this contact resists"});
   }
-  return "contact stiffness, and the stiffness of the structure with all other contacts sticking at the same "
-         "place\n"
+  return "stiffness of each contact, and of the structure at the contact if all other contacts stick\n"
          "(ratio far above 1: the contact is nearly rigid; far below 1: it is soft):\n" +
          table.str() + more(report.stiffness.size()) + "\n";
 }
@@ -279,16 +278,17 @@ std::string reduction_lines(const Model& model) {
   if (!model.reduction) return "";
   const Reduction& r = *model.reduction;
   const std::string per_time = "rad/" + model.units.time;
-  std::string text = fmt::format("reduced: {} of {} modes up to {} {}", r.modes, r.modes + r.truncated_modes,
+  std::string text = fmt::format("reduced: {} of {} modes kept, up to {} {}", r.modes, r.modes + r.truncated_modes,
                                  number(r.cutoff), per_time);
   if (r.free_modes > 0) text += fmt::format(", {} of them free motions", r.free_modes);
-  text += r.highest_kept > 0.0 ? fmt::format("; highest kept {} {}", number(r.highest_kept), per_time)
-                               : std::string("; none with stiffness");
-  text += r.truncated_modes > 0 ? fmt::format(", lowest omitted {} {}\n", number(r.first_truncated), per_time)
-                                : std::string(", none omitted\n");
+  text += r.highest_kept > 0.0 ? fmt::format("; highest kept frequency {} {}", number(r.highest_kept), per_time)
+                               : std::string("; all kept modes are free motions");
+  text += r.truncated_modes > 0 ? fmt::format(", lowest omitted frequency {} {}\n", number(r.first_truncated), per_time)
+                                : std::string(", no modes omitted\n");
   text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
   if (r.massive_shapes > 0)
-    text += fmt::format(", {} with mass up to {} {}", r.massive_shapes, number(r.highest_massive), per_time);
+    text += fmt::format(", {} with mass and frequencies up to {} {}", r.massive_shapes,
+                        number(r.highest_massive), per_time);
   text += fmt::format("; after jumps of loads the omitted modes would oscillate with an amplitude of {} {}\n",
                       number(r.ringing), model.units.length);
   const std::string give = unit(model.units.length + "/" + model.units.force);

@@ -103,7 +103,8 @@ std::vector<Override> overrides_for(const std::vector<std::string>& settings,
     const std::optional<std::string> only = engine_of(change, engines);
     const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
     if (path == "run.engine")
-      throw UsageError(scene::override_text(change) + ": cannot be set; choose the engines with --engines");
+      throw UsageError(scene::override_text(change) +
+                       ": cannot be set here; choose the engines with --engines");
     if (!only || *only == engine) changes.push_back({path, change.value});
   }
   return changes;

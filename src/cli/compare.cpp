@@ -72,14 +72,15 @@ std::string sequence(const compare::ComparisonReport& report, std::size_t i) {
   const std::size_t pairs = alignment.pairs.size();
   std::string text =
       alignment.split
-          ? fmt::format("{} equal, then they differ at t = {:.9g}: {}; {} from this time on",
-                        base::count_text(pairs, "event"), alignment.split->t,
-                        compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
-                        base::count_text(alignment.split->unaligned, "event"))
+          ? fmt::format(
+                "{} in common, first difference at t = {:.9g}: {}; {} without counterpart from this time on",
+                base::count_text(pairs, "event"), alignment.split->t,
+                compare::split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
+                base::count_text(alignment.split->unaligned, "event"))
           : fmt::format("the same, {}", base::count_text(pairs, "event")) + up_to(report, i);
   if (alignment.swapped > 0)
-    text += fmt::format("; {} swapped with events of other contacts within their uncertainties",
-                        alignment.swapped);
+    text += fmt::format("; {} swapped with events of other contacts, within the uncertainties of the times",
+                        base::count_text(alignment.swapped, "event"));
   return text;
 }
 
@@ -293,7 +294,7 @@ void check_sources(const CompareOptions& options) {
     for (std::size_t i = 0; i < options.engines.size(); ++i)
       if (std::count(options.engines.begin(), options.engines.end(), options.engines[i]) > 1)
         throw UsageError("--engines: " + options.engines[i] +
-                         " is given twice; run it twice and compare the two directories");
+                         " is given twice; run this engine twice, and compare the two directories");
     if (options.engines.size() < 2)
       throw UsageError("--engines: found one engine, expected two or more, such as ida,exact");
     return;

@@ -118,8 +118,8 @@ bool matches_words(const std::vector<std::string>& row, const std::vector<std::s
 
 std::string key_list(const std::vector<std::string>& words) {
   const std::string heading =
-      "units are given in terms of force, mass, length and time; \"-\" means no default: the key may be "
-      "left out\n";
+      "units are given in terms of force, mass, length and time; \"-\" means that a key has no default "
+      "and may be omitted\n";
   std::string text = heading;
   for (const std::string_view table : tables()) {
     Table rows({"", "", "", "", ""}, {false, false, false, false, false});
@@ -134,7 +134,9 @@ std::string key_list(const std::vector<std::string>& words) {
     }
     if (any) text += rows.str();
   }
-  if (text == heading) throw UsageError("no key matches " + base::join_quoted(words));
+  if (text == heading)
+    throw UsageError((words.size() == 1 ? "no key matches " : "no key matches all of ") +
+                     base::join_quoted(words));
   return text;
 }
 

@@ -70,7 +70,8 @@ ExitCode write_new_scene(const std::string& name, const std::string& from, bool 
   const std::string stem = path.stem().string();
   const bool makes_files = base::scene_templates()[k].text.find("@NAME@") != std::string_view::npos;
   if (makes_files && stem.find_first_of("\"\\ ") != std::string::npos)
-    throw UsageError(fmt::format("NAME: found \"{}\", expected a name without blanks and quotes", name));
+    throw UsageError(
+        fmt::format("NAME: found \"{}\", expected a name without blanks, quotes and backslashes", name));
   const std::string text = named(base::scene_templates()[k].text, stem);
   std::vector<QuakeOptions> quakes = quakes_of(text, path.parent_path());
   std::vector<std::string> files{path.string()};

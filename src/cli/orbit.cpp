@@ -260,7 +260,7 @@ std::string text_of(const Scene& scene, const Model& model, const Orbit& orbit, 
       orbit.amplitude, model.units.length, orbit.steps.size() - 1);
   text += stability_line(orbit);
   if (!orbit.multipliers.empty() && !orbit.reason.empty()) text += orbit.reason + "\n";
-  for (const std::string& family : orbit.families) text += "one of a family of orbits: " + family + "\n";
+  for (const std::string& family : orbit.families) text += "this orbit is one of a family: " + family + "\n";
   text += cycle_line(model, orbit);
   return text + "results: " + path.string() + "/ (orbit.json, and a run of one period)\n";
 }
@@ -276,11 +276,12 @@ ExitCode not_found(const OrbitCommand& options, const Orbit& orbit) {
 
 void set_steps(const OrbitCommand& options, BranchOptions& over) {
   if (options.step && !(*options.step > 0.0 && *options.step <= 1.0))
-    throw UsageError("--step: expected a fraction of the range, above 0 and at most 1");
+    throw UsageError(
+        fmt::format("--step: found {:g}, expected a fraction of the range, > 0 and <= 1", *options.step));
   if (options.most_points && *options.most_points < 1)
-    throw UsageError("--most-points: expected an integer of at least 1");
+    throw UsageError(fmt::format("--most-points: found {}, expected an integer >= 1", *options.most_points));
   if (options.switches && *options.switches < 0)
-    throw UsageError("--switch: expected an integer of at least 0");
+    throw UsageError(fmt::format("--switch: found {}, expected an integer >= 0", *options.switches));
   over.switches = options.switches.value_or(over.switches);
   over.step = options.step.value_or(over.step);
   over.most_points = options.most_points.value_or(over.most_points);

@@ -148,7 +148,7 @@ Drawing draw(const std::vector<std::filesystem::path>& scripts) {
   }
   if (failed > 1)
     drawing.message +=
-        fmt::format("\n{} of {} pictures failed; the others are drawn", failed, scripts.size());
+        fmt::format("\n{} of {} pictures failed; the other pictures are drawn", failed, scripts.size());
   else if (failed == 1 && scripts.size() > 1)
     drawing.message += "\nthe other pictures are drawn";
   return drawing;
@@ -160,15 +160,15 @@ std::string draw_pictures(const std::filesystem::path& directory,
   const std::string folder = (directory / "plots").string();
   const std::vector<std::filesystem::path> first = scripts_to_draw(scripts);
   const Drawing drawing = draw(first);
-  const std::string more =
-      first.size() == scripts.size()
-          ? ""
-          : fmt::format(
-                ", of the first {} contacts; in this folder, `gnuplot contact-NAME.gp` draws the others",
-                max_contact_pictures);
+  const std::string more = first.size() == scripts.size()
+                               ? ""
+                               : fmt::format(
+                                     ", of the first {} contacts; in this folder, `gnuplot contact-NAME.gp` "
+                                     "draws the other pictures",
+                                     max_contact_pictures);
   if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg" + more + "\n";
   if (drawing.kind == Drawing::Kind::no_gnuplot)
-    return "pictures: no gnuplot on PATH; its scripts are in " + folder + later + "\n";
+    return "pictures: no gnuplot on PATH; the gnuplot scripts are in " + folder + later + "\n";
   print_note("gnuplot failed: " + drawing.message);
   return first.size() > 1 ? "pictures: " + folder + "/*.png and *.svg, as far as they could be drawn\n" : "";
 }

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 quake::QuakeSpec quake_spec(const QuakeOptions& options) {
   const auto within = [](const char* option, double value, double least, double most) {
     if (!(value >= least && value <= most))
-      throw UsageError(
-          fmt::format("--{}: found {}, expected {} to {}", option, base::format_number(value), least, most));
+      throw UsageError(fmt::format("--{}: found {}, expected a number from {} to {}", option,
+                                   base::format_number(value), least, most));
   };
   within("pga", options.pga, 1e-6, 100.0);
   within("duration", options.duration, 1.0, 600.0);
@@ -36,10 +36,11 @@ quake::QuakeSpec quake_spec(const QuakeOptions& options) {
   within("ground-damping", options.ground_damping, 0.01, 2.0);
   constexpr long greatest_seed = 4294967295;  // limit of the random generator
   if (options.seed < 0 || options.seed > greatest_seed)
-    throw UsageError(fmt::format("--seed: found {}, expected 0 to {}", options.seed, greatest_seed));
+    throw UsageError(
+        fmt::format("--seed: found {}, expected an integer from 0 to {}", options.seed, greatest_seed));
   const double steps = options.duration / options.dt;
   if (std::abs(steps - std::round(steps)) > 1e-6 * steps || steps < 100.0 || steps > 100000.0)
-    throw UsageError(fmt::format("--duration {}: expected a whole number of steps --dt {}, 100 to 100000",
+    throw UsageError(fmt::format("--duration {}: expected a multiple of --dt {}, from 100 to 100000 steps",
                                  base::format_number(options.duration), base::format_number(options.dt)));
   quake::QuakeSpec spec;
   spec.pga = options.pga;

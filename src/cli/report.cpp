@@ -110,7 +110,8 @@ struct FrameOptions {
 ExitCode write_frames(const FrameOptions& options) {
   constexpr int most = 5000;
   if (options.count < 1 || options.count > most)
-    throw UsageError(fmt::format("--frames: found {}, expected 1 to {}", options.count, most));
+    throw UsageError(
+        fmt::format("--frames: found {}, expected an integer from 1 to {}", options.count, most));
   const fs::path directory = options.directory;
   if (report::kind_of_results(directory) != "run")
     throw FileError(directory.string(), "is not a directory that `signorini run` wrote");

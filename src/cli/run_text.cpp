@@ -312,7 +312,7 @@ std::string certification_text(const Model& model, const CertifiedReport& run) {
   std::string text =
       c.complete
           ? fmt::format("{}: all {} events{} ({})\n", to_end, c.t_errors.size(), times, beside)
-          : fmt::format("certified until t = {:.9g} {}: {} of {} events{} ({}); then {}\n", c.until,
+          : fmt::format("certified until t = {:.9g} {}: {} of {} events{} ({}); reason: {}\n", c.until,
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
     text += fmt::format("the order of {} of neighbouring events of different contacts is not certified\n",

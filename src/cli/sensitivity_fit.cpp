@@ -151,7 +151,7 @@ void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
 std::string swap_text(const Sensitivities& s) {
   std::string text;
   for (const SequenceChange& swap : smallest_sequence_changes(s))
-    text += fmt::format("{0}: to first order events {1} and {2} coincide if {0} = {3} (change {4}{5})\n",
+    text += fmt::format("{0}: events {1} and {2} coincide, to first order, if {0} = {3} (change {4}{5})\n",
                         s.parameters[swap.parameter].path, swap.first + 1, swap.second + 1,
                         number(s.parameters[swap.parameter].value + swap.change),
                         swap.change > 0.0 ? "+" : "", number(swap.change));
@@ -165,7 +165,7 @@ std::string summary_of(const Sensitivities& s, const sensitivity_study::Sigmas& 
   std::string text = first_events(s) + table.str() + "\n" + swap_text(s);
   for (const Parameter& parameter : s.parameters)
     if (!parameter.reason.empty())
-      text += fmt::format("{}: derivatives known until t = {}: {}\n", parameter.path, number(parameter.until),
+      text += fmt::format("{}: derivatives end at t = {}: {}\n", parameter.path, number(parameter.until),
                           parameter.reason);
   if (sigmas.empty()) return text;
   const sensitivity_study::Spread spreads = sensitivity_study::spread(s, sigmas);
@@ -190,7 +190,8 @@ std::string method_of(const Sensitivities& s) {
   const Stretches& n = s.stretches;
   text += fmt::format("; derivatives over {} intervals by modes, {} by series", n.modes, n.series);
   if (n.followed > 0) text += fmt::format("; {} recomputed from event to event", n.followed);
-  if (n.correction > 0.0) text += fmt::format(", event times within {:.2g} of the engine's", n.correction);
+  if (n.correction > 0.0)
+    text += fmt::format(", event times differ from those of the engine by at most {:.2g}", n.correction);
   if (n.taken > 0) text += fmt::format(", {} times restarted from the engine's state", n.taken);
   return text + fmt::format(", {:.2f} s\n", s.report.wall_time);
 }
@@ -257,7 +258,7 @@ void add_sensitivity(Program& program) {
   add_scene(*command, *options);
   add_keyed_options(
       *command, *options,
-      "key of the scene with respect to which to differentiate: contacts.*.friction, loads.1.amplitude",
+      "key of the scene for derivatives with respect to its value: contacts.*.friction, loads.1.amplitude",
       "earlier sensitivities", "-sensitivity", "sensitivity.json");
   command->add_flag("--no-plots", options->no_plots, "do not write pictures or gnuplot scripts");
   command->add_flag("--losses", options->losses,
@@ -296,12 +297,12 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
     table.row({key.path, number(key.start), std::isfinite(key.value) ? fmt::format("{:.9g}", key.value) : "-",
                std::isfinite(key.sigma) ? number(key.sigma) : "-"});
   return table.str() +
-         fmt::format("\n{} numbers, {} steps, {} runs: {}; {} {}\n", measured.rows.size(), fit.iterations,
-                     fit.runs, fit.reason, measured.has_sigma ? "chi squared" : "sum of squares",
-                     number(fit.chi_squared)) +
+         fmt::format("\n{} measured numbers, {} steps, {} runs: {}; {} {}\n", measured.rows.size(),
+                     fit.iterations, fit.runs, fit.reason,
+                     measured.has_sigma ? "chi squared" : "sum of squares", number(fit.chi_squared)) +
          (std::isfinite(fit.probability)
               ? fmt::format(
-                    "{} degrees of freedom; a value this large has by chance a probability of {:.2g}\n",
+                    "{} degrees of freedom; the probability of such a large value by chance is {:.2g}\n",
                     fit.freedom, fit.probability)
               : "");
 }
@@ -353,8 +354,8 @@ void add_fit(Program& program) {
   add_scene(*command, *options);
   command
       ->add_option("DATA", options->data,
-                   "CSV with t and event_index (optional with it: contact, event) or columns of history.csv, "
-                   "or both; optional: sigma")
+                   "CSV with t and event_index (optionally also contact and event), or with t and columns of "
+                   "history.csv, or with both; optional: sigma")
       ->required();
   add_keyed_options(*command, *options, "a key of the scene to find", "an earlier fit", "-fit", "fit.json");
   command->callback([&program, options] { program.action = [options] { return run_fit(*options); }; });

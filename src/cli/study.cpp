@@ -109,12 +109,14 @@ bool sets_accuracy(const std::string& path) {
 
 /// Refuses a key that another option sets, or whose change makes runs incomparable. Errors: UsageError.
 void refuse_key(const std::string& option, const std::string& path) {
-  if (sets_accuracy(path)) throw UsageError(option + ": --rtol and --dt set the accuracy of runs");
+  if (sets_accuracy(path))
+    throw UsageError(option + ": is not allowed, because --rtol and --dt set the accuracy of the runs");
   for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
                           "title", "schema", "units"})
     if (path == key || path.starts_with(std::string(key) + "."))
-      throw UsageError(option + ": runs that differ in this key cannot be compared");
-  if (path.ends_with(".name")) throw UsageError(option + ": runs that differ in names cannot be compared");
+      throw UsageError(option + ": is not allowed, because runs that differ in this key cannot be compared");
+  if (path.ends_with(".name"))
+    throw UsageError(option + ": is not allowed, because runs that differ in names cannot be compared");
 }
 
 /// Settings that apply to an engine, or to the reference run.

@@ -64,14 +64,15 @@ void vary_keys(const SweepOptions& options, sweep::SweepSpec& spec) {
   if (options.sample_count) {
     needs_samples("--samples");
     if (*options.sample_count < 1)
-      throw UsageError(fmt::format("--samples {}: expected 1 to 1000000", *options.sample_count));
+      throw UsageError(
+          fmt::format("--samples {}: expected an integer from 1 to 1000000", *options.sample_count));
     sample.count = static_cast<std::size_t>(*options.sample_count);
   }
   if (options.seed) {
     needs_samples("--seed");
     constexpr long greatest = 4294967295;  // limit of the random generator
     if (*options.seed < 0 || *options.seed > greatest)
-      throw UsageError(fmt::format("--seed {}: expected 0 to {}", *options.seed, greatest));
+      throw UsageError(fmt::format("--seed {}: expected an integer from 0 to {}", *options.seed, greatest));
     sample.seed = static_cast<unsigned long>(*options.seed);
   }
   if (options.sequence != "random" && options.sequence != "sobol")
@@ -95,8 +96,11 @@ void specify_carry(const SweepOptions& options, sweep::SweepSpec& spec) {
     if (given) throw UsageError(fmt::format("--carry: cannot be combined with {}: {}", option, why));
   };
   refuse(!options.samples.empty(), "--sample", "drawn values have no order");
-  refuse(options.share.has_value(), "--share", "a row needs the row before it");
-  refuse(options.keep, "--keep", "the initial state of a run is in no file");
+  refuse(options.share.has_value(), "--share",
+         "each run starts from the final state of the run before, which may belong to another share");
+  refuse(
+      options.keep, "--keep",
+      "each run starts from the final state of the run before, and no file of the kept run has this state");
   spec.carry = {true, options.back};
   if (!options.back) return;
   const int group = spec.vary.back().group;
@@ -114,9 +118,11 @@ void specify_strobe(const SweepOptions& options, const Scene& scene, const Model
   spec.strobe = {options.strobe, strobe.period, options.settle, sweep::strobe_columns(model)};
   const double t_end = scene.run.t_end;
   if (options.settle && !(*options.settle >= 0.0 && *options.settle < t_end))
-    throw UsageError(fmt::format("--settle {:g}: expected 0 to t_end, {:g}", *options.settle, t_end));
+    throw UsageError(
+        fmt::format("--settle {:g}: expected a time >= 0 and below t_end = {:g}", *options.settle, t_end));
   if (strobe.period > t_end)
-    throw UsageError(fmt::format("--strobe {}: is longer than the run, t_end = {:g}", options.strobe, t_end));
+    throw UsageError(
+        fmt::format("--strobe {}: found a period longer than the run, t_end = {:g}", options.strobe, t_end));
   const double periods = strobe.period > 0.0 ? t_end / strobe.period : 0.0;
   if (options.carry && !strobe.of_loads && std::abs(periods - std::round(periods)) > 1e-9 * periods)
     throw UsageError(
@@ -361,14 +367,15 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   SweepTasks tasks(directory, common, options.keep);
   const std::size_t kept = directory.rows().size();
   if (kept > 0 && options.keep && !options.quiet)
-    print_note("--keep: existing rows stay without directories of runs; --force computes them again");
+    print_note(
+        "--keep: rows that were already computed get no directories; --force computes these rows again");
   if (kept > 0 && !options.quiet)
-    print_note(fmt::format("{} of {} already computed, {} to go", base::count_text(kept, "row"),
+    print_note(fmt::format("{} of {} already computed, {} left", base::count_text(kept, "row"),
                            directory.spec().carry.on ? directory.points().size() : kept + tasks.rows(),
                            tasks.rows()));
   if (!run_rows(directory, tasks, options)) {
     directory.write_table();
-    print_error(fmt::format("interrupted; {} of {} kept in {}; the same command continues",
+    print_error(fmt::format("interrupted; {} of {} kept in {}; the same command continues the sweep",
                             directory.rows().size(), base::count_text(kept + tasks.rows(), "row"),
                             directory.path().string()));
     return ExitCode::interrupted;
@@ -422,7 +429,8 @@ SweepOptions with_engine(SweepOptions options) {
   for (const std::string& varied : options.varied)
     if (varied.starts_with("run.engine="))
       throw UsageError(
-          fmt::format("--engine {}: has no effect, --vary {} sets it in every run", options.engine, varied));
+          fmt::format("--engine {}: has no effect, because --vary {} sets the engine of every run",
+                      options.engine, varied));
   const Override engine = engine_override(options.engine, "--engine");
   options.settings.push_back(engine.path + "=" + engine.value);
   return options;

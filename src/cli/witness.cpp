@@ -30,7 +30,8 @@ std::string text_of(const directory_check::DirectoryLawCheck& found, const std::
   text += fmt::format("{}: {} instants, {} events, {} rows of contacts: ", directory, found.instants,
                       found.events, found.rows);
   text += found.law_checks.violated == 0 ? "all laws hold\n"
-                                         : fmt::format("{} violations\n", found.law_checks.violated);
+                                         : fmt::format("{} violation{}\n", found.law_checks.violated,
+                                                       found.law_checks.violated == 1 ? "" : "s");
   return text;
 }
 

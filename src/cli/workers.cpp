@@ -381,8 +381,9 @@ void SweepTasks::take(const TaskResult& end) {
     row.index = i;
     row.values = values_of(directory_.points()[i]);
     row.outcome = "crashed";
-    row.reason = end.signal != 0 ? fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal))
-                                 : fmt::format("exit code {}", end.code);
+    row.reason = end.signal != 0 ? fmt::format("the process was ended by signal {} ({})", end.signal,
+                                               strsignal(end.signal))
+                                 : fmt::format("the process ended with exit code {}", end.code);
     directory_.add(row);
   }
 }

@@ -95,7 +95,7 @@ void InstantLawChecker::momentum() {
     return worst;
   };
   if (worst_of() < 0) return;
-  // A body at rest may have the velocity that its forces cause within the resolution of the clock.
+  // Tolerance: the impulse of all forces during the uncertainty of the instant's time.
   clock = uncertainty_factor * record_.resolution * context_.balance_terms(record_.after);
   const int worst = worst_of();
   if (worst < 0) return;

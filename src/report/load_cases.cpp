@@ -323,8 +323,8 @@ std::vector<LoadCase> read_load_cases(const std::vector<fs::path>& directories) 
     const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     for (const LoadCase& other : cases)
       if (other.name == name)
-        throw FileError(directory.string(),
-                        "has the name \"" + name + "\", which another case has, too; rename a directory");
+        throw FileError(directory.string(), "has the name \"" + name +
+                                                "\" of another load case; rename one of the two directories");
     cases.push_back({name, read_summary(directory)});
     const base::Json &units = entry_of(cases.back().summary, "units"),
                      &first = entry_of(cases.front().summary, "units");
@@ -413,8 +413,8 @@ std::vector<std::string> load_case_warnings(const std::vector<LoadCase>& cases) 
     const base::Json& outcome = entry_of(c.summary, "outcome");
     if (!is_done(c))
       doubts.push_back(fmt::format(
-          "case {} ended at t = {} of {} ({}); its values are not used as governing values", c.name,
-          shown(number_in(entry_of(outcome, "t")).value_or(0.0)),
+          "case {0} ended at t = {1} of {2} ({3}); values of case {0} are not used as governing values",
+          c.name, shown(number_in(entry_of(outcome, "t")).value_or(0.0)),
           shown(number_in(entry_of(outcome, "t_end")).value_or(0.0)), text_in(entry_of(outcome, "kind"))));
     if (names_in(entry_of(c.summary, "contacts")) != names_in(entry_of(cases.front().summary, "contacts")))
       doubts.push_back(

@@ -212,7 +212,7 @@ std::string orbit_section(const fs::path& directory) {
                           html_text(value_text(mu[1])));
   std::string families;
   for (const base::Json& family : member(orbit, "families"))
-    families += "<p>One of a family of orbits: " + html_text(value_text(family)) + ".</p>\n";
+    families += "<p>This orbit is one of a family: " + html_text(value_text(family)) + ".</p>\n";
   const std::string table =
       rows.empty() ? ""
                    : fmt::format(

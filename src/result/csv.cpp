@@ -153,14 +153,15 @@ bool CsvReader::next_of_any_length() {
 std::string CsvReader::row_length_error() const {
   if (cells_.size() == header_.size()) return {};
   const bool blank = cells_.size() == 1 && cells_[0].empty();
-  return fmt::format("found {}, expected {} as in the header",
-                     blank ? "a blank line" : fmt::format("{} cells", cells_.size()), header_.size());
+  return fmt::format("found {}, expected {}, as many as in the header",
+                     blank ? "a blank line" : base::count_text(cells_.size(), "cell"),
+                     base::count_text(header_.size(), "cell"));
 }
 
 double CsvReader::number(std::size_t index) const {
   const std::string& text = cells_[index];
   const std::optional<double> value = base::parse_number(text);
-  if (!value) refuse("has '" + text + "' where a number is expected");
+  if (!value) refuse("found '" + text + "', expected a number");
   return *value;
 }
 

@@ -124,8 +124,8 @@ InstantReader::InstantReader(const std::filesystem::path& directory, const Model
     if (i < found.size() && i < header_.size() && found[i] == header_[i]) continue;
     throw FileError(path_.string(),
                     fmt::format("line 1, column {}: found {}, expected {}", i + 1,
-                                i < found.size() ? "\"" + base::excerpt(found[i]) + "\"" : "no more columns",
-                                i < header_.size() ? "\"" + header_[i] + "\"" : "no more"));
+                                i < found.size() ? "\"" + base::excerpt(found[i]) + "\"" : "no column",
+                                i < header_.size() ? "\"" + header_[i] + "\"" : "no further column"));
   }
 }
 
@@ -230,7 +230,7 @@ std::optional<InstantRow> InstantReader::next() {
   if (!reader_.next())
     throw FileError(
         path_.string(),
-        fmt::format("line {}: missing, expected the side \"after\" of t = {:.9g}; the file is cut",
+        fmt::format("line {}: the file is cut, expected the row of the side \"after\" at t = {:.9g}",
                     reader_.line(), row.t));
   if (reader_.cell(at_side) != "after") fail(at_side, "after");
   if (number(at_t) != row.t)

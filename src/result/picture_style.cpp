@@ -54,7 +54,7 @@ void read_formats(const std::string& text, PictureStyle& look) {
     if (std::find(look.formats.begin(), look.formats.end(), word) == look.formats.end())
       look.formats.push_back(word);
   }
-  if (look.formats.empty()) throw UsageError("--format: expected svg, png or pdf");
+  if (look.formats.empty()) throw UsageError("--format: found no format, expected svg, png or pdf");
 }
 
 void read_language(const std::string& text, PictureStyle& look) {
@@ -125,7 +125,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"displacement u", "Verschiebung u", "перемещение u"},
     std::array<std::string_view, 3>{"acceleration", "Beschleunigung", "ускорение"},
     std::array<std::string_view, 3>{"energy", "Energie", "энергия"},
-    std::array<std::string_view, 3>{"balance off by", "Bilanzfehler", "невязка баланса"},
+    std::array<std::string_view, 3>{"error of the balance", "Bilanzfehler", "невязка баланса"},
     std::array<std::string_view, 3>{"drift", "Drift", "дрейф"},
     std::array<std::string_view, 3>{"kinetic", "kinetisch", "кинетическая"},
     std::array<std::string_view, 3>{"elastic", "elastisch", "упругая"},
@@ -165,7 +165,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"beams", "Balken", "балки"},
     std::array<std::string_view, 3>{"contact force", "Kontaktkraft", "сила контакта"},
     std::array<std::string_view, 3>{"first {} of {}", "die ersten {} von {}", "первые {} из {}"},
-    std::array<std::string_view, 3>{"the {} of {} that move most", "die {} von {}, die sich am meisten bewegen", "{} из {} с наибольшим движением"},
+    std::array<std::string_view, 3>{"the {} of {} with the largest motion", "die {} von {}, die sich am meisten bewegen", "{} из {} с наибольшим движением"},
     std::array<std::string_view, 3>{"no friction", "ohne Reibung", "без трения"},
     std::array<std::string_view, 3>{"friction {}", "Reibung {}", "трение {}"},
     std::array<std::string_view, 3>{"friction {} static, {} kinetic", "Reibung {} (Haften), {} (Gleiten)", "трение {} (покоя), {} (скольжения)"},
@@ -174,10 +174,10 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"Response quantities", "Antwortgrößen", "Величины отклика"},
     std::array<std::string_view, 3>{"Stored energy, work, losses and balance", "Wo die Energie ist, wohin sie ging, und die Bilanz", "Где энергия, куда она ушла, и баланс"},
     std::array<std::string_view, 3>{"States of the contacts", "Zustände der Kontakte", "Состояния контактов"},
-    std::array<std::string_view, 3>{"Events of the contacts, a mark each", "Ereignisse der Kontakte, je ein Strich", "События контактов, по отметке на каждое"},
+    std::array<std::string_view, 3>{"Events of the contacts, one mark per event", "Ereignisse der Kontakte, je ein Strich", "События контактов, по отметке на каждое"},
     std::array<std::string_view, 3>{"Loads and motion of the base", "Lasten und Bewegung des Bodens", "Нагрузки и движение основания"},
     std::array<std::string_view, 3>{"Contact forces and friction cones", "Kontaktkräfte und Reibungskegel", "Силы контактов и конусы трения"},
-    std::array<std::string_view, 3>{"sticks inside, slips on the edge", "innen haftet es, am Rand gleitet es", "внутри сцепление, на границе скольжение"},
+    std::array<std::string_view, 3>{"stick inside, slip on the edge", "innen haftet es, am Rand gleitet es", "внутри сцепление, на границе скольжение"},
     std::array<std::string_view, 3>{"Shape at t = {} {}", "Form bei t = {} {}", "Форма при t = {} {}"},
     std::array<std::string_view, 3>{"slid by ({}, {}) {}, deformation", "verschoben um ({}, {}) {}, Verformung", "сдвиг на ({}, {}) {}, деформация"},
     std::array<std::string_view, 3>{"displacements", "Verschiebungen", "перемещения"},

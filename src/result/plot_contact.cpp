@@ -307,7 +307,7 @@ Picture cone_picture(const PlottedRun& run) {
       rubbing > shown.size() ? " (" + translate(run, "first {} of {}", shown.size(), rubbing) + ")" : "";
   Picture picture{"cone",
                   translate(run, "Contact forces and friction cones") + part + ": " +
-                      translate(run, "sticks inside, slips on the edge"),
+                      translate(run, "stick inside, slip on the edge"),
                   canvas};
   picture.setup = colour_function() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
   if (small) picture.setup += fmt::format("set tics font ',{:.4g}'\n", canvas.font(10.0));
@@ -401,7 +401,7 @@ Picture raster_picture(const PlottedRun& run) {
   panel.after = "unset arrow\n";
   return {
       "raster" + run.suffix,
-      translate(run, "Events of the contacts, a mark each"),
+      translate(run, "Events of the contacts, one mark per event"),
       canvas_of(run.look, margin_above + margin_below + 16.0 + row * static_cast<double>(count), true, true),
       true,
       {panel}};

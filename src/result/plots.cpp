@@ -186,7 +186,7 @@ Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canva
   if (p.candidate_count > 0)
     panel.curves.push_back(
         {"NaN", "", "with lines linecolor '#ffffff'",
-         "(" + translate(run, "the {} of {} that move most", shown, p.candidate_count) + ")"});
+         "(" + translate(run, "the {} of {} with the largest motion", shown, p.candidate_count) + ")"});
   return panel;
 }
 
@@ -244,7 +244,7 @@ Picture energy_picture(const PlottedRun& run) {
     energies.curves.push_back(
         {balance.rows, fmt::format("{}:(0)", balance.time), "with lines", translate(run, "kinetic")});
   Panel off{
-      translate(run, "balance off by") + unit,
+      translate(run, "error of the balance") + unit,
       {{balance.rows,
         fmt::format("{}:(${}-({}))", balance.time, balance.number, base::format_number(run.energies.start)),
         "with lines linewidth 1.2 linecolor '#1a1a1a'", translate(run, "drift")}},

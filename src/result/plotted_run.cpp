@@ -170,7 +170,7 @@ void read_contact_ranges(const TableFolder& tables, PlottedRun& run) {
 }
 
 /// Reads the ranges of displacements from curves.csv, or from history.csv if the run has no curves.csv.
-void read_moves(const TableFolder& tables, PlottedRun& run) {
+void read_displacement_ranges(const TableFolder& tables, PlottedRun& run) {
   run.moves.clear();
   const bool record = tables.has("curves.csv");
   CsvReader reader = tables.open(record ? "curves.csv" : "history.csv");
@@ -215,7 +215,7 @@ void read_marks(const TableFolder& tables, PlottedRun& run) {
 /// Reads everything that depends on the time window.
 void read_time_window(const TableFolder& tables, PlottedRun& run) {
   read_contact_ranges(tables, run);
-  read_moves(tables, run);
+  read_displacement_ranges(tables, run);
   if (!run.facts.contacts.empty()) read_marks(tables, run);
 }
 
@@ -232,16 +232,17 @@ void read_headers(const TableFolder& tables, PlottedRun& run) {
 void check_window(const PlotWindow& window, std::size_t shown, const PlottedRun& run) {
   const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
     if (!t || (std::isfinite(*t) && shows)) return;
-    throw UsageError(fmt::format("{} {}: nothing to draw, the run covers t = {} to {}", option,
+    throw UsageError(fmt::format("{} {}: nothing to draw, because the run covers t = {} to {}", option,
                                  base::format_number(*t), base::format_number(run.t_first),
                                  base::format_number(run.t_last)));
   };
   check("--from", window.from, window.from < run.t_last);
   check("--to", window.to, window.to > run.t_first);
   if (shown == 0)
-    throw UsageError(fmt::format("--from {} --to {}: nothing to draw, no output time lies between",
-                                 base::format_number(window.from.value_or(run.t_first)),
-                                 base::format_number(window.to.value_or(run.t_last))));
+    throw UsageError(
+        fmt::format("--from {} --to {}: nothing to draw, because no output time lies between these times",
+                    base::format_number(window.from.value_or(run.t_first)),
+                    base::format_number(window.to.value_or(run.t_last))));
 }
 
 }  // namespace
@@ -321,7 +322,7 @@ PlottedRun read_compared(const TableFolder& tables, const RunFacts& facts, doubl
   run.greatest_compression.assign(run.facts.contacts.size(), 0.0);
   read_motion(tables, contact_numbers(run.facts), run);
   read_contact_ranges(tables, run);
-  read_moves(tables, run);
+  read_displacement_ranges(tables, run);
   return run;
 }
 

@@ -23,7 +23,7 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   const Engine closed_form = engine_for(EngineRole::closed_form),
                integrator = engine_for(EngineRole::integrator);
   if (!exact_accepts(model, run))
-    return {integrator, true, "a law or a load of the scene has no motion in closed form"};
+    return {integrator, true, "a law or a load of the scene has no closed-form solution"};
   const double decay = model::fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
     return {integrator, true,
@@ -65,19 +65,20 @@ ModalKind modal_kind(const Model& model) {
   if (why.empty()) return {false, modal::max_state_springs(model) > modal::max_rank, ""};
   if (std::string other = modal::damped_refusal(model); !other.empty()) return {true, false, other};
   return {true, modal::max_state_terms(model) > modal::max_damped_terms,
-          model.size() > max_damped_unknowns ? why + ", with so many unknowns" : ""};
+          model.size() > max_damped_unknowns ? why + ", and too many unknowns for complex modes" : ""};
 }
 
 namespace {
 
 /// Choice between modes and series for a scene that modes can compute.
 FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind& kind) {
-  if (model.size() < min_unknowns) return {false, "auto: with so few unknowns the series is as fast"};
+  if (model.size() < min_unknowns)
+    return {false, "auto: the scene has so few unknowns that the series is as fast as modes"};
   if (kind.too_many_springs)
     return {
         false,
         "auto: with this many contacts, computing the modes of each contact state costs more than it saves"};
-  if (!kind.damped) return {true, "auto: modes can follow the whole scene"};
+  if (!kind.damped) return {true, "auto: modes can compute the whole scene"};
   // Complex modes also break the symmetry of a structure on rigid contacts: feet that land together land at slightly
   // different times.
   if (has_rigid_rows(model))
@@ -85,7 +86,7 @@ FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind&
   if (!damped_modes_are_faster(model) ||
       worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
     return {false, "auto: the complex modes of the contact states would cost as much as the series"};
-  return {true, "auto: complex modes can follow the whole scene"};
+  return {true, "auto: complex modes can compute the whole scene"};
 }
 
 }  // namespace
@@ -95,12 +96,12 @@ FlowChoice choose_flow(const Model& model, const RunSpec& run) {
   const ModalKind kind = modal_kind(model);
   const std::string& why = kind.objection;
   if (run.flow == Flow::automatic) {
-    if (!why.empty()) return {false, fmt::format("auto: modes cannot follow {}", why)};
+    if (!why.empty()) return {false, fmt::format("auto: series, because the scene has {}", why)};
     return cheaper_flow(model, run, kind);
   }
   if (!why.empty())
     throw SceneError(run.place, "run.flow",
-                     fmt::format("\"modal\" cannot follow this scene: {}; use \"taylor\"", why));
+                     fmt::format("\"modal\" cannot compute a scene that has {}; use \"taylor\"", why));
   return {true, kind.damped ? "as given: complex modes" : "as given"};
 }
 

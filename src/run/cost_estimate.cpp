@@ -219,8 +219,8 @@ std::string faster_engine_advice(const std::vector<Trial>& trials, Engine own, d
   const auto best = std::min_element(trials.begin(), trials.end(),
                                      [](const Trial& a, const Trial& b) { return a.seconds < b.seconds; });
   if (best == trials.end() || seconds < long_run || best->seconds * min_time_ratio > seconds) return "";
-  return fmt::format("{} is expected to take {}; by their first steps: {}", to_string(own), about(seconds),
-                     trial_text(trials));
+  return fmt::format("{} is expected to take {}; estimates from first steps of other settings: {}",
+                     to_string(own), about(seconds), trial_text(trials));
 }
 
 namespace {

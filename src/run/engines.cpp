@@ -150,8 +150,9 @@ Method bdf(const Model& model, const RunSpec& run) {
 
 Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
   if (!run.dt)
-    throw SceneError(run.place, "run.dt",
-                     fmt::format("engine \"{}\" needs this key, its time step", to_string(run.engine)));
+    throw SceneError(
+        run.place, "run.dt",
+        fmt::format("missing, expected the time step, which engine \"{}\" needs", to_string(run.engine)));
   return {run.engine, false, "", *run.dt, 2, "average acceleration"};
 }
 

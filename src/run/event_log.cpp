@@ -224,8 +224,8 @@ void EventOrder::load_jump(double t) {
 void EventOrder::warn(const std::string& which) {
   if (++unordered_ <= max_warnings)
     report_.warnings.push_back(
-        fmt::format("the order of {} is not determined at this precision ({} in "
-                    "events.csv)",
+        fmt::format("the order of {} is not determined, because their times are uncertain "
+                    "(column {} of events.csv)",
                     which, event_column(&Event::t_uncertainty)));
 }
 

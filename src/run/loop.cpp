@@ -233,7 +233,7 @@ bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<cont
   now.t = s.t;
   if (!recorder_.progress(s.t)) return stop("interrupted", Outcome::Kind::interrupted);
   auto stands = stall_detector_.count(s.t, s.resolution, concerned(now, adopted));
-  if (stands) *stands += "; last: " + decide::names_of(model_, now.triggered);
+  if (stands) *stands += "; last events: " + decide::names_of(model_, now.triggered);
   std::optional<motion::Forcing> before;
   stretch_.same_forcing = !change.any;
   if (change.any) before = std::exchange(s.forcing, motion::Forcing(model_, s.t, motion::Side::after));
@@ -267,8 +267,11 @@ RunEnd Loop::end() {
   engine::StepperReport engine = engine_->report();
   rescale(model_, engine);
   hooks_.listeners.end(current_point(), engine);
-  const auto stored = [&](const Vector& u) { return 0.5 * structure_.magnitude(structure_.k, u.data()); };
-  const double rounding = rounding::many_operations * std::max(stored(model_.u0), stored(state_.point.u));
+  const auto elastic_magnitude = [&](const Vector& u) {
+    return 0.5 * structure_.magnitude(structure_.k, u.data());
+  };
+  const double rounding =
+      rounding::many_operations * std::max(elastic_magnitude(model_.u0), elastic_magnitude(state_.point.u));
   return {std::move(report_), rounding, !record_.law_violated().empty()};
 }
 

@@ -40,8 +40,8 @@ class FastModeCutoff {
   /// Highest rate of structure and loads in the step. radians: phase angle by which the fastest motion advances in the
   /// step (StepFacts::phase_angle).
   [[nodiscard]] double max_rate(double radians, double begin, double end);
-  /// Highest rate that outputs show in the step of the last call of max_rate(): between the rate of loads and `all`.
-  /// is_rounding: true if motion within this bound is rounding in every output.
+  /// Highest rate that is visible in any output, for the step of the last call of max_rate(). The result lies between the
+  /// rate of the loads and `all`. is_rounding(bound): true if motion within `bound` is rounding error in every output.
   [[nodiscard]] double output_rate(
       const engine::FastModes& modes, double all,
       const std::function<bool(const engine::FastModeBound&)>& is_rounding) const;

@@ -206,7 +206,7 @@ std::string sentence_of(const Violation& v, const Model& model) {
 
 std::string sentence_of(const LawCheckSummary& law_checks, const Model& model) {
   std::string sentence = sentence_of(law_checks.violations.front(), model);
-  if (law_checks.violated > 1) sentence += fmt::format(" (the first of {})", law_checks.violated);
+  if (law_checks.violated > 1) sentence += fmt::format(" (the first of {} violations)", law_checks.violated);
   return sentence;
 }
 

@@ -43,7 +43,7 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
   engine_.refuse(model_, run_);
   if (method_.flow == "modal" && !choose_flow(model_, run_).modal)
     throw SceneError(run_.place, "set_load",
-                     "the flow in modes follows loads that change in jumps only; use run.flow = \"taylor\"");
+                     "run.flow = \"modal\" needs loads that change in jumps only; use run.flow = \"taylor\"");
   requested_.any = true;
   requested_.jump = requested_.jump || before != after;
 }

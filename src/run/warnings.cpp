@@ -62,8 +62,8 @@ std::vector<std::string> fast_load_warnings(const Model& model, const RunSpec& r
     }
     if (omega * *run.dt > max_turned)
       sentences.push_back(fmt::format(
-          "'{}': its phase advances by {:.3g} rad in a step of run.dt = {:.6g}, which is too coarse; use a "
-          "smaller run.dt",
+          "the phase of '{}' advances by {:.3g} rad in a step of run.dt = {:.6g}, so the step is too coarse; "
+          "use a smaller run.dt",
           load.name, omega * *run.dt, model::time_in_scene_units(model, *run.dt)));
   }
   return sentences;
@@ -75,7 +75,7 @@ namespace {
 
 std::string impact_gain(double t, double gain) {
   return fmt::format(
-      "the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction can add "
+      "the impact at t = {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction can add "
       "energy",
       t, gain);
 }
@@ -99,7 +99,7 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
   if (names.empty()) return std::nullopt;
   return fmt::format(
       "from t = {1:.6g} on {0} prevent the same motion: the motion is unique, but the friction forces are "
-      "not; those with the least sum of squares within the friction limits are taken",
+      "not; the run has the forces of least sum of squares within the friction limits",
       names.size() > 1 ? "contacts " + base::join_quoted(names, 5)
                        : "contact " + base::join_quoted(names, 5) + " and other contacts",
       t);
@@ -107,8 +107,8 @@ std::optional<std::string> shared_motion(const Model& model, const decide::Decis
 
 std::string release_warning(const Model& model, std::size_t c, double t) {
   return fmt::format(
-      "contact '{}' released at t = {:.9g}, because no continuous motion exists there: its massless parts "
-      "jumped to their equilibrium without the contact; with mass or a damper their motion takes time",
+      "contact '{}' released at t = {:.9g}, because no continuous motion exists there: the massless parts "
+      "jumped to the equilibrium without the contact; add mass or a damper to avoid such jumps",
       model.contacts[c].name, t);
 }
 

@@ -98,13 +98,13 @@ class TableReader {
       heading_allowed_ = false;
       if (heading && values_only && names_times())
         fail(fmt::format(
-            "found \"{}\", a heading of times and values, expected values only, since time_step is given",
+            "found the heading \"{}\" of times and values, expected values only, because time_step is given",
             base::excerpt(line_)));
       if (heading) continue;
       if (has_empty_cell(line_))
         fail(fmt::format("found \"{}\", expected no empty cell", base::excerpt(line_)));
       if (values_only)
-        for (const std::string& word : words_) add(time_of_next(), number(word, "a value"));
+        for (const std::string& word : words_) add(time_of_next(), number(word, "a number"));
       else
         read_row();
     }
@@ -129,7 +129,7 @@ class TableReader {
     while (read_line(in_, line_)) {
       ++number_;
       if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // byte order mark
-      if (is_binary(line_)) fail("found binary data, expected lines of time and value");
+      if (is_binary(line_)) fail("found binary data, expected a text file of numbers");
       if (line_.size() > max_line_length)
         fail(fmt::format("found a line of more than {} characters", max_line_length));
       words_ = words_of(line_);
@@ -152,14 +152,14 @@ class TableReader {
 
   void read_peer_heading() {
     for (int line = 1; line <= 4; ++line) {
-      if (!next()) fail("the file ends, expected the four lines of a PEER file's heading");
+      if (!next()) fail("the file ends in its heading, expected the four heading lines of a PEER file");
       if (line < 4) read_unit();
       if (line == 3 && !table_.unit && !layout_.unit_given)
-        fail(
-            fmt::format("found \"{}\", expected a record of acceleration with its unit in the first three "
-                        "lines, such as \"ACCELERATION IN UNITS OF G\" (G, CM/S/S, M/S/S, MM/S/S or GAL); "
-                        "records of velocity or displacement are not read",
-                        base::excerpt(line_)));
+        fail(fmt::format(
+            "found \"{}\", and no unit of acceleration in the first three lines; expected for example "
+            "\"ACCELERATION IN UNITS OF G\" (G, CM/S/S, M/S/S, MM/S/S or GAL); records of velocity or "
+            "displacement cannot be used",
+            base::excerpt(line_)));
     }
     std::vector<double> numbers;
     for (char& c : line_)
@@ -170,8 +170,8 @@ class TableReader {
                        numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
     if (!contains_word(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
       fail(
-          "found no NPTS and DT, expected \"NPTS= 5372, DT= .0050\" or similar in the fourth line of a PEER "
-          "file");
+          "found no valid NPTS and DT in the fourth line of the PEER file, expected for example "
+          "\"NPTS= 5372, DT= .0050\"");
     points_ = static_cast<std::size_t>(numbers[0]);
     layout_.time_step = numbers[1] * layout_.second;
     heading_allowed_ = false;
@@ -183,7 +183,7 @@ class TableReader {
     table_.unit = acceleration_unit(unit);
     table_.in_g = unit == "G";
     if (!table_.unit)
-      fail(fmt::format("found \"{}\", expected an acceleration in units of G, CM/S/S or M/S/S",
+      fail(fmt::format("found \"{}\", expected an acceleration in units of G, CM/S/S, M/S/S, MM/S/S or GAL",
                        base::excerpt(line_)));
   }
 
@@ -200,7 +200,7 @@ class TableReader {
       while (!line_.empty() && line_.back() == '\r') line_.pop_back();
       fail(layout_.column == 0
                ? fmt::format("found \"{}\", expected two numbers, time and value", base::excerpt(line_))
-               : fmt::format("found \"{}\", expected a time first and a value in column {}",
+               : fmt::format("found \"{}\", expected a time in column 1 and a value in column {}",
                              base::excerpt(line_), column));
     }
     const std::size_t n = table_.times.size();
@@ -209,8 +209,8 @@ class TableReader {
                        base::format_number(table_.times[n - 1])));
     }
     if (n > 1 && *t == table_.times[n - 2]) {
-      fail(
-          fmt::format("found time {} three times, expected at most twice (a jump)", base::format_number(*t)));
+      fail(fmt::format("found time {} in three rows, expected it in at most two rows (a jump)",
+                       base::format_number(*t)));
     }
     add(*t, *value);
   }

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "base/text.hpp"
+
 namespace signorini::scene {
 namespace {
 
@@ -70,8 +72,9 @@ History table(const HistorySpec& spec, const std::string& key) {
   const auto& y = spec.values;
   if (t.size() != y.size())
     throw SceneError(spec.place, key,
-                     fmt::format("found {} times and {} values, expected equal numbers", t.size(), y.size()));
-  if (t.size() < 2) throw SceneError(spec.place, key, "found fewer than two points, expected at least two");
+                     fmt::format("found {} for {}, expected one value for each time",
+                                 base::count_text(y.size(), "value"), base::count_text(t.size(), "time")));
+  if (t.size() < 2) throw SceneError(spec.place, key, "found fewer than two times, expected at least two");
   for (std::size_t i = 1; i < t.size(); ++i)
     if (!(t[i] >= t[i - 1]))
       throw SceneError(spec.place, key,
@@ -94,7 +97,8 @@ History table(const HistorySpec& spec, const std::string& key) {
 /// End of a pulse: a rectangle, triangle or half sine. Errors: SceneError if the history has no end.
 double pulse_end(const HistorySpec& spec, const std::string& key) {
   if (!std::isfinite(spec.end))
-    throw SceneError(spec.place, key, "found no end, expected the end of the pulse");
+    throw SceneError(spec.place, key,
+                     "found no finite end time, expected one, because the history is a pulse");
   return spec.end;
 }
 
@@ -141,9 +145,10 @@ History make_history(const HistorySpec& spec, const std::string& key) try {
   if (spec.shift != 0.0) f = f.shifted(spec.shift);
   return f.scaled(spec.amplitude, spec.offset);
 } catch (const std::invalid_argument&) {  // thrown by History if rounding makes two start times equal
-  throw SceneError(spec.place, key,
-                   "found times of the history (start, end, shift or period) that rounding merges, or that "
-                   "overflow; expected distinct, finite times");
+  throw SceneError(
+      spec.place, key,
+      "found start, end, shift or period whose sums overflow, or become equal by rounding; expected "
+      "distinct, finite times");
 }
 
 History make_integral(const HistorySpec& spec, const std::string& key) {

@@ -64,7 +64,7 @@ constexpr Key table_of_keys[] = {
     {"run", "output_times", numbers, "time", "", "", "Times of the rows of history.csv, ascending, instead of output_dt; t_end is added."},
     {"run", "frames", numbers, "time", "", "", "Times of deformed shapes, from 0 to t_end, ascending; not with [matrices]."},
     {"run", "max_order", tolerance_order, "", "\"auto\"", "", "Greatest order of IDA's formulas, 1 to 5, or \"auto\"."},
-    {"run", "max_events_at_once", count, "", "100", "", "Largest number of rounds of state changes at one instant; the run stops if it is exceeded. Independent parts of the structure (theory.md) are counted separately."},
+    {"run", "max_events_at_once", count, "", "100", "", "Largest number of rounds of state changes at one instant; the run stops if this number is exceeded. Independent parts of the structure (theory.md) are counted separately."},
     {"run", "dt", positive, "time", "", "", "Time step of the engines `newmark` and `friction-iteration`; required for them. With step = \"doubling\": the largest time step."},
     {"run", "refine", choice, "", "\"root\"", "root linear", "How engine newmark locates an event. \"root\": the step is repeated with another length until the condition of the event is met at its end. \"linear\": the step is repeated once, up to the interpolated time (contacts without stiffness use \"root\")."},
     {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: \"fixed\": every step is dt. \"doubling\": every second step is compared with one step of twice the length; the step is halved while the results differ by more than the tolerance."},
@@ -154,7 +154,7 @@ constexpr Key table_of_keys[] = {
     {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece; one number applies to every piece. Default for arcs: 8."},
     {"members[]", "type", choice, "", "\"beam\"", "beam bar", "\"beam\": Euler-Bernoulli beam; \"bar\": truss member with EA and mass only, hinged at its ends, one element a piece."},
     {"members[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix; \"lumped\" makes rotations massless."},
-    {"members[]", "release", texts, "", "[]", "", "End nodes at which a beam is hinged: its first node, its last, or both. The beam end then rotates independently of the node."},
+    {"members[]", "release", texts, "", "[]", "", "End nodes at which a beam is hinged: the first node of the beam, the last node, or both. The beam end then rotates independently of the node."},
     {"members[]", "thermal_expansion", number, "1/temperature", "0.0", "", "Coefficient of thermal expansion: strain per unit of temperature; any unit of temperature may be used."},
     {"members[]", "temperature", number_or_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, uniform in the member; a number or a history."},
     {"members[]", "initial_strain", number_or_history, "", "0.0", "", "Stress-free axial strain; positive if the member is too long; a number or a history."},
@@ -250,7 +250,7 @@ constexpr Key table_of_keys[] = {
     {"springs[]", "direction", vector, "", "", "", "Direction of the spring; its length does not matter. Required, except for a rotational spring."},
     {"springs[]", "stiffness", non_negative, "force/length", "0.0", "", "Stiffness."},
     {"springs[]", "damping", non_negative, "force*time/length", "0.0", "", "Damping constant of a damper parallel to the spring."},
-    {"springs[]", "preload", number, "force", "0.0", "", "Force in the spring in the undeformed state. If positive it pulls the node against `direction`."},
+    {"springs[]", "preload", number, "force", "0.0", "", "Force in the spring in the undeformed state. A positive force pulls the node against `direction`."},
     {"springs[]", "hanger", table, "", "", "", "Loads of a spring hanger, instead of preload; the cold load is the preload."},
     {"springs[]", "rotation_stiffness", non_negative, "force*length", "0.0", "", "Stiffness against rotation (rz), moment per rad."},
     {"springs[]", "rotation_damping", non_negative, "force*length*time", "0.0", "", "Damping constant of a damper parallel to the rotational spring."},
@@ -280,7 +280,7 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "surface_velocity", number_or_history, "length/time", "0.0", "", "Velocity of the touched surface along the tangent; a number or a history."},
     {"contacts[]", "initial_shear", number, "force", "0.0", "", "Force in the tangential spring at t = 0."},
     {"contacts[]", "restitution", fraction, "", "0.0", "", "Newton's coefficient of restitution of a rigid contact, 0 to 1."},
-    {"contacts[]", "capture_velocity", non_negative, "length/time", "", "", "Rebounds of a rigid contact slower than this come to rest. Default: rtol times the velocity scale, or run.atol.velocity if given."},
+    {"contacts[]", "capture_velocity", non_negative, "length/time", "", "", "A rigid contact stays closed if it would rebound more slowly than this. Default: rtol times the velocity scale, or run.atol.velocity if given."},
     {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot parallel to the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
     {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot parallel to the tangential stiffness, which must then be given; both are in series with the friction element."},
 
@@ -309,7 +309,7 @@ constexpr Key table_of_keys[] = {
     {"pendulums[]", "against", name, "", "", "", "Node that has the curved surface, instead of the ground."},
     {"pendulums[]", "normal", vector, "", "[0.0, 1.0]", "", "Direction of the force of the surface on the node when u = 0; it is normalised. The tangent is (ny, -nx)."},
     {"pendulums[]", "radius", positive, "length", "required", "", "Radius of the surface: the restoring force is N u / radius."},
-    {"pendulums[]", "normal_force", number_or_history, "force", "", "", "Compression, positive; a number or a history (engine \"ida\" where it varies). With normal_stiffness: the load at rest; a static or frictional start computes it."},
+    {"pendulums[]", "normal_force", number_or_history, "force", "", "", "Compression, positive; a number or a history (engine \"ida\" where it varies). With normal_stiffness: the load at rest, which a static or frictional start computes."},
     {"pendulums[]", "normal_stiffness", positive, "force/length", "", "", "Vertical stiffness of the bearing: its load then follows from the structure, and it can lift off; engine \"ida\"."},
     {"pendulums[]", "stop", positive, "length", "", "", "Distance to the rim on each side. Default: no rim."},
     {"pendulums[]", "stop_stiffness", positive, "force/length", "", "", "Stiffness of the rim. Default: a rigid rim."},
@@ -330,18 +330,18 @@ constexpr Key table_of_keys[] = {
     {"loads[]", "axes", choice, "", "\"global\"", "global member", "For distributed loads: axes of `direction`. \"global\": [x, y]. \"member\": [along the piece, normal to it to the left]."},
     {"loads[]", "history", KeyType::history, "", "{ type = \"constant\" }", "", "Time history of the load."},
 
-    {"output[]", "name", name, "", "required", "", "Name of its column in response.csv."},
+    {"output[]", "name", name, "", "required", "", "Name of the column of this output in response.csv."},
     {"output[]", "kind", choice, "", "required", "displacement velocity acceleration relative member_force stress envelope reaction spring contact combination", "Kind of the quantity."},
     {"output[]", "at", KeyType::against, "", "", "", "A node; relative, member_force and stress: two nodes [A, B]; stress of a body: one of its nodes; contact: the name of a contact."},
     {"output[]", "nodes", texts, "", "", "", "envelope: nodes along members, in order; the pieces between consecutive nodes are searched for the greatest value; \"P0..P9\" as in members."},
     {"output[]", "direction", direction, "", "", "", "Direction of the component. With [nodes] it is normalised; with [matrices] it is used as given and `at` is not needed. Stress of a body: axis x of the stress components; default [1, 0]."},
     {"output[]", "rotation", flag, "", "false", "", "Rotation of the node, counter-clockwise, instead of the component along a direction; for reaction and spring: the moment."},
-    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss stress xx yy xy", "member_force: N (tension is positive), V or M; stress: N or M for that part alone; of a body xx, yy (tension is positive) or xy; envelope: N, V, M or stress; contact: N, T, gap, slip or loss (the work of its friction, without the work in impacts)."},
+    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss stress xx yy xy", "member_force: N (tension is positive), V or M; stress of a member: N or M for the stress by this force alone; stress of a body: xx, yy (tension is positive) or xy; envelope: N, V, M or stress; contact: N, T, gap, slip or loss (the work of its friction, without the work in impacts)."},
     {"output[]", "station", fraction, "", "0.0", "", "member_force, stress: position from A (0) to B (1); at a node between two finite elements: the value in the element towards B."},
     {"output[]", "fibre", choice, "", "\"both\"", "both left right", "For stresses: the outermost fibre to the left or to the right of the line from node to node, or both. With \"both\" the column has the value of greatest magnitude at each time; maximum and minimum in summary.json are the greatest and the least value of both fibres."},
     {"output[]", "sif", positive, "", "", "", "Stress intensification factor: bending stresses are multiplied by it. Default: the factor of the bend, otherwise 1."},
     {"output[]", "spring", count, "", "", "", "spring: number of the spring, counted from 1 in the order of the file."},
-    {"output[]", "terms", table, "", "", "", "combination: factors of outputs that are defined before it; all products of output and factor must have the same unit."},
+    {"output[]", "terms", table, "", "", "", "combination: factors of outputs that are defined earlier in the file; all products of output and factor must have the same unit."},
     {"output[].terms", "*", KeyType::term, "", "", "", "Factor of the output of this name; if it has a unit, a table with the unit, such as \"1/m^2\"."},
     {"output[].terms.*", "factor", number, "", "required", "", "Factor."},
     {"output[].terms.*", "unit", text, "", "required", "", "Unit of the factor, in the units of the scene: \"1/m^2\", \"m\", \"s^2/t\"."},
@@ -555,7 +555,7 @@ std::string describe_type(const Key& key) {
     case flag:
       return key.type == flag ? "true or false" : "\"auto\", true or false";
     case KeyType::elements:
-      return "an integer >= 1, or an array of them, one for each piece";
+      return "an integer >= 1, or an array of such integers, one for each piece";
     case KeyType::initial:
       return "\"static\", \"frictional\" or a table";
     case fraction:
@@ -563,7 +563,7 @@ std::string describe_type(const Key& key) {
     case KeyType::place:
       return "the name of a node, or an array of two numbers [x, y]";
     case KeyType::against:
-      return "the name of a node, or an array of two";
+      return "the name of a node, or an array of two names";
     case KeyType::friction:
       return "a number >= 0 or a table such as { static, kinetic }";
     case KeyType::term:

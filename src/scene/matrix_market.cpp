@@ -29,8 +29,8 @@ class Reader {
     read_size();
     coordinate_ ? read_coordinates() : read_array();
     if (next())
-      fail(fmt::format("found \"{}\" after the last of {} entries, expected the end", base::excerpt(line_),
-                       count_));
+      fail(fmt::format("found \"{}\" after the last of {} entries, expected the end of the file",
+                       base::excerpt(line_), count_));
     tidy(matrix_);
     return std::move(matrix_);
   }
@@ -114,9 +114,10 @@ class Reader {
     const long long rows = index(0, 1, max_dofs, "a number of rows");
     const long long columns = index(1, 1, max_dofs, "a number of columns");
     if (vector_ && (columns != 1 || symmetric_))
-      fail(fmt::format("found {} columns, expected one of a general matrix", columns));
+      fail(symmetric_ ? "found a symmetric matrix, expected a general matrix with one column"
+                      : fmt::format("found {} columns, expected one", columns));
     if (!vector_ && rows != columns)
-      fail(fmt::format("found {} rows and {} columns, expected a square matrix", rows, columns));
+      fail(fmt::format("found a matrix of {} x {}, expected a square matrix", rows, columns));
     matrix_.size = static_cast<int>(rows);
     if (coordinate_) {
       count_ = index(2, 0, std::min(most_entries, rows * columns), "a number of entries");
@@ -133,7 +134,7 @@ class Reader {
   }
 
   void expect(long long i, std::size_t words, const char* what) {
-    if (!next()) fail(fmt::format("the file ends after {} of {} entries", i, count_));
+    if (!next()) fail(fmt::format("the file ends after {} of {} entries, expected all entries", i, count_));
     if (words_.size() != words) fail(fmt::format("found \"{}\", expected {}", base::excerpt(line_), what));
   }
 

@@ -76,7 +76,8 @@ class Change {
         segment += c;
         continue;
       }
-      if (segment.empty()) fail("expected path=value; the path is names separated by dots");
+      if (segment.empty())
+        fail("found an empty name in the path, expected path=value with names separated by dots");
       if (segments_.size() == most_parts) fail("found a path of more than 16 parts");
       segments_.push_back(segment);
       segment.clear();
@@ -196,8 +197,9 @@ class Change {
     const std::vector<std::size_t> chosen = chosen_by(which, array, names);
     if (chosen.empty()) {
       const std::string hint = base::suggestion(which, names);
+      if (array.empty()) fail(fmt::format("{} has no entries, so no \"{}\"", done, which));
       fail(fmt::format(
-          "{} has {}, none of them \"{}\"{}", done,
+          "{} has {}, but no \"{}\"{}", done,
           array.size() == 1 ? "1 entry" : std::to_string(array.size()) + " entries", which,
           hint.empty() ? fmt::format("; expected a name, a number from 1 to {}, or * for all", array.size())
                        : hint));
@@ -285,7 +287,7 @@ std::string count_matching_tables(const toml::table& root, const std::string& pa
   std::size_t met = 0, stops = 0;
   const std::string kind = path.substr(0, path.find('.'));
   for (const std::string& place : places_of(root, path)) ++(place.starts_with(kind + ".") ? met : stops);
-  std::string text = fmt::format("{} of [[{}]]", tables_in(root, kind) > 0 ? met : 0, kind);
+  std::string text = fmt::format("matches {} of [[{}]]", tables_in(root, kind) > 0 ? met : 0, kind);
   if (!path.starts_with(all_contacts) || tables_in(root, "stops") == 0) return text;
   text += fmt::format(", {} of [[stops]]", stops);
   if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)

@@ -31,7 +31,7 @@ mesh::GridSpec read_grid(Table& table) {
   const bool whole = std::all_of(counts.begin(), counts.end(),
                                  [](double n) { return n >= 1.0 && n <= most_cells && n == std::floor(n); });
   if (counts.size() != 2 || !whole || counts[0] * counts[1] > most_cells)
-    table.wrong("elements", "two integers >= 1, at most 1e6 elements in all");
+    table.wrong("elements", "two integers >= 1 whose product is at most 1e6");
   grid.elements = {static_cast<int>(counts[0]), static_cast<int>(counts[1])};
   grid.grading = table.vector("grading");
   if (!(grid.grading[0] > 0.0 && grid.grading[1] > 0.0)) table.wrong("grading", "two numbers > 0");
@@ -61,7 +61,7 @@ PlaneMesh read_ring(Table& table) {
                                    base::format_number(ring.outer), base::format_number(ring.inner)));
   const auto [start, end] = keys.vector("degrees");
   if (!(end > start && end - start <= 360.0))
-    keys.wrong("degrees", "[start, end], end at most 360 beyond start");
+    keys.wrong("degrees", "two angles [start, end] with start < end <= start + 360");
   ring.start = rad_of_degree * start;
   ring.end = end - start == 360.0 ? ring.start + 2.0 * std::numbers::pi : rad_of_degree * end;
   keys.finish();
@@ -143,12 +143,13 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
     // Tolerance of positions, relative to the body's size: scenes give positions with six digits or more.
     constexpr double digits = 1e-6;
     if (distance(nearest) > digits * size)
-      points.fail(entry.name, fmt::format("no node is at this place, the nearest is {} at [{:.9g}, {:.9g}]: "
-                                          "expected the place of a node",
-                                          nearest.name, nearest.x, nearest.y));
-    if (!nearest.is_mesh_node)
       points.fail(entry.name,
-                  fmt::format("the node at this place already has the name \"{}\"", nearest.name));
+                  fmt::format("no node is at this place, expected the place of a node; the nearest "
+                              "node is {} at [{:.9g}, {:.9g}]",
+                              nearest.name, nearest.x, nearest.y));
+    if (!nearest.is_mesh_node)
+      points.fail(entry.name, fmt::format("the node at this place already has the name \"{}\"; use that name",
+                                          nearest.name));
     if (!names.add(entry.name))
       points.fail(entry.name, fmt::format("node \"{}\" exists already; expected another name", entry.name));
     nearest.name = entry.name;
@@ -186,8 +187,8 @@ void read_bodies(Table& top, Scene& scene, ResolvedScene& record) {
     body.place = table.place();
     body.name = table.text("name");
     if (!names.add(body.name))
-      table.fail("name",
-                 fmt::format("found \"{}\" twice, expected a name that no body and no node has", body.name));
+      table.fail("name", fmt::format("found \"{}\", which another body or a node has; expected another name",
+                                     body.name));
     take_mesh(read_mesh(table, scene), body, scene);
     read_material(table, body, scene);
     read_points(table, body, names, scene);

@@ -135,7 +135,8 @@ void read_gap(Table& table, ContactSpec& contact, const NameScope& space, const 
     const bool needed = contact.friction.any() && !table.is("stops[]");
     if (needed) table.require("tangent", " (required with friction)");
     if (table.is("stops[]") && contact.friction.any())
-      table.fail("friction", "found friction, expected none: with [matrices] give two contacts");
+      table.fail("friction",
+                 "a stop cannot have friction with [matrices]; give two contacts instead of the stop");
     if (!table.is("stops[]") && table.has("tangent"))
       contact.tangent = read_direction(table, "tangent", space);
   } else {
@@ -167,7 +168,7 @@ void read_seam(Table& table, ContactSpec& contact) {
   if (G) contact.tangential_stiffness = *G * area / thickness;
   for (const double k : {contact.normal_stiffness, contact.tangential_stiffness.value_or(1.0)})
     if (!std::isnormal(k))
-      table.fail("seam", fmt::format("found a stiffness of {}, expected a number > 0", k));
+      table.fail("seam", fmt::format("these values give a stiffness of {}, expected a finite number > 0", k));
   table.record("seam", seam.record().inline_table());
 }
 
@@ -221,9 +222,10 @@ void read_elements(Table& table, ContactSpec& contact) {
   }
   // Friction that decreases with the slip rate would let a massless sliding point jump.
   if (contact.tangential_stiffness && contact.friction.stribeck_velocity)
-    table.fail("friction",
-               "cannot be combined with tangential_stiffness: the sliding point is massless, so its motion "
-               "would not be unique. Remove one of the two");
+    table.fail(
+        "friction",
+        "stribeck_velocity cannot be combined with tangential_stiffness: the sliding point is massless, so "
+        "its motion would not be unique. Remove one of the two keys");
 }
 
 namespace {
@@ -354,7 +356,9 @@ void read_stops(Table& top, Scene& scene, ResolvedScene& record) {
     const std::vector<std::string> nodes =
         space.matrices ? std::vector<std::string>{""} : read_one_or_more_nodes(table, space);
     const std::string law = table.choice("law");
-    if (law == "slider") table.fail("law", "found \"slider\", expected a law with a gap for a stop");
+    if (law == "slider")
+      table.fail("law",
+                 "found \"slider\", expected another law, because a slider has no gap and a stop needs one");
     ContactSpec forth = read_laws(table, space, scene, law);
     if (!space.matrices && table.has("against")) {
       if (!one) table.fail("against", "has no meaning together with nodes");
@@ -429,8 +433,9 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
     return carried;
   }
   if (given && !history.is_constant())
-    table.fail("normal_force",
-               "found a history together with normal_stiffness, expected a number: the load at rest");
+    table.fail(
+        "normal_force",
+        "found a history together with normal_stiffness, expected the load at rest, which is a number");
   contact.law = Law::compliant;
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");
@@ -468,7 +473,8 @@ void read_pendulums(Table& top, Scene& scene, ResolvedScene& record) {
   std::size_t number = 0;
   for (Table& table : tables_of(top, "pendulums")) {
     if (space.matrices)
-      table.fail("", "has no meaning with [matrices]: give a slider and N / R in the stiffness");
+      table.fail("",
+                 "has no meaning with [matrices]; give a slider, and add N / radius to the stiffness matrix");
     ContactSpec contact = part_of(table, read_contact_name(table, "pendulum", ++number));
     const std::string node = read_node(table, "node", space);
     const std::string against = table.has("against") ? read_node(table, "against", space) : "";

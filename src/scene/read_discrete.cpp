@@ -85,34 +85,37 @@ void read_hanger(Table& table, Spring& spring) {
   Table hanger = table.child("hanger");
   if (table.has("preload"))
     contradict({{table, "preload"}, {table, "hanger"}},
-               "preload cannot be combined with hanger, because the cold load of the hanger is the preload: "
-               "expected one of the two");
+               "preload cannot be combined with hanger, because the cold load of the hanger is the preload; "
+               "give only one of them");
   const double hot = hanger.number("hot");
   const std::optional<double> cold = hanger.optional_number("cold"),
                               travel = hanger.optional_number("travel");
   const bool stiff = table.has("stiffness");
   const ConflictingKey hot_key{hanger, "hot"}, cold_key{hanger, "cold"}, travel_key{hanger, "travel"},
       stiffness_key{table, "stiffness"};
-  if ((cold ? 1 : 0) + (travel ? 1 : 0) + (stiff ? 1 : 0) != 2)
+  if (const int given = (cold ? 1 : 0) + (travel ? 1 : 0) + (stiff ? 1 : 0); given != 2)
     contradict(
         {{table, "hanger"}, cold_key, travel_key, stiffness_key},
-        "expected hot and two of cold, travel and the spring's stiffness: cold = hot + stiffness travel");
+        fmt::format("found {} of cold, travel and the spring's stiffness, expected two of them, from which "
+                    "cold = hot + stiffness * travel gives the third",
+                    given == 0   ? "none"
+                    : given == 1 ? "one"
+                                 : "all three"));
   spring.hot_load = hot;
   spring.preload = cold ? *cold : hot + spring.stiffness * *travel;
   if (!stiff && *travel == 0.0)
-    hanger.fail("travel",
-                "found 0, expected a travel other than zero, over which the load changes from cold to hot");
+    hanger.fail("travel", "found 0, expected a travel > 0 or < 0, because stiffness = (cold - hot) / travel");
   if (!stiff) spring.stiffness = (*cold - hot) / *travel;
   if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness))
     contradict({{table, "hanger"}, hot_key, cold_key, travel_key, stiffness_key},
-               fmt::format("the stiffness would be {:.6g}, expected > 0: from cold to hot the load decreases "
-                           "if the node moves against direction (travel > 0), so cold > hot needs travel > 0",
+               fmt::format("the stiffness would be {:.6g}, expected > 0: stiffness = (cold - hot) / travel, "
+                           "and travel > 0 means motion against direction, which decreases the load",
                            spring.stiffness));
   if (!(spring.preload >= 0.0))
     contradict(
         {travel_key, hot_key, cold_key, stiffness_key},
         fmt::format(
-            "the load in the undeformed state would be {:.6g}, expected >= 0: it is hot + stiffness travel",
+            "the load in the undeformed state, hot + stiffness * travel, would be {:.6g}, expected >= 0",
             spring.preload));
   hanger.finish();
   table.record("hanger", hanger.record().inline_table());
@@ -159,9 +162,12 @@ void read_support_motion(Table& table, Support& support, std::size_t held, const
     table.fail("acceleration", "cannot be combined with motion; give only one of them");
   if (held != 1)
     table.fail(
-        key, fmt::format("needs exactly one direction in fix, found {}; write one support for each direction",
-                         held));
-  if (acceleration && support.rz) table.fail("acceleration", "has no meaning for rz, expected motion");
+        key,
+        fmt::format(
+            "needs exactly one direction in fix, found {} directions; write one support for each direction",
+            held));
+  if (acceleration && support.rz)
+    table.fail("acceleration", "has no meaning for the rotation rz; give motion instead");
   support.motion =
       acceleration ? read_acceleration(table, key, scene) : read_number_or_history(table, key, scene);
   support.motion_is_acceleration = acceleration;

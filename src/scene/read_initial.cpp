@@ -25,7 +25,7 @@ void read_list(Table& table, std::string_view key, const NameScope& space, std::
   if (!given) return;
   const std::size_t size = space.names.size();
   if (given->size() != size) {
-    table.fail(key, fmt::format("found {}, expected one for each of the {} degrees of freedom",
+    table.fail(key, fmt::format("found {}, expected {}, one for each degree of freedom",
                                 base::count_text(given->size(), "number"), size));
   }
   values = *given;
@@ -172,7 +172,8 @@ bool is_of_run(Table& run, const toml::node* node) {
   if (!table) return false;
   if (const toml::node* directory = table->get("run"); directory && !directory->is_table()) return true;
   if (const toml::node* t = table->get("t"); t && !t->is_table())
-    refuse(place_of(*t), run.path("initial") + ".t", "needs run in the same table, the directory of a run");
+    refuse(place_of(*t), run.path("initial") + ".t",
+           "needs the key run (the directory of a run) in the same table");
   return false;
 }
 

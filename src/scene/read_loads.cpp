@@ -72,7 +72,8 @@ void take_name(const Table& table, const std::string& name, Names& names) {
     if (name == kind)
       table.fail(
           "name",
-          fmt::format("found \"{}\", which means all loads of that kind, expected another name", name));
+          fmt::format("found \"{}\", which in run.stages means all loads of this kind; expected another name",
+                      name));
   if (!names.add(name))
     table.fail("name", fmt::format("found \"{}\" twice, expected each load to have its own name", name));
 }
@@ -83,18 +84,19 @@ void refuse_given_names(const std::vector<Table>& tables, const std::vector<Load
     const std::string& name = loads[i].name;
     for (std::size_t k = 0; k < loads.size(); ++k)
       if (loads[k].name.empty() && name == fmt::format("load {}", k + 1))
-        tables[i].fail(
-            "name",
-            fmt::format(
-                "found \"{}\", the generated name of load {}, which has no name; expected another name", name,
-                k + 1));
+        tables[i].fail("name", fmt::format("found \"{}\", which is generated as the name of load {} because "
+                                           "that load has no `name`; expected "
+                                           "another name",
+                                           name, k + 1));
     for (const char* kind : {"base motion", "preload of spring ", "initial strain of member ",
                              "temperature of member ", "temperature of body "})
       if (name.starts_with(kind))
         tables[i].fail(
             "name",
-            fmt::format("found \"{}\", which begins like the generated names of loads; expected another name",
-                        name));
+            fmt::format(
+                "found \"{}\", expected a name that does not begin with \"{}\", because generated names "
+                "of loads begin so",
+                name, kind));
   }
 }
 
@@ -180,7 +182,8 @@ void read_half_sine_end(Table& table, HistorySpec& spec) {
   table.require("duration", " (half_sine: give duration or end)");
   spec.end = spec.start + table.number("duration");
   if (!(spec.end > spec.start))
-    table.fail("duration", "too short: rounding makes the end equal to the start; expected a longer one");
+    table.fail("duration",
+               "too short: by rounding the end time is equal to the start time; expected a longer duration");
 }
 
 void read_span(Table& table, HistorySpec& spec) {
@@ -192,8 +195,9 @@ void read_span(Table& table, HistorySpec& spec) {
 
   if (spec.type == HistoryType::half_sine) read_half_sine_end(table, spec);
   if (spec.type == HistoryType::rectangle || spec.type == HistoryType::triangle) {
-    table.require("end",
-                  " (" + std::string(spec.type == HistoryType::triangle ? "triangle" : "rectangle") + ")");
+    table.require("end", " (required for a " +
+                             std::string(spec.type == HistoryType::triangle ? "triangle" : "rectangle") +
+                             ")");
   }
   if (const auto end = table.optional_number("end")) {
     spec.end = *end;
@@ -270,7 +274,9 @@ void read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& sc
   layout.second = second_in(scene.units);
   TimeTable rows = read_time_table(in, path.string(), table.path("file"), layout);
   if (rows.unit && role != Role::acceleration)
-    table.fail("file", "found a file of accelerations, expected one of values in the scene's units");
+    table.fail("file",
+               "found a record of acceleration, which only an acceleration can use; expected a file of "
+               "values in the scene's units");
   if (rows.unit && !rows.in_g && table.has("unit"))
     table.fail("unit", "found \"g\", expected no unit: the file gives its values in another unit");
   if (rows.unit && !table.has("unit")) {
@@ -301,7 +307,7 @@ void read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
   spec.values = *table.numbers("values");
   if (spec.times.empty()) table.wrong("times", "at least one time");
   if (spec.values.size() != spec.times.size()) {
-    table.fail("values", fmt::format("found {}, expected one for each of the {}",
+    table.fail("values", fmt::format("found {} for {}, expected one value for each time",
                                      base::count_text(spec.values.size(), "value"),
                                      base::count_text(spec.times.size(), "time")));
   }
@@ -312,7 +318,7 @@ void read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
                              base::format_number(spec.times[i]), base::format_number(spec.times[i - 1])));
     }
     if (i > 1 && spec.times[i] == spec.times[i - 2]) {
-      table.fail("times", fmt::format("found {} three times, expected at most twice (a jump)",
+      table.fail("times", fmt::format("found time {} three times, expected it at most twice (a jump)",
                                       base::format_number(spec.times[i])));
     }
   }
@@ -336,8 +342,10 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   const double rounds = std::max(1.0, std::ceil((t_end - first) / *period));
   const double each = tabulated ? static_cast<double>(spec.times.size()) : 3.0;
   if (!(rounds * each <= most_pieces))
-    table.fail("period", fmt::format("found the number {}, expected at most {:.0e} pieces up to t_end = {}",
-                                     base::format_number(*period), most_pieces, base::format_number(t_end)));
+    table.fail("period",
+               fmt::format(
+                   "found the number {}, which gives {:.3g} pieces up to t_end = {}, expected at most {:.3g}",
+                   base::format_number(*period), rounds * each, base::format_number(t_end), most_pieces));
   spec.period = *period;
   spec.rounds = static_cast<int>(rounds);
 }

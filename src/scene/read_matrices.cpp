@@ -31,8 +31,8 @@ MatrixSpec from_rows(const Table& table, std::string_view key, const toml::array
     const std::vector<double> row = number_array(node, table.path(key), "a row of numbers");
     if (row.size() != rows.size()) {
       refuse(place_of(node), table.path(key),
-             fmt::format("found a row of {} in a matrix of {} rows, expected a square matrix", row.size(),
-                         rows.size()));
+             fmt::format("found a row of {} in a matrix of {}, expected a square matrix",
+                         base::count_text(row.size(), "number"), base::count_text(rows.size(), "row")));
     }
     for (int j = 0; j < matrix.size; ++j) matrix.entries.push_back({i, j, row[static_cast<std::size_t>(j)]});
     ++i;
@@ -88,7 +88,7 @@ void check_symmetric(const Table& table, std::string_view key, const MatrixSpec&
     if (std::abs(e.value - mirrored) > 1e-10 * greatest) {
       const std::string& a = dofs[static_cast<std::size_t>(e.row)];
       const std::string& b = dofs[static_cast<std::size_t>(e.column)];
-      table.fail(key, fmt::format("found {} in ({}, {}) and {} in ({}, {}), expected a symmetric matrix",
+      table.fail(key, fmt::format("found {} at ({}, {}) and {} at ({}, {}), expected a symmetric matrix",
                                   base::format_number(e.value), a, b, base::format_number(mirrored), b, a));
     }
   }
@@ -103,9 +103,9 @@ void check_mass(const Table& table, const MatrixSpec& mass, const std::vector<st
     const auto row = static_cast<std::size_t>(e.row);
     if (diagonal[row] < 0.0 || (diagonal[row] == 0.0 && e.row != e.column)) {
       table.fail("mass",
-                 fmt::format("found {} on the diagonal of \"{}\", expected a mass >= 0{}",
+                 fmt::format("found {} on the diagonal of \"{}\", expected a mass {}",
                              base::format_number(diagonal[row]), dofs[row],
-                             diagonal[row] < 0.0 ? "" : ", and > 0 in a row with off-diagonal entries"));
+                             diagonal[row] < 0.0 ? ">= 0" : "> 0, because its row has off-diagonal entries"));
     }
   }
 }
@@ -121,7 +121,7 @@ std::vector<std::string> read_dofs(Table& table, int size) {
         table.fail("dofs", fmt::format("found \"{}\" twice, expected different names", name));
     }
     if (dofs.size() != static_cast<std::size_t>(size)) {
-      table.fail("dofs", fmt::format("found {}, expected one for each of the {} rows of the mass matrix",
+      table.fail("dofs", fmt::format("found {}, expected {}, one for each row of the mass matrix",
                                      base::count_text(dofs.size(), "name"), size));
     }
     return dofs;

@@ -99,7 +99,7 @@ std::vector<std::string> read_one_or_more_nodes(Table& table, const NameScope& s
   }
   if (table.has("node")) table.fail("nodes", "cannot be combined with node; give only one of them");
   std::vector<std::string> names = read_node_names(table, "nodes", space);
-  if (names.empty()) table.wrong("nodes", "names of nodes");
+  if (names.empty()) table.wrong("nodes", "the name of at least one node");
   return names;
 }
 
@@ -109,7 +109,7 @@ std::vector<double> read_vector_file(Table& table, std::string_view key, const N
   std::ifstream in = open_data_file(table, key, path);
   std::vector<double> values = read_market_vector(in, path.string(), table.path(key));
   if (values.size() != size)
-    table.fail(key, fmt::format("found a file of {}, expected one for each of the {} degrees of freedom",
+    table.fail(key, fmt::format("found a file of {}, expected {}, one for each degree of freedom",
                                 base::count_text(values.size(), "row"), size));
   return values;
 }

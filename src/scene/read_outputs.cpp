@@ -82,8 +82,9 @@ void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {
       scene.contacts[check_known(output.at[0], names, "contact", table.place("at"), table.path("at"))];
   read_quantity(table, output, "\"N\", \"T\", \"gap\", \"slip\", \"loss\"");
   if (output.quantity == OutputQuantity::gap && contact.capabilities().normal_force_given)
-    table.fail("quantity",
-               fmt::format("found \"gap\" of contact \"{}\", a slider, which has no gap", contact.name));
+    table.fail("quantity", fmt::format("found \"gap\", but contact \"{}\" is a slider and has no gap; "
+                                       "expected \"N\", \"T\", \"slip\" or \"loss\"",
+                                       contact.name));
 }
 
 /// Reads the factor of an output in a combination: a number, or a table with a unit.
@@ -99,10 +100,11 @@ OutputTerm read_term(Table& terms, const Entry& entry, const Scene& scene) {
   const std::string text = table.text("unit");
   const std::optional<Unit> unit = unit_of_text(text, scene.units);
   if (!unit)
-    table.fail("unit",
-               fmt::format("found \"{}\", expected a product of powers of {}, {}, {}, {}, as \"1/{}^2\"",
-                           text, scene.units.force, scene.units.mass, scene.units.length, scene.units.time,
-                           scene.units.length));
+    table.fail(
+        "unit",
+        fmt::format("found \"{}\", expected a product of powers of {}, {}, {} and {}, such as \"1/{}^2\"",
+                    text, scene.units.force, scene.units.mass, scene.units.length, scene.units.time,
+                    scene.units.length));
   term.unit = *unit;
   table.finish();
   terms.record(entry.name, table.record().inline_table());
@@ -123,18 +125,20 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
   for (const Entry& entry : entries_of(terms.node())) {
     const std::size_t i = check_known(entry.name, names, "output", entry.place(), terms.path(entry.name));
     if (scene.outputs[i].quantity == OutputQuantity::loss)
-      terms.fail(entry.name, "is a loss, which a combination cannot contain: it has no value between rows");
+      terms.fail(entry.name,
+                 "is a loss; a combination cannot contain it, because a loss has no value between rows");
     if (!can_be_combined(scene.outputs[i]))
       terms.fail(entry.name,
-                 "is a greatest value (envelope or both fibres), which a combination cannot contain");
+                 "is a greatest value (of an envelope or of both fibres); a combination cannot contain it");
     output.terms.push_back(read_term(terms, entry, scene));
     const OutputTerm &first = output.terms.front(), &term = output.terms.back();
     if (!same_unit(unit_of_term(first, scene.outputs), unit_of_term(term, scene.outputs)))
-      terms.fail(entry.name, fmt::format("terms {} and {} have different units; give the factor a unit: {{ "
-                                         "factor = ..., unit = \"...\" }}",
-                                         described(term, scene), described(first, scene)));
+      terms.fail(entry.name,
+                 fmt::format("terms {} and {} have different units; give one of the factors a unit: {{ "
+                             "factor = ..., unit = \"...\" }}",
+                             described(term, scene), described(first, scene)));
   }
-  if (output.terms.empty()) table.fail("terms", "found none, expected { name = factor }");
+  if (output.terms.empty()) table.fail("terms", "found no output, expected { name = factor }");
   table.record("terms", terms.record().inline_table());
 }
 
@@ -156,8 +160,11 @@ void read_spring(Table& table, OutputSpec& output, const Scene& scene) {
   if (!table.has("spring")) table.require("spring", "");
   const int number = table.integer("spring");
   if (static_cast<std::size_t>(number) > scene.springs.size())
-    table.fail("spring", fmt::format("found {}, expected a number from 1 to {}, of [[springs]]", number,
-                                     scene.springs.size()));
+    table.fail("spring",
+               scene.springs.empty()
+                   ? fmt::format("found {}, but the scene has no [[springs]]", number)
+                   : fmt::format("found {}, expected the number of a spring in [[springs]], from 1 to {}",
+                                 number, scene.springs.size()));
   output.spring = static_cast<std::size_t>(number) - 1;
   output.rotation = table.flag("rotation");
 }

@@ -39,7 +39,8 @@ void read_output(Table& table, RunSpec& run) {
     table.record("output_dt", toml_number(*run.output_dt));
   }
   if (run.output_dt && !(run.t_end / *run.output_dt <= most_output_rows)) {
-    table.fail("output_dt", fmt::format("found the number {}, expected at most 1e8 rows up to t_end = {}",
+    table.fail("output_dt", fmt::format("found the number {}, which gives more than 1e8 rows up to t_end = "
+                                        "{}; expected a longer interval",
                                         base::format_number(*run.output_dt), base::format_number(run.t_end)));
   }
   if (run.output_times) check_times(table, "output_times", *run.output_times, run.t_end);
@@ -47,7 +48,7 @@ void read_output(Table& table, RunSpec& run) {
 
 void read_frames(Table& table, RunSpec& run, bool matrices) {
   if (matrices && table.has("frames")) {
-    table.fail("frames", "has no meaning with [matrices], which have no shape");
+    table.fail("frames", "has no meaning with [matrices], because matrices define no shape");
   }
   run.frames = table.numbers("frames").value_or(std::vector<double>{});
   check_times(table, "frames", run.frames, run.t_end);
@@ -103,7 +104,7 @@ void read_steps(Table& table, RunSpec& run) {
   run.step = table.choice("step") == "doubling" ? StepControl::doubling : StepControl::fixed;
   if (run.step == StepControl::doubling && steps && !has_key(*engine, "step"))
     table.fail("step",
-               fmt::format("found \"doubling\", which engine \"{}\" does not have; expected \"fixed\"",
+               fmt::format("found \"doubling\", which engine \"{}\" does not support; expected \"fixed\"",
                            engine->name));
   run.relaxation = table.number("relaxation");
   if (run.relaxation > 1.0)
@@ -154,7 +155,8 @@ std::vector<double> RunSpec::grid() const {
   }
   const double dt_out = output_dt.value_or(t_end / 1000.0);
   if (!(t_end / dt_out <= scene::most_output_rows))
-    throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
+    throw SceneError(place, "run.output_dt",
+                     "gives more than 1e8 rows up to t_end; expected a longer interval");
   // Row k has the time k dt, a product and not a sum, so that rounding errors do not accumulate. If the last product equals
   // t_end up to rounding, the last time is t_end.
   times.reserve(static_cast<std::size_t>(t_end / dt_out) + 2);

@@ -95,7 +95,8 @@ void check_schema(const toml::table& root, const std::string& file) {
     refuse(place_of(*schema), "schema", "found " + describe(*schema) + ", expected 1");
   }
   if (entries[0].name != "schema") {
-    refuse(place_of(*schema), "schema", fmt::format("found after \"{}\", expected first", entries[0].name));
+    refuse(place_of(*schema), "schema",
+           fmt::format("found after \"{}\", expected as the first key of the file", entries[0].name));
   }
 }
 
@@ -109,15 +110,16 @@ void compare_with_run(Scene& scene) {
   const toml::table run = parse_text(text, path.string()), here = parse_text(scene.resolved, scene.file);
   if (!same_units(run, here))
     throw SceneError(scene.initial.place, "run.initial.run",
-                     fmt::format("found a run in {}, expected one in the units of this scene, {}",
+                     fmt::format("found a run in the units {}, expected the units of this scene, {}",
                                  units_of(run), units_of(here)));
   const bool had_geometric = run.at_path("run.geometric").value_or(false);
   if (had_geometric && scene.run.geometric && !scene.initial.saved->prestress)
     throw SceneError(
         scene.initial.place, "run.initial.run",
-        fmt::format("found no {}, expected the frozen static forces of that run, which had run.geometric = "
-                    "true (run.toml): its stiffness depends on them",
-                    (std::filesystem::path(scene.initial.saved->run) / prestress_file).string()));
+        fmt::format(
+            "found no {}, expected this file of the frozen static forces, because the stiffness of a run "
+            "with run.geometric = true depends on them",
+            (std::filesystem::path(scene.initial.saved->run) / prestress_file).string()));
   scene.initial.saved->structure_differences = differing_structure(run, here);
 }
 

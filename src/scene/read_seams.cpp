@@ -28,9 +28,10 @@ int index_of(const Table& table, const SurfaceNode& node, Scene& scene) {
     return static_cast<int>(scene.surface_nodes.size()) - 1;
   }
   if (same->ux != node.ux || same->uy != node.uy || same->x != node.x || same->y != node.y)
-    table.fail(node.ux == same->ux ? "ux" : "uy",
-               fmt::format("found \"{}\" at two places, [{:.9g}, {:.9g}] and [{:.9g}, {:.9g}], expected one",
-                           node.ux == same->ux ? node.ux : node.uy, same->x, same->y, node.x, node.y));
+    table.fail(
+        node.ux == same->ux ? "ux" : "uy",
+        fmt::format("found \"{}\" at two places, [{:.9g}, {:.9g}] and [{:.9g}, {:.9g}], expected one place",
+                    node.ux == same->ux ? node.ux : node.uy, same->x, same->y, node.x, node.y));
   return static_cast<int>(same - scene.surface_nodes.begin());
 }
 
@@ -42,7 +43,7 @@ std::vector<SurfaceNode> read_surface_nodes(Table& table, const Names& dofs) {
       {"y", y->size()}, {"ux", ux.size()}, {"uy", uy.size()}};
   for (const auto& [key, count] : counts)
     if (count != x->size())
-      table.fail(key, fmt::format("found {}, expected one for each of the {} places of x",
+      table.fail(key, fmt::format("found {}, expected {}, one for each entry of x",
                                   base::count_text(count, "entry"), x->size()));
   std::vector<SurfaceNode> nodes;
   for (std::size_t i = 0; i < x->size(); ++i) {
@@ -62,7 +63,9 @@ std::vector<PlaneMesh::Edge> edges_of(Table& table, std::vector<int> nodes) {
   if (nodes.size() < step + 1 || (nodes.size() - 1) % step != 0)
     table.fail(
         "x", fmt::format("found {}, expected {}", base::count_text(nodes.size() - (closed ? 1 : 0), "place"),
-                         quadratic ? "an end, a middle, an end and so on" : "two or more"));
+                         !quadratic ? "two or more"
+                         : closed   ? "an even number of places: end, middle, end, middle, ..."
+                                    : "an odd number of places, at least 3: end, middle, end, ..."));
   std::vector<PlaneMesh::Edge> edges;
   for (std::size_t i = 0; i + step < nodes.size(); i += step) {
     edges.push_back({{nodes[i], nodes[i + step]}});
@@ -127,7 +130,8 @@ void read_layer(Table& table, SeamLaw& law) {
   if (G && law.contact.friction.any()) law.tangential_stiffness = *G / thickness;
   for (const double k : {law.normal_stiffness, law.tangential_stiffness.value_or(1.0)})
     if (!std::isnormal(k))
-      table.fail("layer", fmt::format("found a stiffness of {}, expected a number > 0", k));
+      table.fail("layer",
+                 fmt::format("these values give a stiffness of {}, expected a finite number > 0", k));
   table.record("layer", layer.record().inline_table());
 }
 
@@ -145,7 +149,7 @@ void read_springs_of(Table& table, SeamLaw& law) {
   if (law.contact.friction.stribeck_velocity)
     table.fail("friction",
                "found a stribeck_velocity, expected none with tangential_stiffness: the sliding point has "
-               "no mass, so its motion is not unique if friction decreases with its rate");
+               "no mass, so its motion is not unique if friction decreases with the slip rate");
 }
 
 /// True if the key has this word as its value. The key is not recorded here; its reader records it.
@@ -161,9 +165,10 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
   contact.law = table.choice("law") == "rigid" ? Law::rigid : Law::compliant;
   contact.friction = read_friction(table);
   if (contact.friction.is_load_dependent())
-    table.fail("friction",
-               "found light, heavy and force, expected one coefficient: the force at a node of a seam "
-               "depends on its mesh");
+    table.fail(
+        "friction",
+        "found light, heavy and force, expected one coefficient, because the force at a node of a seam "
+        "depends on the mesh");
   contact.normal_force = constant_history(0.0);
   if (contact.law == Law::rigid && is_word(table, "contact_mass", "none")) {
     // A contact without mass does not rebound, so there is no restitution to read.
@@ -267,16 +272,15 @@ mesh::MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& s
   if (!seam.negative.empty())
     table.fail(
         "slave",
-        fmt::format("node {} lies at the end of a quadratic edge that the master covers only in part, so no "
-                    "length belongs to it: end the master at a node of the slave, or exchange slave and "
-                    "master",
-                    base::join_quoted(mesh_names(seam.negative, scene), 3)));
-  if (!seam.corners.empty())
-    table.fail(
-        "slave",
         fmt::format(
-            "the boundary has a corner of more than 45 degrees at node {}: give each side its own seam",
-            base::join_quoted(mesh_names(seam.corners, scene), 3)));
+            "no length of the seam belongs to node{} {}, at the end of a quadratic edge that the master "
+            "covers only in part: end the master at a node of the slave, or exchange slave and master",
+            seam.negative.size() == 1 ? "" : "s", base::join_quoted(mesh_names(seam.negative, scene), 3)));
+  if (!seam.corners.empty())
+    table.fail("slave", fmt::format("the boundary has a corner of more than 45 degrees at node{} {}: give "
+                                    "each side of a corner its own seam",
+                                    seam.corners.size() == 1 ? "" : "s",
+                                    base::join_quoted(mesh_names(seam.corners, scene), 3)));
   if (seam.nodes.empty()) table.fail("master", "the master faces no part of the slave boundary");
   remove_shared_nodes(table, scene, seam);
   return seam;
@@ -338,8 +342,10 @@ void read_tied(Table& table, const std::string& name, Scene& scene) {
     TieSpec tie{name, k.node, k.master, table.place()};
     for (const TieSpec& other : scene.ties)
       if (other.node == k.node)
-        table.fail("slave", fmt::format("node {} is tied by seam \"{}\" already",
-                                        scene.nodes[static_cast<std::size_t>(k.node)].name, other.seam));
+        table.fail(
+            "slave",
+            fmt::format("node {} is tied by seam \"{}\" already, expected at most one tied seam at a node",
+                        scene.nodes[static_cast<std::size_t>(k.node)].name, other.seam));
     scene.ties.push_back(std::move(tie));
   }
 }

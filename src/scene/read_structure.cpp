@@ -42,8 +42,9 @@ std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
   if (node && node->is_array()) {
     const toml::array& array = *node->as_array();
     if (array.size() != pieces) {
-      table.fail("elements", fmt::format("found {}, expected one number, or one for each of the {}",
-                                         describe(*node), base::count_text(pieces, "piece")));
+      table.fail("elements",
+                 fmt::format("found {}, expected an integer, or an array of {}, one for each piece",
+                             describe(*node), base::count_text(pieces, "integer")));
     }
     for (std::size_t i = 0; i < pieces; ++i) elements[i] = count(array[i]);
   } else if (node) {
@@ -89,7 +90,9 @@ void read_lines(Table& top, Scene& scene, ResolvedScene& record) {
     const auto from = table.vector("from"), to = table.vector("to");
     const int pieces = table.integer("pieces");
     if (pieces > most_elements - static_cast<int>(scene.nodes.size()))
-      table.fail("pieces", fmt::format("found {}, expected at most {} nodes in all", pieces, most_elements));
+      table.fail("pieces",
+                 fmt::format("found {}, expected fewer pieces, because a scene can have at most {} nodes",
+                             pieces, most_elements));
     for (int i = 0; i <= pieces; ++i) {
       const double s = static_cast<double>(i) / pieces;
       const std::string own = fmt::format("{}{}", name, i);
@@ -114,9 +117,10 @@ void read_release(Table& table, Member& member) {
   if (!member.release.empty() && member.type == MemberType::bar)
     table.fail("release", "has no meaning for a bar, which is hinged at both ends");
   if (!member.release.empty() && member.nodes.front() == member.nodes.back())
-    table.fail("release", fmt::format("found \"{}\", which is the member's first and last node: expected a "
-                                      "member with two ends",
-                                      member.nodes.front()));
+    table.fail("release",
+               fmt::format("found \"{}\", which is the first and the last node of the member; expected a "
+                           "member with two different ends",
+                           member.nodes.front()));
   if (member.release.size() == 2 && member.release[0] == member.release[1])
     table.fail("release", "found \"" + member.release[0] + "\" twice, expected each end once");
 }
@@ -180,8 +184,10 @@ void read_members(Table& top, Scene& scene, ResolvedScene& record) {
     const Section& section = scene.sections[check_known(member.section, sections, "section",
                                                         table.place("section"), table.path("section"))];
     if (member.type == MemberType::beam && section.EI == 0.0) {
-      table.fail("section",
-                 fmt::format("section \"{}\" has no EI, expected one with EI for a beam", section.name));
+      table.fail(
+          "section",
+          fmt::format("section \"{}\" has no EI, expected a section with EI, because the member is a beam",
+                      section.name));
     }
     if (table.has("bend")) member.bend = read_bend(table, member, section, scene);
     member.elements = read_elements(table, member.nodes.size() - 1, member.bend.has_value());
@@ -228,8 +234,8 @@ double ring(double thickness, double inner_diameter) {
 double read_wall(Table& table, const char* key, double width, const char* of) {
   const double wall = table.number(key);
   if (!(2.0 * wall < width))
-    table.fail(key, fmt::format("found {}, expected less than half the {} {}", base::format_number(wall), of,
-                                base::format_number(width)));
+    table.fail(key, fmt::format("found {}, expected less than half of the {} {}", base::format_number(wall),
+                                of, base::format_number(width)));
   return wall;
 }
 
@@ -388,8 +394,9 @@ void read_rigid(Table& top, Scene& scene, ResolvedScene& record) {
     body.centre = read_centre(table, body.name, scene, nodes);
     std::erase(body.nodes, body.centre);
     if (body.nodes.empty())
-      table.fail("nodes",
-                 "found only the centre, expected other nodes; give a point with inertia in [[masses]]");
+      table.fail(
+          "nodes",
+          "found only the centre, expected other nodes; for a single node with inertia use [[masses]]");
     PointMass mass;
     mass.place = table.place();
     mass.key = table.path();

@@ -61,13 +61,13 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
   int number = 1;
   const auto fail = [&](const std::string& message) { throw SceneError({file, number, 0}, key, message); };
   std::vector<std::string> names, cells;
-  if (!base::read_csv_row(in, names)) fail("found no line, expected states of a run");
+  if (!base::read_csv_row(in, names)) fail("the file is empty, expected states of a run");
   if (names[0] != "t" || names.size() < 3) fail("found no heading \"t,...\", expected states of a run");
   SavedStates found;
   while (base::read_csv_row(in, cells)) {
     ++number;
     if (cells.size() != names.size())
-      fail(fmt::format("found {} cells, expected {}", cells.size(), names.size()));
+      fail(fmt::format("found {}, expected {}", base::count_text(cells.size(), "cell"), names.size()));
     SavedState state;
     double time = 0.0;
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -131,6 +131,7 @@ Table::Table(const toml::table* node, std::string kind, std::string path, Source
 }
 
 std::string Table::path(std::string_view name) const {
+  if (name.empty()) return path_;
   return path_.empty() ? std::string(name) : path_ + "." + std::string(name);
 }
 

@@ -41,6 +41,22 @@ std::string in_quotes(std::string_view text) {
   return '"' + std::string(text.substr(0, longest)) + (text.size() > longest ? "...\"" : "\"");
 }
 
+/// A short array of numbers as text, such as "[0.0, 5.0]"; empty for any other array.
+std::string short_numbers(const toml::array& array) {
+  constexpr std::size_t most = 4;
+  if (array.empty() || array.size() > most) return {};
+  std::vector<std::string> numbers;
+  for (const toml::node& item : array) {
+    if (const auto* integer = item.as_integer())
+      numbers.push_back(std::to_string(integer->get()));
+    else if (const auto* number = item.as_floating_point())
+      numbers.push_back(toml_number(number->get()));
+    else
+      return {};
+  }
+  return toml_array(numbers);
+}
+
 }  // namespace
 
 SourcePlace place_of(const toml::source_region& region) {
@@ -60,7 +76,9 @@ std::string describe(const toml::node& node) {
   if (const auto* value = node.as_floating_point()) return "the number " + toml_number(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "the boolean true" : "the boolean false";
   if (const auto* array = node.as_array()) {
-    return "an array of " + base::count_text(array->size(), "value");
+    const std::string numbers = short_numbers(*array);
+    return numbers.empty() ? "an array of " + base::count_text(array->size(), "value")
+                           : "the array " + numbers;
   }
   if (node.is_table()) return "a table";
   return "a date or time";

@@ -460,7 +460,7 @@ TEST_CASE("certified: what neither the run nor its companion can see is not cert
   CHECK_FALSE(blind.certificate.certain(0));
   CHECK(blind.certificate.until == doctest::Approx(sharp.rows.events[1].t).epsilon(0.5));
   CHECK(blind.certificate.reason.find(
-            "the compression of 'footD' returns to within the companion's tolerance") == 0);
+            "the compression of 'footD' is zero within the companion's tolerance") == 0);
   CHECK_FALSE(exact.certificate.certain(0));
 }
 

@@ -298,9 +298,9 @@ TEST_CASE("tables that are no measurements, and measurements that the run has no
   refused("event_index,t\n1,soon\n", ":2:2: t: found \"soon\", expected a finite number");
   refused("t,d0.u,sigma\n1,0.5,-1\n", ":2:3: sigma: found -1, expected a number > 0");
   refused("t,d0.u\n", ":2: found no measurement, expected at least one row");
-  refused("t,d0.u\n1,0.5\n2\n", ":3: found 1 cells, expected 2 as in the header");
-  refused("t,d0.u\n1,0.5,3\n", ":2: found 3 cells, expected 2 as in the header");
-  refused("t,d0.u\n1,0.5\n\n2,0.6\n", ":3: found a blank line, expected 2 as in the header");
+  refused("t,d0.u\n1,0.5\n2\n", ":3: found 1 cell, expected 2 cells, as many as in the header");
+  refused("t,d0.u\n1,0.5,3\n", ":2: found 3 cells, expected 2 cells, as many as in the header");
+  refused("t,d0.u\n1,0.5\n\n2,0.6\n", ":3: found a blank line, expected 2 cells, as many as in the header");
   refused("t,d0.u\n-0.1,0.5\n", ":2:1: t: found -0.1, expected a time >= 0; the run starts at t = 0");
   refused("event_index,t\n1,-0.1\n", ":2:2: t: found -0.1, expected a time >= 0; the run starts at t = 0");
   refused("event_index,t\n1,0.5\n2,0.6\n1,0.5\n",

@@ -218,7 +218,7 @@ TEST_CASE("a run in other units is refused, one of another structure taken with 
     FAIL("other units");
   } catch (const SceneError& error) {
     CHECK(std::string(error.what())
-              .find("run.initial.run: found a run in kN, t, m, s, expected one in the units of "
+              .find("run.initial.run: found a run in the units kN, t, m, s, expected the units of "
                     "this scene, N, t, mm, s") != std::string::npos);
   }
 }

@@ -288,10 +288,11 @@ TEST_CASE("flows: auto follows the pipeline in modes, and few unknowns or what m
     const Scene scene = read_scene(SIGNORINI_MODELS "/pipeline.toml", all);
     return simulate(build_model(scene), scene.run).report.method.flow_reason;
   };
-  CHECK(flow_of({}) == "auto: modes can follow the whole scene");
-  CHECK(flow_of({{"members.1.elements", "[1,1]"}}) == "auto: with so few unknowns the series is as fast");
+  CHECK(flow_of({}) == "auto: modes can compute the whole scene");
+  CHECK(flow_of({{"members.1.elements", "[1,1]"}}) ==
+        "auto: the scene has so few unknowns that the series is as fast as modes");
   CHECK(flow_of({{"contacts.first.tangential_damping", "10.0"}}) ==
-        "auto: modes cannot follow shear elements");
+        "auto: series, because the scene has shear elements");
   CHECK(flow_of({{"run.flow", "taylor"}}) == "as given");
 }
 
@@ -302,7 +303,7 @@ TEST_CASE(
     const Scene scene = read_scene(std::string(SIGNORINI_MODELS "/") + model, changes);
     return run::choose_flow(build_model(scene), scene.run).reason;
   };
-  const std::string gains = "auto: complex modes can follow the whole scene",
+  const std::string gains = "auto: complex modes can compute the whole scene",
                     dear = "auto: the complex modes of the contact states would cost as much as the series";
   CHECK(chosen("pipeline.toml", {{"contacts.first.normal_damping", "10.0"}}) == gains);
   CHECK(chosen("pipeline.toml", {{"damping.beta", "1e-8"}}) == gains);

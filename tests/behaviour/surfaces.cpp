@@ -189,11 +189,11 @@ name = "foot"
       "[[seams]]\nname = \"s\"\nlaw = \"compliant\"\nnormal_stiffness = 1.0\nmaster = \"ground\"\nslave = ";
   const std::pair<std::string, const char*> cases[] = {
       {"x = [0.0, 1.0]\ny = [0.0]\nux = [\"d0\", \"d1\"]\nuy = [\"\", \"\"]\n",
-       "surfaces.foot.y: found 1 entry, expected one"},
+       "surfaces.foot.y: found 1 entry, expected 2, one"},
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d7\"]\nuy = [\"\", \"\"]\n", "d7"},
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d0\"]\nuy = [\"\", \"\"]\n", "at two places"},
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d1\"]\nuy = [\"\", \"\"]\nquadratic = true\n",
-       "an end, a middle"},
+       "at least 3: end, middle, end"},
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d1\"]\nuy = [\"\", \"\"]\n" + joint + "\"toe\"\n",
        "no surface is named \"toe\"; known: 'foot'"},
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d1\"]\nuy = [\"\", \"\"]\n" + joint +

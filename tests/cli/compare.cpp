@@ -107,7 +107,7 @@ TEST_CASE("cli compare: a setting for one engine, and the first difference of th
       shell.run({"compare", "belt.toml", "--engines", "exact,ida", "--no-plots", "--set",
                  "ida:contacts.belt.friction=1.2", "--set", "run.t_end=25", "--limit", "sequence=0"});
   CHECK(ending.code == 5);
-  CHECK(has(ending.out, "they differ at t = "));
+  CHECK(has(ending.out, "first difference at t = "));
   CHECK(has(ending.err, "ida: sequence differs from t = "));
   const json report = json::parse(shell.read("belt-compare/compare.json"));
   const json& first = report["comparisons"][0]["first_difference"];

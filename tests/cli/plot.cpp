@@ -194,12 +194,13 @@ TEST_CASE("cli plot: a window beside the run is refused, and the pictures stay")
     const Ending ending = shell.run(line);
     CHECK(ending.code == 2);
     CHECK(ending.err ==
-          "error: " + window[0] + " " + window[1] + ": nothing to draw, the run covers t = 0 to 2\n");
+          "error: " + window[0] + " " + window[1] + ": nothing to draw, because the run covers t = 0 to 2\n");
     CHECK(shell.read("belt-run/plots/displacement.gp") == before);
   }
   const Ending between = shell.run({"plot", "belt-run", "--from", "1.01", "--to", "1.02"});
   CHECK(between.code == 2);
-  CHECK(between.err == "error: --from 1.01 --to 1.02: nothing to draw, no output time lies between\n");
+  CHECK(between.err ==
+        "error: --from 1.01 --to 1.02: nothing to draw, because no output time lies between these times\n");
   CHECK(shell.read("belt-run/plots/displacement.gp") == before);
 }
 

@@ -140,7 +140,7 @@ TEST_CASE("cli sweep: resumes where it was; a differing specification is refused
   shell.write("belt-sweep/rows.jsonl", row(4) + kept + row(2) + row(5).substr(0, 40));  // the last one half
   const Ending again = shell.run(command);
   CHECK(again.code == 0);
-  CHECK(again.err == "note: 3 rows of 5 already computed, 2 to go\n");
+  CHECK(again.err == "note: 3 rows of 5 already computed, 2 left\n");
   CHECK(row(1) == kept);  // wall time and all: not computed again
   CHECK(rows(shell, "belt-sweep") == before);
   for (const int n : {3, 5}) CHECK(has(row(n), "\"outcome\":\"done\""));
@@ -201,7 +201,7 @@ TEST_CASE("cli sweep: what is wrong is told before anything is written") {
       {{"belt.toml", "--vary", "run.rtol"}, "expected path=start:stop:step"},
       {{"belt.toml", "--vary", "contacts.belt.friction=0:1:-1"}, "never reach 1"},
       {{"belt.toml", "--vary", "contacts.bult.friction=0:1:1"},
-       "--vary contacts.bult.friction=0: contacts has 1 entry, none of them \"bult\""},
+       "--vary contacts.bult.friction=0: contacts has 1 entry, but no \"bult\""},
       {{"belt.toml", "--vary", "run.rtoll=1,2"}, "did you mean \"rtol\"?"},
       {{"belt.toml", "--vary", "contacts.belt.friction=0.1-0.5"},
        "found \"0.1-0.5\", expected start:stop:step, such as 0.1:0.5:0.1"},
@@ -399,7 +399,8 @@ TEST_CASE("cli sweep: contacts.* varies the contacts of stops, too, and says how
   const Ending ending = shell.run({"sweep", "guided.toml", "--vary", "contacts.*.friction=0.2,0.4", "--keep",
                                    "--no-plots", "--set", "masses.*.mass=1.0"});
   CHECK(ending.code == 0);
-  CHECK(has(ending.err, "note: --vary contacts.*.friction=0.2,0.4: 1 of [[contacts]], 1 of [[stops]]"));
+  CHECK(
+      has(ending.err, "note: --vary contacts.*.friction=0.2,0.4: matches 1 of [[contacts]], 1 of [[stops]]"));
   CHECK(has(ending.err, "note: --set masses.*.mass=1.0: 1 of [[masses]]"));
   const std::string run = shell.read("guided-sweep/runs/000002/run.toml");
   CHECK(has(run, "kinetic = 0.4"));

@@ -300,7 +300,7 @@ TEST_CASE("cli sweep: what is wrong with queries and samples is told before anyt
   refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--sequence", "halton"},
           "expected random or sobol");
   refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--samples", "0"},
-          "expected 1 to 1000000");
+          "expected an integer from 1 to 1000000");
   refused({"--sample", "masses.1.mass=normal(2,0.1)", "--vary", vary_mass, "--response", "max:x"},
           "varied already");
   refused({"--sample", "masses.1.mass=normal(-5,0.1)", "--response", "max:x"}, "--sample masses.1.mass=");

@@ -190,8 +190,8 @@ TEST_CASE("judge: what a companion leaves open ends it, what the run leaves open
   const certify::MatchResult verdict = certify::match_events(run, {other}, 2.0, names);
   CHECK(verdict.until == 2.5);
   CHECK(certain(verdict) == 2);
-  CHECK(verdict.reason.find(
-            "the separation of 'B' returns to within the companion's tolerance of zero at t = 2.5") == 0);
+  CHECK(verdict.reason.find("the separation of 'B' is zero within the companion's tolerance at t = 2.5") ==
+        0);
 }
 
 TEST_CASE("judge: a companion that stopped certifies up to there") {

@@ -103,8 +103,9 @@ TEST_SUITE("unit/report/load_cases") {
     CHECK(report::load_cases_csv(cases).find("\nshoe <1>,residual slip,m,0,,0,,\n") != std::string::npos);
     const auto doubts = report::load_case_warnings(cases);
     REQUIRE(doubts.size() == 1);
-    CHECK(doubts[0] ==
-          "case cut ended at t = 0.25 of 2 (interrupted); its values are not used as governing values");
+    CHECK(
+        doubts[0] ==
+        "case cut ended at t = 0.25 of 2 (interrupted); values of case cut are not used as governing values");
     const std::string page = report::load_cases_html(cases);
     CHECK(page.find("<td>run.t_end=1, a&lt;b=0</td><td>exact</td><td><b>interrupted</b></td>") !=
           std::string::npos);
@@ -125,8 +126,8 @@ TEST_SUITE("unit/report/load_cases") {
     const auto one = runs.add("one", summary("1", "-1", "0"));
     CHECK_THROWS_WITH_AS(report::read_load_cases({one, runs.path / "none"}),
                          doctest::Contains("not a directory"), FileError);
-    CHECK_THROWS_WITH_AS(report::read_load_cases({one, one}),
-                         doctest::Contains("which another case has, too"), FileError);
+    CHECK_THROWS_WITH_AS(report::read_load_cases({one, one}), doctest::Contains("of another load case"),
+                         FileError);
     const auto newtons = runs.add("newtons", summary("1", "-1", "0", "N"));
     CHECK_THROWS_WITH_AS(report::read_load_cases({one, newtons}),
                          doctest::Contains("has the units N, m, s, but "), FileError);

@@ -31,7 +31,7 @@ TEST_CASE("a part of gravity where the scene leaves it out: the other part is ze
       "run = { t_end = 1.0 }\nnodes = { b = [0.0, 1.0] }\nmasses = [{ node = \"b\", mass = 2.0 }]\n";
   CHECK(parse_scene(text, "test.toml", {{"gravity.2", "-9.81"}}).gravity == std::array{0.0, -9.81});
   CHECK_THROWS_WITH_AS((void)parse_scene(text, "test.toml", {{"gravity.3", "1"}}),
-                       doctest::Contains("gravity has 2 entries, none of them \"3\""), UsageError);
+                       doctest::Contains("gravity has 2 entries, but no \"3\""), UsageError);
 }
 
 TEST_CASE("overrides reach every kind of place") {
@@ -113,16 +113,17 @@ TEST_CASE("contacts.* are those of [[stops]], too") {
 
 TEST_CASE("a path with * says how many tables it met") {
   const toml::table root = toml::parse(guided("tangential_stiffness = 1e3\n"));
-  CHECK(scene::count_matching_tables(root, "contacts.*.friction") == "3 of [[contacts]], 2 of [[stops]]");
-  CHECK(scene::count_matching_tables(root, "stops.*.friction") == "2 of [[stops]]");
+  CHECK(scene::count_matching_tables(root, "contacts.*.friction") ==
+        "matches 3 of [[contacts]], 2 of [[stops]]");
+  CHECK(scene::count_matching_tables(root, "stops.*.friction") == "matches 2 of [[stops]]");
   CHECK(scene::count_matching_tables(root, "masses.*.mass") == "3 of [[masses]]");
   CHECK(scene::count_matching_tables(root, "contacts.under-a.friction").empty());
   CHECK(scene::count_matching_tables(root, "contacts.*.tangent") ==
-        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
+        "matches 3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   // A guide without a tangential stiffness stays without friction, and is told.
   const std::string smooth = guided("");
   CHECK(scene::count_matching_tables(toml::parse(smooth), "contacts.*.friction") ==
-        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
+        "matches 3 of [[contacts]], 0 of [[stops]] (2 cannot have this key with their present settings)");
   const Scene scene = parse_scene(smooth, "test.toml", {{"contacts.*.friction", "0.7"}});
   CHECK(scene.contacts[0].friction.static_ == 0.7);
   CHECK_FALSE(scene.contacts[3].friction.any());
@@ -160,8 +161,8 @@ TEST_CASE("wrong overrides name themselves") {
   check_refused({"run.rtoll", "1e-3"}, "run.rtoll: unknown key; did you mean \"rtol\"?");
   check_refused({"runn.rtol", "1e-3"}, "--set runn.rtol=1e-3: unknown key; did you mean \"run\"?");
   check_refused({"contacts.frist.friction", "1"},
-                "contacts has 2 entries, none of them \"frist\"; did you mean \"first\"?");
-  check_refused({"contacts.3.friction", "1"}, "contacts has 2 entries, none of them \"3\"");
+                "contacts has 2 entries, but no \"frist\"; did you mean \"first\"?");
+  check_refused({"contacts.3.friction", "1"}, "contacts has 2 entries, but no \"3\"");
   check_refused({"masses.*.mass", "1"}, "masses");
   check_refused({"run.t_end.x", "1"}, "run.t_end is the number 1.2, not a table");
   check_refused({"run.t_end", "1e-1O"}, "found the string \"1e-1O\", expected a number > 0");

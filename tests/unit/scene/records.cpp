@@ -47,7 +47,7 @@ TEST_CASE("a record of PEER, in g") {
   CHECK(table.times == std::vector<double>{0.0, 0.01, 0.02});
   CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", {0, 0.0, true})
             .find("expected 4, the number given by NPTS") != std::string::npos);
-  CHECK(refusal(heading + "no numbers\n1 2 3\n", {0, 0.0, true}).find("or similar in the fourth line") !=
+  CHECK(refusal(heading + "no numbers\n1 2 3\n", {0, 0.0, true}).find("in the fourth line of the PEER file") !=
         std::string::npos);
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("columns, values alone, periods and shifts") {
 
 TEST_CASE("a heading of times and values is none of values alone") {
   for (const char* text : {"t,a\n0,0\n0.5,1\n", "# m\nTime (s); force\n0;0\n0.5;1\n"}) {
-    CHECK(refusal(text, {0, 0.25, false}).find("expected values only, since time_step is given") !=
+    CHECK(refusal(text, {0, 0.25, false}).find("expected values only, because time_step is given") !=
           std::string::npos);
     CHECK(refusal(text, {}) == "none");
   }

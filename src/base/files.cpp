@@ -43,9 +43,10 @@ void check_output_directory(const fs::path& path, const ResultsKind& kind, bool 
                     fmt::format("directory exists and is not empty; use --force to replace the {} in it",
                                 kind.description));
   if (!fs::exists(path / kind.marker, error))
-    throw FileError(path.string(),
-                    fmt::format("is not empty and contains no {} (no {}) that --force could replace",
-                                kind.description, kind.marker));
+    throw FileError(
+        path.string(),
+        fmt::format("is not empty, and --force replaces only a {} (found no {}); choose another directory",
+                    kind.description, kind.marker));
 }
 
 void check_output_file(const fs::path& path, const std::string& what, std::string_view mark) {
@@ -57,10 +58,11 @@ void check_output_file(const fs::path& path, const std::string& what, std::strin
   file.read(begin.data(), first_bytes);
   begin.resize(static_cast<std::size_t>(file.gcount()));
   if (begin.find(mark) == std::string::npos)
-    throw FileError(path.string(),
-                    fmt::format("exists and is no {} that could be replaced; give another name, or "
-                                "remove the file",
-                                what));
+    throw FileError(
+        path.string(),
+        fmt::format(
+            "already exists and is not a {}, so it is not replaced; give another name, or remove the file",
+            what));
 }
 
 fs::path make_directory(const fs::path& path) {

@@ -68,11 +68,10 @@ ManifestEntry entry_of(const fs::path& directory, std::string_view file) {
 
 [[noreturn]] void refuse(const fs::path& directory, std::string_view file, const std::string& found) {
   const std::string manifest = (directory / manifest_file).string();
-  throw FileError(
-      (directory / file).string(),
-      fmt::format("{} as in {}; the file is damaged, or was changed after the run. Compute the run again, "
-                  "or delete {} if the change was intended",
-                  found, manifest_file, manifest));
+  throw FileError((directory / file).string(),
+                  fmt::format("{} as in {}; the file is damaged, or was changed or removed after the run. "
+                              "Compute the run again, or delete {} if the change was intended",
+                              found, manifest_file, manifest));
 }
 
 void check_file(const fs::path& directory, const Manifest& manifest, std::string_view file) {
@@ -81,8 +80,8 @@ void check_file(const fs::path& directory, const Manifest& manifest, std::string
   if (expected == nullptr) {
     if (!is_there(path)) return;
     throw FileError(path.string(),
-                    fmt::format("found a file that {} does not list: it does not belong to this run, or is "
-                                "incomplete. Delete it, or delete {} if the change was intended",
+                    fmt::format("found a file that {} does not list: the file does not belong to this run, "
+                                "or is incomplete. Delete the file, or delete {} if the change was intended",
                                 manifest_file, (directory / manifest_file).string()));
   }
   if (!is_there(path)) refuse(directory, file, fmt::format("not found, expected {} bytes", expected->size));
@@ -147,9 +146,10 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
     }
     return manifest;
   } catch (const Json::exception& error) {
-    throw FileError(path.string(),
-                    std::string("is not a manifest of a run: ") + error.what() +
-                        "; compute the run again, or delete the manifest: its files are then not checked");
+    throw FileError(
+        path.string(),
+        std::string("is not a manifest of a run: ") + error.what() +
+            "; compute the run again, or delete the manifest; the files of the run are then not checked");
   }
 }
 
@@ -178,10 +178,10 @@ void check_run_files(const fs::path& directory, const std::vector<std::string_vi
 std::string unchecked_reason(const fs::path& directory) {
   if (is_there(directory / manifest_file)) return "";
   std::string why = fmt::format(
-      "{}: no {}: the run may not have finished, or is of an earlier version; its files are not checked",
+      "{} has no {}: the run may not have finished, or an earlier version made it; its files are not checked",
       directory.string(), manifest_file);
   if (is_cut(directory / "states.csv"))
-    why += ". The last line of states.csv has no line end: its state is ignored";
+    why += ". The last line of states.csv has no line end, so its state is ignored";
   return why;
 }
 

@@ -56,8 +56,8 @@ Refusal no_system(const Model& model, const contact::ContactStates& states) {
     return why;
   }
   return {Refusal::Kind::singular,
-          "the equations of motion are singular: the least stiffnesses and masses are below the rounding of "
-          "the greatest, or outside the range of doubles",
+          "the equations of motion are singular: stiffnesses or masses differ by more than double precision "
+          "resolves, or leave the range of doubles",
           {}};
 }
 
@@ -68,7 +68,7 @@ std::string springs_for_uniqueness(const Model& model, const std::vector<std::si
                                    [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
   const bool others = std::any_of(contacts.begin(), contacts.end(),
                                   [&](std::size_t k) { return !model.contacts[k].normal_force_given(); });
-  return sliders && others ? "law = \"compliant\", for sliders a tangential_stiffness,"
+  return sliders && others ? "law = \"compliant\" (for sliders a tangential_stiffness)"
          : sliders         ? "a tangential_stiffness"
                            : "law = \"compliant\"";
 }
@@ -363,7 +363,7 @@ Refusal ContactStateSolver::try_next(SolverState& solver_state) {
     if (evaluate(solver_state.after, solver_state.states, solver_state)) return {};
   }
   Refusal why = dependent_rows(contacts_of(solver_state.failed));
-  why.reason += fmt::format(" (after {}); {} makes them unique", names_of(model_, solver_state.failed),
+  why.reason += fmt::format(" (after {}); {} makes the forces unique", names_of(model_, solver_state.failed),
                             springs_for_uniqueness(model_, why.contacts));
   return why;
 }
@@ -506,7 +506,7 @@ Refusal ContactStateSolver::held_at_rest(const SolverState& solver_state) const 
     sticking[c].state = State::stick;
     if (systems_.system_of(sticking)) continue;
     Refusal why = dependent_rows({c});
-    why.reason += fmt::format(" ('{}' stops slipping); {} makes them unique", model_.contacts[c].name,
+    why.reason += fmt::format(" ('{}' stops slipping); {} makes the forces unique", model_.contacts[c].name,
                               springs_for_uniqueness(model_, why.contacts));
     return why;
   }

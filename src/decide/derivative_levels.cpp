@@ -176,8 +176,9 @@ Refusal DerivativeLevels::refusal(const Level& level, const EnumerationResult& a
       result.reason += fmt::format(", and {:.6g} together with friction in {}", sliding * per_force,
                                    to_string(contact::slip_state(item.sign)));
     else if (item.kind == Kind::frictional)
-      result.reason += fmt::format(", one unit of -T adds {:.6g}, the coefficient of friction is {:.6g}",
-                                   problem.W(n, t) * per_force, item.static_friction);
+      result.reason +=
+          fmt::format(", one unit of -T adds {:.6g} to g'', the coefficient of friction is {:.6g}",
+                      problem.W(n, t) * per_force, item.static_friction);
   }
   return result;
 }

@@ -36,8 +36,8 @@ const DataLaw& yielding_law() {
         if (std::isnormal(deflection)) return std::nullopt;
         return std::pair{
             std::string_view("yield_force"),
-            fmt::format("found {}, which gives a deflection of {} at yield with normal_stiffness, expected a "
-                        "number > 0",
+            fmt::format("found {}, so the deflection at yield, yield_force / normal_stiffness, is {}; "
+                        "expected a force > 0 whose deflection is within the range of doubles",
                         base::format_number(constants[0]), base::format_number(deflection))};
       }};
   return law;

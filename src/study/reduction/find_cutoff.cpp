@@ -314,7 +314,8 @@ Trial trial(const Scene& scene, const SystemMatrices& structure, const SystemMat
   result.ended = report.outcome.kind == Outcome::Kind::interrupted;
   if (result.ended) return result;
   if (report.outcome.kind == Outcome::Kind::stopped) {
-    result.failure = fmt::format("a trial with {} modes stopped at t = {:.6g}: {}", cutoff.kept,
+    result.failure = fmt::format("a trial with {} stopped at t = {:.6g}: {}",
+                                 base::count_text(static_cast<std::size_t>(cutoff.kept), "mode"),
                                  report.outcome.t, report.outcome.reason);
     return result;
   }

@@ -102,11 +102,14 @@ struct GivenPlace {
   bool velocity = false;
   int dof = 0;
 };
-/// Names, for messages, of the degrees of freedom that determine the tied motion `tied`; empty if only supports determine it.
-std::string determining_dofs(const assembly::DofMap& map, int tied) {
+/// Names, for messages, of the displacements or rates that determine the tied motion `tied`; empty if only supports do.
+std::string determining_dofs(const assembly::DofMap& map, int tied, bool rates) {
   std::vector<std::string> names;
   for (const assembly::TiedTerm& term : map.terms(tied))
-    if (term.number >= 0) names.push_back(map.dofs[static_cast<std::size_t>(term.number)].displacement);
+    if (term.number >= 0) {
+      const Dof& dof = map.dofs[static_cast<std::size_t>(term.number)];
+      names.push_back(rates ? dof.velocity : dof.displacement);
+    }
   return base::join_quoted(names, 3);
 }
 
@@ -128,12 +131,12 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
   if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
     return std::nullopt;  // a node of a seam: other nodes determine its motion
   if (map.is_tied(number)) {
-    const std::string names = determining_dofs(map, number);
+    const std::string names = determining_dofs(map, number, named->rate);
     throw SceneError(
         c.place, key,
         fmt::format("node '{}' is part of a rigid body, so its motion follows from {}; {}", c.node,
                     names.empty() ? "the supports of this body" : "the motion of this body",
-                    names.empty() ? "remove this value" : "give values of " + names + " instead"));
+                    names.empty() ? "remove this value" : "give " + names + " instead"));
   }
   if (number < 0) return std::nullopt;
   return GivenPlace{named->rate, number};

@@ -168,13 +168,13 @@ TEST_CASE("cli manifest: without one a run is continued, and a warning says what
   const Ending whole = shell.run({"run", "next.toml", "--no-plots"});
   CHECK(whole.code == 0);
   CHECK(has(whole.err,
-            "belt-run: no manifest.json: the run may not have finished, or is of an earlier version"));
+            "belt-run has no manifest.json: the run may not have finished, or an earlier version made it"));
   CHECK_FALSE(has(whole.err, "no line end"));
   const std::string states = shell.read("belt-run/states.csv");
   shell.write("belt-run/states.csv", states.substr(0, states.size() - 3));
   const Ending cut = shell.run({"check", "next.toml"});
   CHECK(cut.code == 0);
-  CHECK(has(cut.out + cut.err, "The last line of states.csv has no line end: its state is ignored"));
+  CHECK(has(cut.out + cut.err, "The last line of states.csv has no line end, so its state is ignored"));
   shell.write("belt-run/summary.json", "{\"model\"");
   refuses(shell, {"check", "next.toml"}, "belt-run/summary.json: is not the summary of a run");
 }
@@ -225,7 +225,7 @@ TEST_CASE("cli manifest: all that read a run refuse a damaged file") {
     CHECK(ending.code == 0);
     CHECK(
         has(ending.err,
-            "note: belt-run: no manifest.json: the run may not have finished, or is of an earlier version"));
+            "note: belt-run has no manifest.json: the run may not have finished, or an earlier version made it"));
   }
   const Ending compared = shell.run({"compare", "good", "belt-run", "--force"});
   CHECK(compared.code == 0);
@@ -365,8 +365,8 @@ TEST_CASE("cli manifest: report -o and --trace replace no file but their own") {
   const Command report = {"report", "belt-run", "-o", "belt.toml"},
                 trace = {"run", "belt.toml", "-o", "again", "--trace", "belt.toml"},
                 cases = {"report", "belt-run", "b", "-o", "cases.html"};
-  refuses(shell, report, "belt.toml: exists and is no page of Signorini that could be replaced");
-  refuses(shell, trace, "belt.toml: exists and is no trace that could be replaced");
+  refuses(shell, report, "belt.toml: already exists and is not a page of Signorini, so it is not replaced");
+  refuses(shell, trace, "belt.toml: already exists and is not a trace, so it is not replaced");
   CHECK(shell.read("belt.toml") == scene);
   CHECK_FALSE(exists(shell, "again"));
   fs::copy(shell / "belt-run", shell / "b", fs::copy_options::recursive);

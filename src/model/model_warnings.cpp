@@ -267,7 +267,7 @@ class ModelWarnings {
     if (!scene_.initial.saved) return;
     const std::string& run = scene_.initial.saved->run;
     if (const std::string why = run.empty() ? "" : base::unchecked_reason(run); !why.empty())
-      found_.push_back("this run continues from the run in " + why);
+      found_.push_back("this run continues from a saved run: " + why);
     if (scene_.initial.saved->structure_differences.empty()) return;
     found_.push_back(fmt::format(
         "this run continues from a run in {} whose scene has other {}: its displacements, velocities and "

@@ -229,8 +229,8 @@ TEST_CASE("cli manifest: all that read a run refuse a damaged file") {
   }
   const Ending compared = shell.run({"compare", "good", "belt-run", "--force"});
   CHECK(compared.code == 0);
-  CHECK(has(compared.err, "note: belt-run: no manifest.json"));
-  CHECK_FALSE(has(compared.err, "good: no manifest.json"));
+  CHECK(has(compared.err, "note: belt-run has no manifest.json"));
+  CHECK_FALSE(has(compared.err, "good has no manifest.json"));
 }
 
 TEST_CASE("cli manifest: a killed run has none, an interrupted one says that it was") {
@@ -257,7 +257,7 @@ TEST_CASE("cli manifest: a killed run has none, an interrupted one says that it 
   CHECK(ended_by(SIGKILL) == 128 + SIGKILL);
   const Ending plot = shell.run({"plot", "belt-run"});
   CHECK(plot.code == 0);
-  CHECK(has(plot.err, "belt-run: no manifest.json: the run may not have finished"));
+  CHECK(has(plot.err, "belt-run has no manifest.json: the run may not have finished"));
   const Ending next = shell.run({"run", "next.toml", "--no-plots"});
   CHECK(next.code == 0);
   CHECK(has(next.err, "no manifest.json"));

@@ -93,7 +93,7 @@ TEST_CASE("run files: a manifest lists results only, in their order, and can tak
   base::remove_manifest(run.path);
   CHECK(run.refusal().empty());
   CHECK(base::unchecked_reason(run.path).starts_with(run.path.string() +
-                                                     ": no manifest.json: the run may not have finished"));
+                                                     " has no manifest.json: the run may not have finished"));
 }
 
 TEST_CASE("run files: what is no manifest is refused") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/build.hpp"
 #include "model/modes/frequencies.hpp"

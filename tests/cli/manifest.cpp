@@ -223,9 +223,9 @@ TEST_CASE("cli manifest: all that read a run refuse a damaged file") {
     const Ending ending = shell.run(command);
     CAPTURE(command.front());
     CHECK(ending.code == 0);
-    CHECK(
-        has(ending.err,
-            "note: belt-run has no manifest.json: the run may not have finished, or an earlier version made it"));
+    CHECK(has(
+        ending.err,
+        "note: belt-run has no manifest.json: the run may not have finished, or an earlier version made it"));
   }
   const Ending compared = shell.run({"compare", "good", "belt-run", "--force"});
   CHECK(compared.code == 0);

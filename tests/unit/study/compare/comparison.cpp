@@ -165,7 +165,8 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
   add("forces cut off", "force_away=1", "contacts.csv of b has 1 row")->contacts = "0,c,-1,0\n";
   add("energies cut off", "energy=1", "energy.csv of b has 2 rows, expected 5")->energy = "0,0,0\n1,1,0\n";
   Folder::Tables* const other_times =
-      add("other times", "displacement=1", "only 2 rows of history.csv were compared; a has 5 rows, and b has 3 rows");
+      add("other times", "displacement=1",
+          "only 2 rows of history.csv were compared; a has 5 rows, and b has 3 rows");
   other_times->history = "t,A.ux,A.rz,A.vx\n0,0,0,0\n1.5,1.5,0,0\n4,4,0,0\n";
   other_times->contacts = "0,c,-1,0\n1.5,c,-1,0\n4,c,-1,0\n";
   other_times->energy = "0,0,0\n1.5,1.5,0\n4,4,0\n";
@@ -190,7 +191,8 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
   const compare::Comparison c = compare::compare_runs(a, b);
   CHECK(c.rows.history == compare::RowCount{2, 5, 3});
   CHECK(compare::rows_compared(c) ==
-        "history.csv 2 (reference 5, run 3), contacts.csv 2 (reference 5, run 3), energy.csv 2 (reference 5, run 3)");
+        "history.csv 2 (reference 5, run 3), contacts.csv 2 (reference 5, run 3), energy.csv 2 (reference 5, "
+        "run 3)");
   const compare::ComparedRun same = folder.run("same", reference);
   CHECK(compare::rows_compared(compare::compare_runs(a, same)) ==
         "history.csv 5, contacts.csv 5, energy.csv 5");

@@ -68,11 +68,10 @@ ManifestEntry entry_of(const fs::path& directory, std::string_view file) {
 
 [[noreturn]] void refuse(const fs::path& directory, std::string_view file, const std::string& found) {
   const std::string manifest = (directory / manifest_file).string();
-  throw FileError(
-      (directory / file).string(),
-      fmt::format("{} as in {}; the file is damaged, or was changed after the run. Compute the run again, "
-                  "or delete {} if the change was intended",
-                  found, manifest_file, manifest));
+  throw FileError((directory / file).string(),
+                  fmt::format("{} as in {}; the file is damaged, or was changed or removed after the run. "
+                              "Compute the run again, or delete {} if the change was intended",
+                              found, manifest_file, manifest));
 }
 
 void check_file(const fs::path& directory, const Manifest& manifest, std::string_view file) {
@@ -185,7 +184,7 @@ std::string unchecked_reason(const fs::path& directory) {
       "run are not checked",
       directory.string(), manifest_file);
   if (is_cut(directory / "states.csv"))
-    why += ". The last line of states.csv has no line end: its state is ignored";
+    why += ". The last line of states.csv has no line end, so its state is ignored";
   return why;
 }
 

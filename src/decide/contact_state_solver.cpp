@@ -68,7 +68,7 @@ std::string springs_for_uniqueness(const Model& model, const std::vector<std::si
                                    [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
   const bool others = std::any_of(contacts.begin(), contacts.end(),
                                   [&](std::size_t k) { return !model.contacts[k].normal_force_given(); });
-  return sliders && others ? "law = \"compliant\", for sliders a tangential_stiffness,"
+  return sliders && others ? "law = \"compliant\" (for sliders a tangential_stiffness)"
          : sliders         ? "a tangential_stiffness"
                            : "law = \"compliant\"";
 }

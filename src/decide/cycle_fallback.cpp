@@ -38,10 +38,10 @@ Refusal CycleFallback::enumerate(std::size_t block, SolverState& solver_state) {
       choices.push_back(
           enumeration.choice(c, solver_state.instant.states[c], solver_state.decision.before[c]));
   }
-  Refusal refusal{
-      Refusal::Kind::endless,
-      "no combination of states is consistent; guards that fail: " + names_of(model_, solver_state.failed),
-      contacts_of(solver_state.failed)};
+  Refusal refusal{Refusal::Kind::endless,
+                  "no combination of contact states satisfies all guards; guards that fail: " +
+                      names_of(model_, solver_state.failed),
+                  contacts_of(solver_state.failed)};
   const auto best =
       enumeration.best_combination(solver_state.instant, solver_state.after, blocks_.all[block], choices,
                                    solver_state.impact_result.known, solver_state.states);

@@ -70,7 +70,7 @@ long GmshTokenizer::integer(const char* what) {
 long GmshTokenizer::count(const char* what) {
   const long value = integer(what);
   if (value < 0 || value > most_entries)
-    fail(fmt::format("found {}, expected {}, 0 to {}", value, what, most_entries));
+    fail(fmt::format("found {}, expected {} from 0 to {}", value, what, most_entries));
   return value;
 }
 
@@ -186,8 +186,8 @@ class GmshReader {
       std::string name = words_.quoted("the name of a physical group");
       if (dimension < 2 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
         words_.fail(
-            fmt::format("found a physical group named \"{}\", expected a name with other characters than "
-                        "digits, because numbers name nodes",
+            fmt::format("found a physical group named \"{}\", expected a name that contains a character "
+                        "other than a digit, because numbers denote nodes",
                         name));
       content_.names[{dimension, tag}] = std::move(name);
     }
@@ -211,7 +211,7 @@ class GmshReader {
 
   void add_node(long number, SourcePlace place, double x, double y, double z) {
     if (!content_.node_index.emplace(number, static_cast<int>(content_.nodes.size())).second)
-      words_.fail(fmt::format("found node {} twice", number));
+      words_.fail(fmt::format("found node {} twice, expected each node once", number));
     if (content_.nodes.empty()) z_ = z;
     if (z != z_)
       words_.fail(fmt::format("found z = {:.6g} of node {}, expected {:.6g} for all nodes of a plane mesh", z,

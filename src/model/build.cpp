@@ -94,10 +94,9 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   bool loaded = false;
   for (const Load& load : model.loads) loaded = loaded || load.is_static;
   if (scene.matrices && !loaded)
-    throw SceneError(
-        scene.initial.place, "run.initial",
-        "initial = \"static\" needs a load: with [matrices], the weight must be given by loads with a "
-        "constant history; add one");
+    throw SceneError(scene.initial.place, "run.initial",
+                     "found no load that acts from the beginning; initial = \"static\" needs one. With "
+                     "[matrices], give the weight as loads with a constant history");
   statics::Equilibrium found =
       scene.run.geometric
           ? second_pass(scene, map, model, pressed)
@@ -141,10 +140,9 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
     model.alpha = *saved;
   } else if (spec.alpha_over_omega1) {
     if (!(model.omega1 > 0.0))
-      throw SceneError(
-          spec.place, "damping.alpha_over_omega1",
-          "omega1 does not exist: with the initially closed contacts fixed, some motion has no stiffness, "
-          "or nothing can move; give alpha instead");
+      throw SceneError(spec.place, "damping.alpha_over_omega1",
+                       "the lowest frequency omega1 does not exist: with the initially closed contacts "
+                       "fixed, some motion has no stiffness, or nothing can move; give alpha instead");
     model.alpha = *spec.alpha_over_omega1 * model.omega1;
   }
   model.damping = dampers;

@@ -99,17 +99,17 @@ void check_undamped(const Scene& scene, const SparseMatrix& dampers, const std::
                     const SparseMatrix& s) {
   const bool beta = scene.damping.beta > 0.0;
   const SparseMatrix damped = dampers * s;
-  const auto refuse_damping = [&](Eigen::Index j, const std::string& what, const char* instead) {
+  const auto refuse_damping = [&](Eigen::Index j, const char* what) {
     const Row& row = rows[static_cast<std::size_t>(j)];
     refuse_compliance_split(
         scene, row.contact, "law",
-        fmt::format("{} has no mass, and {}; a rigid contact there needs {}: remove the damping, or "
-                    "give the contact law = \"compliant\"",
-                    row.dof->displacement, what, instead));
+        fmt::format("{} has no mass, but {}, and a rigid contact without mass cannot have damping: remove "
+                    "the damping, or give the contact law = \"compliant\"",
+                    row.dof->displacement, what));
   };
   for (Eigen::Index j = 0; j < s.cols(); ++j) {
-    if (beta) refuse_damping(j, "damping.beta damps it", "beta = 0");
-    if (damped.col(j).norm() > 0.0) refuse_damping(j, "a damper acts on it", "no damper");
+    if (beta) refuse_damping(j, "damping.beta damps its motion");
+    if (damped.col(j).norm() > 0.0) refuse_damping(j, "a damper acts there");
   }
 }
 
@@ -247,8 +247,8 @@ void continue_split(const ComplianceSplit& springs, const Scene& scene, Model& m
   if (!scene.initial.saved) return;
   if (model.saved_contacts.empty())
     throw SceneError(scene.initial.place, "run.initial",
-                     "contacts.csv of the saved run has no rows at this time for rigid contacts on parts "
-                     "without mass, which need them: choose one of the output times of that run");
+                     "contacts.csv of the saved run has no rows at this time, but rigid contacts on parts "
+                     "without mass need these rows: choose one of the output times of that run");
   Vector given(springs.shifts.cols());
   for (std::size_t j = 0; j < springs.rows.size(); ++j) {
     const auto [k, normal] = springs.rows[j];
@@ -278,10 +278,11 @@ void check_unique_forces(const Scene& scene, Model& model) {
     if (coupled >= nn)
       refuse_compliance_split(
           scene, f.contacts[i], "friction",
-          fmt::format("the forces of this contact are not unique while it slides: along the normal, its "
-                      "friction force displaces it {:.4g} times as far as its normal force (unique below 1); "
-                      "expected friction below {:.4g}, mass at the contact, or law = \"compliant\"",
-                      coupled / nn, nn / std::abs(nt)));
+          fmt::format(
+              "the forces of this contact are not unique while it slides: along the normal, its friction "
+              "force displaces it {:.4g} times as far as its normal force does (the forces are unique below "
+              "1); expected friction below {:.4g}, mass at the contact, or law = \"compliant\"",
+              coupled / nn, nn / std::abs(nt)));
   }
   if (f.contacts.size() < 2) return;
   const Eigen::MatrixXd coupling = f.nt * f.friction.asDiagonal();
@@ -290,8 +291,8 @@ void check_unique_forces(const Scene& scene, Model& model) {
   if (most < 1.0) return;
   model.warnings.push_back(
       fmt::format("the forces of the {} rigid contacts without mass may not be unique while all of them "
-                  "slide in the same direction: this run takes one of the solutions; they are unique with "
-                  "{:.3g} times their friction, with mass at these contacts, or with law = \"compliant\"",
+                  "slide in the same direction: this run takes one of the solutions; the forces are unique "
+                  "with {:.3g} times this friction, with mass at these contacts, or with law = \"compliant\"",
                   f.contacts.size(), 1.0 / most));
 }
 

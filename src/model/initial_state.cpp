@@ -24,8 +24,8 @@ Vector given_vector(const std::vector<double>& values, int n, const InitialSpec&
   if (values.empty()) return Vector::Zero(n);
   if (static_cast<int>(values.size()) != n)
     throw SceneError(spec.place, key,
-                     fmt::format("found {} numbers, expected one for each of the {} degrees of freedom",
-                                 values.size(), n));
+                     fmt::format("found {}, expected {}, one for each degree of freedom",
+                                 base::count_text(values.size(), "number"), n));
   return Eigen::Map<const Vector>(values.data(), n);
 }
 
@@ -56,7 +56,7 @@ void check_saved_contacts(const Scene& scene) {
                                    [&](const ContactSpec& contact) { return contact.name == own.contact; });
     if (same == scene.contacts.end() || own.state >= same->contact_law()->user_law_states().size())
       refuse_saved(scene.initial, fmt::format("the saved state has contact '{}' in state {} of a "
-                                              "user-defined law, which the scene does not have",
+                                              "user-defined law, but the scene has no such contact or state",
                                               own.contact, own.state));
   }
 }
@@ -102,12 +102,15 @@ struct GivenPlace {
   bool velocity = false;
   int dof = 0;
 };
-/// Names, for messages, of the degrees of freedom that determine the tied motion `tied`.
-std::string determining_dofs(const assembly::DofMap& map, int tied) {
+/// Names, for messages, of the displacements or rates that determine the tied motion `tied`; empty if only supports do.
+std::string determining_dofs(const assembly::DofMap& map, int tied, bool rates) {
   std::vector<std::string> names;
   for (const assembly::TiedTerm& term : map.terms(tied))
-    if (term.number >= 0) names.push_back(map.dofs[static_cast<std::size_t>(term.number)].displacement);
-  return names.empty() ? std::string("none: supports move it") : base::join_quoted(names, 3);
+    if (term.number >= 0) {
+      const Dof& dof = map.dofs[static_cast<std::size_t>(term.number)];
+      names.push_back(rates ? dof.velocity : dof.displacement);
+    }
+  return base::join_quoted(names, 3);
 }
 
 /// Place in u or v of a given component; nullopt if it is fixed, or tied at a seam, so that the given value has no effect.
@@ -119,16 +122,22 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
   const int node = element::find_node(map.mesh, c.node, c.place, key);
   const int number = map.number[static_cast<std::size_t>(node)][named->index];
   if (number == assembly::DofMap::absent)
-    throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
+    throw SceneError(
+        c.place, key,
+        fmt::format("node '{}' has no degree of freedom for {}; remove this value", c.node, c.component));
   if (number == assembly::DofMap::fixed && c.value != 0.0)
-    throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
+    throw SceneError(c.place, key,
+                     fmt::format("found {}, expected 0: a support fixes this component", c.value));
   if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
     return std::nullopt;  // a node of a seam: other nodes determine its motion
-  if (map.is_tied(number))
-    throw SceneError(c.place, key,
-                     fmt::format("found a motion of node '{}', which follows from other motions because the "
-                                 "node is part of a rigid body; expected one of {}",
-                                 c.node, determining_dofs(map, number)));
+  if (map.is_tied(number)) {
+    const std::string names = determining_dofs(map, number, named->rate);
+    throw SceneError(
+        c.place, key,
+        fmt::format("node '{}' is part of a rigid body, so its motion follows from {}; {}", c.node,
+                    names.empty() ? "the supports of this body" : "the motion of this body",
+                    names.empty() ? "remove this value" : "give " + names + " instead"));
+  }
   if (number < 0) return std::nullopt;
   return GivenPlace{named->rate, number};
 }
@@ -158,10 +167,10 @@ std::string unused(const Model& model, const GivenPlace& at, double value, const
       at.velocity ? fmt::format("{} has no mass, so its velocity follows from the forces", dof.displacement)
                   : fmt::format("{} has no mass and no damper, so it follows the forces immediately",
                                 dof.displacement);
-  return SceneError(
-             place, key,
-             fmt::format("the initial value {:.9g} is ignored: {}; give it a mass{}, or remove this value",
-                         value * unit, what, at.velocity ? "" : " or a damper"))
+  return SceneError(place, key,
+                    fmt::format("the initial value {:.9g} is ignored: {}; give this degree of freedom a "
+                                "mass{}, or remove the value",
+                                value * unit, what, at.velocity ? "" : " or a damper"))
       .what();
 }
 
@@ -393,8 +402,9 @@ std::vector<statics::Stage> stages_of(const Scene& scene, const Model& model, st
     if (load.is_static && taken[i] == 0 && load.history.value(0.0) != 0.0)
       throw SceneError(
           scene.initial.stages.front().place, "run.stages",
-          fmt::format("\"{}\" acts from the beginning but is in no stage; add it to the loads of a stage",
-                      load.name));
+          fmt::format(
+              "\"{}\" acts from the beginning, but no stage lists this load; add it to the loads of a stage",
+              load.name));
     acts.push_back(taken[i] > 0);
   }
   return stages;

@@ -53,11 +53,10 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
     Dof& dof = dofs[static_cast<std::size_t>(i)];
     dof.massless = row_size[i] == 0.0;
     if (dof.massless && held[i] == 0.0)
-      throw SceneError(
-          assembly::place_of_dof(scene, map, i), "",
-          fmt::format("{} has neither mass nor stiffness nor damping, so its motion is undetermined; give it "
-                      "one of these",
-                      dof.displacement));
+      throw SceneError(assembly::place_of_dof(scene, map, i), "",
+                       fmt::format("{} has neither mass nor stiffness nor damping, so its motion is "
+                                   "undetermined; give it a mass, a stiffness or a damper",
+                                   dof.displacement));
     if (dof.massless) continue;
     const double diagonal = assembly.mass.coeff(i, i);
     if (!(diagonal > 0.0))
@@ -119,9 +118,10 @@ void check_massless(const Scene& scene, const Model& model, const assembly::DofM
   if (energy < -rounding::many_operations * assembly::term_magnitude(k, motion))
     throw SceneError(
         place, scene.matrices ? "matrices.stiffness" : "",
-        fmt::format("the {} is unstable: it moves no mass and no damper, and its stiffness is negative, "
-                    "{:.6g}, contacts included; expected a stiffness > 0, or mass or damping on it",
-                    describe(null), energy));
+        fmt::format(
+            "the {} is unstable: it moves no mass and no damper, and its stiffness, including contacts, is "
+            "{:.6g}; expected a stiffness > 0, or a mass or damper that this motion moves",
+            describe(null), energy));
   throw SceneError(place, "",
                    fmt::format("the {} is undetermined: it moves no mass, and no stiffness, damping or "
                                "contact restrains it; add one of these",

@@ -134,8 +134,8 @@ class ModelWarnings {
     }
     if (falling_.empty()) return;
     found_.push_back(
-        fmt::format("no contact stops the structure from leaving {}: the static loads accelerate it along "
-                    "the normal, away from the ground; check whether the normal is reversed",
+        fmt::format("the static loads accelerate the structure away from {}, along the normal, and no "
+                    "contact stops this motion; check whether the normal is reversed",
                     names(model_, falling_)));
   }
 
@@ -184,12 +184,12 @@ class ModelWarnings {
     const statics::StaticProblem problem{model_.stiffness, weight_, model_.contacts, map_};
     const Eigen::MatrixXd free = statics::null_motions(problem.matrix(closed));
     if (free.cols() == 0 || (model_.mass * free).isZero(0.0)) return;
-    found_.push_back(fmt::format(
-        "mass-proportional damping (alpha = {:.4g} 1/{}) also damps rigid-body motions: sliding and flying "
-        "parts lose their velocity with the time constant 1/alpha = {:.4g} {}; beta and single dampers do "
-        "not damp these motions",
-        model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
-        model_.units.time));
+    found_.push_back(
+        fmt::format("mass-proportional damping (alpha = {:.4g} 1/{}) also damps rigid-body motions: sliding "
+                    "and flying parts lose their velocity with the time constant 1/alpha = {:.4g} {}; "
+                    "stiffness-proportional damping (beta) and dampers do not damp these motions",
+                    model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
+                    model_.units.time));
   }
 
   void friction() {
@@ -203,8 +203,8 @@ class ModelWarnings {
     }
     if (high.empty()) return;
     found_.push_back(
-        fmt::format("friction {:.6g} at {}: coefficients above 2 are unusual; check whether it is an angle "
-                    "or a percentage",
+        fmt::format("friction {:.6g} at {}: coefficients above 2 are unusual; check whether the value is an "
+                    "angle or a percentage",
                     greatest, names(model_, high)));
   }
 
@@ -267,7 +267,7 @@ class ModelWarnings {
     if (!scene_.initial.saved) return;
     const std::string& run = scene_.initial.saved->run;
     if (const std::string why = run.empty() ? "" : base::unchecked_reason(run); !why.empty())
-      found_.push_back("this run continues from the run in " + why);
+      found_.push_back("this run continues from a saved run: " + why);
     if (scene_.initial.saved->structure_differences.empty()) return;
     found_.push_back(fmt::format(
         "this run continues from a run in {} whose scene has other {}: its displacements, velocities and "
@@ -281,11 +281,10 @@ class ModelWarnings {
     for (std::size_t k = 0; k < model_.contacts.size(); ++k)
       if (model_.contacts[k].initial_shear != 0.0) loose.push_back(k);
     if (loose.empty()) return;
-    found_.push_back(
-        fmt::format("initial_shear at {} is not in equilibrium with the displacements: a static start has no "
-                    "friction, so the shear vanishes with the first oscillation; give displacements that "
-                    "balance it",
-                    names(model_, loose)));
+    found_.push_back(fmt::format(
+        "initial_shear at {} is not in equilibrium with the displacements: a static start has no friction, "
+        "so the shear vanishes with the first oscillation; give displacements that balance the shear",
+        names(model_, loose)));
   }
 
   void growth() {

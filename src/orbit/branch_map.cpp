@@ -94,11 +94,10 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
                                                  : load_period(scene, drive_);
   const double phase = phase_ * machine_.time;
   if (loads.periodic_from > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
-    throw SceneError(
-        {}, options_.path,
-        fmt::format("at this point of the branch the loads are periodic only from t = {:g} on, but "
-                    "at its start from t = {:g} on",
-                    loads.periodic_from, phase));
+    throw SceneError({}, options_.path,
+                     fmt::format("found loads that are periodic only from t = {:g} on, expected periodic "
+                                 "loads from t = {:g} on, as at the start of the branch",
+                                 loads.periodic_from, phase));
   return loads;
 }
 

@@ -89,12 +89,15 @@ double long_enough(const orbit::LoadPeriod& loads, const OrbitOptions& options) 
 }
 
 void check_options(const OrbitOptions& options) {
-  if (options.times < 1) throw UsageError("--times: expected an integer of at least 1");
-  if (options.transient < 0) throw UsageError("--transient: expected an integer of at least 0");
+  if (options.times < 1)
+    throw UsageError(fmt::format("--times: found {}, expected an integer of at least 1", options.times));
+  if (options.transient < 0)
+    throw UsageError(
+        fmt::format("--transient: found {}, expected an integer of at least 0", options.transient));
   if (options.energy && !(*options.energy > 0.0 && std::isfinite(*options.energy)))
-    throw UsageError("--energy: expected an energy > 0");
+    throw UsageError(fmt::format("--energy: found {}, expected an energy > 0", *options.energy));
   if (options.period && !(*options.period > 0.0 && std::isfinite(*options.period)))
-    throw UsageError("--period: expected a time > 0");
+    throw UsageError(fmt::format("--period: found {}, expected a time > 0", *options.period));
 }
 
 Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* recorder)
@@ -107,7 +110,9 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
 /// Checks that the scene has no excitation, because --energy requires a conservative motion. Errors: UsageError.
 void check_conservative(const Scene& scene, const orbit::LoadPeriod& loads) {
   if (!scene.loads.empty() || loads.period || loads.surfaces_move)
-    throw UsageError("--energy: expected a scene without loads and belts");
+    throw UsageError(
+        "--energy: found a load or a moving surface, expected a scene without both, in which energy is "
+        "conserved");
 }
 
 /// Sets the model, its engine, and the period of the loads.
@@ -125,7 +130,7 @@ void Search::set_period(const Scene& scene) {
   if (orbit_.autonomous && !loads.surfaces_move && !conservative)
     throw SceneError(
         {}, "loads",
-        "an orbit needs a periodic load, a moving surface, or a given --period; found none of these");
+        "found no periodic load, no moving surface and no --period; an orbit needs one of these");
   const double t_end = std::max(scene.run.t_end, long_enough(loads, options_));
   const Scene longer = read_({{"run.t_end", base::format_number(t_end)}});
   given_ = build_model(longer);
@@ -228,8 +233,8 @@ bool Search::by_itself() {
   }
   if (!(found.period > 0.0))
     return stop(
-        fmt::format("no state at an event of the transient, up to t = {:.6g}, is near an earlier state; "
-                    "use a longer t_end, so that the transient decays further",
+        fmt::format("up to t = {:.6g} the transient does not return near the state at one of its earlier "
+                    "events; use a longer t_end, so that the transient decays further",
                     length * unit_));
   const orbit::OrbitPass to_section = scene.pass({initial_, found.section, false});
   if (!to_section.done()) return stop("the transient stopped: " + to_section.outcome.reason);
@@ -408,7 +413,7 @@ Branch continue_branch(const SceneReader& read, const BranchOptions& options, Re
   if (options.path == orbit::over_energy && !(options.from > 0.0 && options.to > 0.0))
     throw UsageError("--over energy: expected two energies above 0; without energy nothing moves");
   if (options.path == orbit::over_energy && options.orbit.energy)
-    throw UsageError("--energy: cannot be combined with --over energy, which sets it");
+    throw UsageError("--energy: cannot be combined with --over energy, which sets the energy");
   const Orbit orbit = options.resume_from ? options.resume_from->orbit : first_orbit(read, options, recorder);
   if (!orbit.found) {
     Branch none;

@@ -14,8 +14,7 @@ constexpr std::size_t few_terms = 3;  // coefficients of the forcing: value, fir
 std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.refine != Refine::root)
     return "discrete derivatives need exact event times, but run.refine = \"linear\" gives interpolated "
-           "ones; set "
-           "run.refine = \"root\"";
+           "event times; set run.refine = \"root\"";
   if (run.step == StepControl::doubling)
     return "discrete derivatives need steps of constant length, but run.step = \"doubling\" changes the "
            "length; set "

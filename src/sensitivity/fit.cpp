@@ -134,20 +134,23 @@ class Fitter {
     at_bound_.assign(result.keys.size(), false);
     for (const auto& [p, side] : incomplete_sides_)
       at_bound_[p] = at_bound_[p] || (known && side * here_.slope[p] < 0.0);
-    std::string bounds;
+    std::vector<std::string> bounds;
     for (std::size_t p = 0; p < result.keys.size() && !settled(); ++p)
-      if (at_bound_[p]) bounds += (bounds.empty() ? "" : ", ") + result.keys[p].path;
-    result.reason = bounds.empty() ? reason(known) : "at its bound: " + bounds + beyond;
+      if (at_bound_[p]) bounds.push_back(result.keys[p].path);
+    result.reason = bounds.empty() ? reason(known) : reason_at_bounds(bounds);
     if (!known || !settled()) result.issues.push_back(result.reason);
     if (known) take_keys(result);
     explain(result);
   }
 
  private:
-  static constexpr const char* beyond =
-      "; the sum of squares decreases further beyond the bound, but there the scene refuses the value or the "
-      "run "
-      "lacks measured events";
+  static std::string reason_at_bounds(const std::vector<std::string>& keys) {
+    const bool one = keys.size() == 1;
+    return fmt::format(
+        "{} {}: the sum of squares decreases further beyond the bound{}, but there the scene refuses the "
+        "value or the run lacks measured events",
+        base::join_texts(keys), one ? "is at its bound" : "are at their bounds", one ? "" : "s");
+  }
   /// Linearises the residuals at these keys, or at keys nearby if two events coincide.
   bool linear_at(const std::vector<double>& keys) {
     if (!problem_.residuals(keys, *f_)) return false;
@@ -232,12 +235,12 @@ class Fitter {
   }
 
   void take_keys(Fit& result) const {
-    std::string loose;
+    std::vector<std::string> loose;
     const std::size_t count = result.keys.size();
     constexpr double none = EventRates::none;
     result.covariance.assign(count, std::vector<double>(count, none));
     for (std::size_t i = 0; i < count; ++i) {
-      if (!here_.determined[i]) loose += (loose.empty() ? "" : ", ") + result.keys[i].path;
+      if (!here_.determined[i]) loose.push_back(result.keys[i].path);
       for (std::size_t j = 0; j < count; ++j)
         if (here_.determined[i] && here_.determined[j])
           result.covariance[i][j] = factor() * here_.covariance[i][j];
@@ -247,8 +250,9 @@ class Fitter {
     if (!loose.empty())
       result.issues.push_back(
           fmt::format("the measurements do not determine {}: {} can change without a change of the measured "
-                      "numbers; fix one key, or measure another quantity",
-                      loose, loose.find(',') == std::string::npos ? "it" : "they"));
+                      "numbers; fix {}, or measure another quantity",
+                      base::join_texts(loose), loose.size() == 1 ? "this key" : "these keys",
+                      loose.size() == 1 ? "this key" : "one of these keys"));
   }
 
   /// Reports an issue if the residuals are too large to be explained by measurement errors.
@@ -295,11 +299,11 @@ class Fitter {
 
 Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Measurements& measured,
         const std::function<bool()>& go_on) {
-  if (measured.rows.size() < paths.size() || paths.empty())
-    throw UsageError(
-        fmt::format("found {} measured numbers for {} keys, expected at least as many "
-                    "numbers as keys",
-                    measured.rows.size(), paths.size()));
+  if (paths.empty()) throw UsageError("found no key, expected at least one key to fit");
+  if (measured.rows.size() < paths.size())
+    throw UsageError(fmt::format("found {} for {}, expected at least as many numbers as keys",
+                                 base::count_text(measured.rows.size(), "measured number"),
+                                 base::count_text(paths.size(), "key")));
   const GslErrorsReturned quiet;
   Fit result;
   const Scene scene = read({});
@@ -378,9 +382,10 @@ class MeasuredTable {
       if (is_new) continue;
       fail(m.line,
            m.event > 0
-               ? fmt::format("event_index: found {} again, expected each event once; it is also in line {}",
-                             m.event, first->second)
-               : fmt::format("{}: found t = {} again, expected each time once; it is also in line {}",
+               ? fmt::format(
+                     "event_index: found {} again, expected each event once; line {} has the same event",
+                     m.event, first->second)
+               : fmt::format("{}: found t = {} again, expected each time once; line {} has the same time",
                              base::excerpt(m.column), base::format_number(m.t), first->second));
     }
   }

@@ -234,8 +234,8 @@ class Differences {
           "a support moves a rigid body: derivatives of the motions of its nodes are not available");
     if (SparseMatrix(model.ties->rows - model_.ties->rows).norm() != 0.0)
       throw SceneError({}, path_,
-                       "the key moves nodes of a rigid body relative to its centre: derivatives of their "
-                       "motions are not available");
+                       "the key moves nodes of a rigid body relative to its centre: derivatives of the "
+                       "motions of these nodes are not available");
   }
 
   /// True if the unknowns of both models are the same. Amplitudes of shapes that depend on the parameter are not the same
@@ -375,7 +375,7 @@ void add_weight_load(const Model& from, Model& model) {
 
 ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path, double value,
                            double size) {
-  std::string why = "the data of the model do not depend smoothly on this key at its value";
+  std::string why = "the data of the model do not depend smoothly on this key at the present value";
   const bool follows = model.static_start && !model.statics.frictional;
   for (const bool start_follows : {true, false}) {
     if (start_follows && !follows) continue;

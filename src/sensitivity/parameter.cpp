@@ -39,7 +39,8 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       return;
     }
     const auto number = node.value<double>();
-    if (!number || node.is_boolean()) fail_at(path, "expected a key whose value is a number");
+    if (!number || node.is_boolean())
+      fail_at(path, "found a value that is not a number, expected a key with a number");
     found.insert(*number);
     return;
   }
@@ -51,8 +52,8 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       return;
     }
     if (!inner)
-      fail_at(path, fmt::format("\"{}\" is not in the scene. If it is a key without default, add it to the "
-                                "scene with the value at which to differentiate",
+      fail_at(path, fmt::format("the scene has no \"{}\". If this key has no default, add it to the scene "
+                                "with the value at which to differentiate",
                                 name));
     numbers_at(*inner, rest, next + 1, path, found);
   } else if (const auto* array = node.as_array()) {
@@ -65,7 +66,7 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       any = true;
       numbers_at((*array)[i], rest, next + 1, path, found);
     }
-    if (!any) fail_at(path, fmt::format("there is no \"{}\" in the scene", name));
+    if (!any) fail_at(path, fmt::format("the scene has no \"{}\"", name));
   } else if (const auto number = node.value<double>(); number && rest[next - 1] == "friction") {
     found.insert(*number);  // friction = 0.3 sets both coefficients
   } else {
@@ -101,7 +102,7 @@ double value_of(const Scene& scene, const std::string& path) {
     numbers_at(root, parts_of(meant), 0, path, found);
   if (found.size() != 1) {
     const std::string met = scene::count_matching_tables(root, path);
-    fail_at(path, fmt::format("found {} numbers that differ, from {} to {}{}, expected one value to vary",
+    fail_at(path, fmt::format("found {} different numbers, from {} to {}{}; expected one number",
                               found.size(), base::format_number(*found.begin()),
                               base::format_number(*found.rbegin()), met.empty() ? "" : ", in " + met));
   }

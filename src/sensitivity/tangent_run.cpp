@@ -95,7 +95,9 @@ void TangentRun::begin(const run::RunInstant& start) {
     for (const MovingBreakpoint& b : breakpoints_at(model_, d, 0.0, 0.0))
       if (b.rate != 0.0) {
         state.valid = false;
-        state.reason = "a load starts at t = 0, but later for neighbouring values of the key on one side";
+        state.reason =
+            "a load starts at t = 0, but after t = 0 for neighbouring values of the key on one side: "
+            "derivatives from both sides differ";
       }
   }
   recomputed_motion_.begin(start.after);

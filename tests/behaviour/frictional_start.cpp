@@ -425,7 +425,7 @@ TEST_CASE("what no frictional start can reach is refused by name") {
                             push("push", 1.0)))
             .find("is already in an earlier stage") != std::string::npos);
   CHECK(refusal(two_sliders(frictional + "[[run.stages]]\nname = \"x\"\nloads = []\n", push("push", 1.0)))
-            .find("is in no stage") != std::string::npos);
+            .find("no stage lists this load") != std::string::npos);
 }
 
 TEST_CASE(

@@ -184,7 +184,8 @@ TEST_CASE("a preload is a stage of a start with friction, and is told where none
   CHECK(c.model.hangers[0].at_start != doctest::Approx(4.5).epsilon(1e-3));
   CHECK_THROWS_WITH_AS(
       (void)build_model(parse_scene(with(text, ", \"preload\"", ""), "test.toml", {})),
-      doctest::Contains("\"preload of spring 1\" acts from the beginning but is in no stage"), SceneError);
+      doctest::Contains("\"preload of spring 1\" acts from the beginning, but no stage lists this load"),
+      SceneError);
 }
 
 TEST_CASE("a pipe with bend, hanger, stop and shoe: energy, in halves, reduced") {

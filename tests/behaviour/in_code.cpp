@@ -369,7 +369,7 @@ contacts = [{ name = "pad", node = "ball", law = "compliant", normal = [0.0, 1.0
       CHECK(b.rows.back().contacts[0].memory == doctest::Approx(c.rows.back().contacts[0].memory));
       CHECK(std::abs(c.rows.back().contacts[0].memory) > 0.01 * length);
       second.contacts[0].user_law = {};
-      CHECK(objection_to(second).find("of a user-defined law, which the scene does not have") !=
+      CHECK(objection_to(second).find("of a user-defined law, but the scene has no such contact or state") !=
             std::string::npos);
     }
   }

@@ -379,7 +379,7 @@ TEST_CASE("scenes without an orbit say why") {
       CHECK(std::string(error.what()).find(words) != std::string::npos);
     }
   };
-  refused(text(""), "an orbit needs a periodic load");
+  refused(text(""), "found no periodic load");
   refused(text(load("\"harmonic\", omega = 1.0") + load("\"harmonic\", omega = 1.4142135623730951")),
           "loads.2.history");
   refused(text(load("\"polynomial\", coefficients = [0.0, 1.0]") + load("\"harmonic\", omega = 1.0")),

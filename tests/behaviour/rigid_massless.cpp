@@ -432,7 +432,7 @@ friction = {}
           "contacts.foot.restitution: fy.u has no mass, so nothing rebounds");
   std::string damped = dragged_blocks("exact", 0.0, rigid_law);
   damped.replace(damped.find("beta = 0.0"), 10, "beta = 1e-5");
-  refused(damped, "damping.beta damps it");
+  refused(damped, "damping.beta damps its motion");
 }
 
 TEST_CASE(
@@ -470,7 +470,7 @@ stiffness = [)";
   };
   CHECK(feet(1.249).empty());
   CHECK(feet(1.251).find("the forces of the 2 rigid contacts") != std::string::npos);
-  CHECK(feet(2.5).find("unique with 0.5 times their friction") != std::string::npos);
+  CHECK(feet(2.5).find("unique with 0.5 times this friction") != std::string::npos);
 }
 
 TEST_SUITE_END();

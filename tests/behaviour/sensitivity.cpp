@@ -230,7 +230,7 @@ contacts = [{ name = "floor", node = "b", law = "rigid", normal = [0.0, 1.0], ga
   CHECK_THROWS_WITH_AS(sensitivities(read, {"run.initial.c.vx"}), doctest::Contains("unknown node"),
                        UsageError);
   CHECK_THROWS_WITH_AS(sensitivities(read, {"contacts.floor.normal_stiffness"}),
-                       doctest::Contains("If it is a key without default"), UsageError);
+                       doctest::Contains("If this key has no default"), UsageError);
 }
 
 TEST_CASE("the least changes at which neighbours meet, and keys that are refused") {

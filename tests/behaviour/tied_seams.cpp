@@ -142,7 +142,7 @@ TEST_CASE("tied nodes that supports hold, masters at rest, and contact keys are 
     }
   };
   refused("friction = 0.3\n", "is not allowed with law =");
-  refused("[[supports]]\nnodes = [\"high.bottom\"]\nfix = [\"ux\"]\n", "a support fixes it");
+  refused("[[supports]]\nnodes = [\"high.bottom\"]\nfix = [\"ux\"]\n", "a support fixes the node");
   refused("[[seams]]\nname = \"again\"\nslave = \"low.top\"\nmaster = \"high.bottom\"\nlaw = \"tied\"\n",
           "is itself a tied node");
   refused("[[seams]]\nname = \"down\"\nslave = \"low.bottom\"\nmaster = \"ground\"\nlaw = \"tied\"\n",

@@ -175,7 +175,7 @@ TEST_CASE("cli manifest: without one a run is continued, and a warning says what
   shell.write("belt-run/states.csv", states.substr(0, states.size() - 3));
   const Ending cut = shell.run({"check", "next.toml"});
   CHECK(cut.code == 0);
-  CHECK(has(cut.out + cut.err, "The last line of states.csv has no line end: its state is ignored"));
+  CHECK(has(cut.out + cut.err, "The last line of states.csv has no line end, so its state is ignored"));
   shell.write("belt-run/summary.json", "{\"model\"");
   refuses(shell, {"check", "next.toml"}, "belt-run/summary.json: is not the summary of a run");
 }

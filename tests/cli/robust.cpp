@@ -135,7 +135,7 @@ TEST_CASE("cli sweep: --force follows no link") {
   const std::string mine = shell.read("mine");
   const Ending linked = shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet"});
   CHECK(linked.code == 6);
-  CHECK(has(linked.err, "rows.jsonl: is a symbolic link, expected the rows of a sweep"));
+  CHECK(has(linked.err, "rows.jsonl: is a symbolic link, expected a file with the rows of a sweep"));
   run_sweep(shell, {"--force"});
   CHECK(shell.read("mine") == mine);
 }
@@ -172,10 +172,10 @@ TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, ar
   refused("rows.jsonl: line 1 is not a row of a sweep: ");
   fs::remove(shell / file);
   fs::create_directory(shell / file);
-  refused("is a directory, expected the rows of a sweep");
+  refused("is a directory, expected a file with the rows of a sweep");
   fs::remove(shell / file);
   REQUIRE(mkfifo((shell / file).c_str(), 0600) == 0);
-  refused("is a pipe, expected the rows of a sweep");
+  refused("is a pipe, expected a file with the rows of a sweep");
   fs::remove(shell / file);
   shell.write(file, good);
   CHECK(shell.run({"sweep", "--merge", "belt-sweep", "-o", "joined", "--no-plots"}).code == 0);
@@ -183,7 +183,7 @@ TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, ar
   std::string spec = shell.read("belt-sweep/sweep.json");
   spec.replace(spec.find("\"sweep\": 2"), 10, "\"sweep\": 1");
   shell.write("belt-sweep/sweep.json", spec);
-  refused("sweep.json: is of an earlier version of Signorini");
+  refused("sweep.json: was written by an earlier version of Signorini");
 }
 
 TEST_CASE("cli sweep: a row of another value, or of another share, is none of this sweep") {
@@ -211,7 +211,7 @@ TEST_CASE("cli sweep: a row of another value, or of another share, is none of th
   run_sweep(shell, {"--force"});
   fs::copy_file(shell / "belt-sweep/rows.jsonl", shell / "half/rows.jsonl",
                 fs::copy_options::overwrite_existing);
-  refused({"--vary", three_rows, "--share", "2/2", "-o", "half"}, "is not of share 2/2");
+  refused({"--vary", three_rows, "--share", "2/2", "-o", "half"}, "is not part of share 2/2");
 }
 
 TEST_CASE(

@@ -240,7 +240,7 @@ TEST_CASE("cli study: exact in modes is measured against its series, as long as 
   const json alone = study("1e-3");
   CHECK(alone["reference"] == "exact");
   CHECK(alone["rows"].size() == 1);
-  CHECK(has(alone["notes"].dump(), "exact run.flow=taylor is left out: it would take"));
+  CHECK(has(alone["notes"].dump(), "exact run.flow=taylor is omitted: it would take"));
 
   const json asked = study("60", {"--set", "run.flow=modal"});
   CHECK(asked["reference"] == "exact");
@@ -257,5 +257,5 @@ TEST_CASE("cli study: what would take many time limits is named, not tried") {
   REQUIRE(rows.size() == 3);
   CHECK(rows[1]["outcome"] == "done");
   CHECK(rows[2]["outcome"] == "too slow");
-  CHECK(has(rows[2]["reason"].get<std::string>(), "not tried: it would take about"));
+  CHECK(has(rows[2]["reason"].get<std::string>(), "not started: the run would take about"));
 }

@@ -348,7 +348,9 @@ engine::Step NewmarkEngine::advance() {
     grid_steps_ = 0;
   }
   t1_ = last ? segment_.end : grid_begin_ + static_cast<double>(++grid_steps_) * h;
-  if (!(t1_ > t0_)) return failed("the step is shorter than the resolution of time; a larger dt may help");
+  if (!(t1_ > t0_))
+    return failed(doubling_ ? "the step is shorter than the resolution of time; a larger rtol may help"
+                            : "the step is shorter than the resolution of time; a larger dt may help");
   if (!take(h, t1_, !last, end_)) return failed(singular);
   if (!end_.u.allFinite() || !end_.v.allFinite())
     return failed("the motion overflows and is no longer finite");

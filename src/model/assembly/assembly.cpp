@@ -27,7 +27,9 @@ SparseMatrix read(const MatrixSpec& spec, int n, const std::string& key) {
   if (spec.size != n)
     throw SceneError(
         spec.place, key,
-        fmt::format("found {0} x {0}, expected {1} x {1} for {1} degrees of freedom", spec.size, n));
+        fmt::format(
+            "found a matrix of size {0} x {0}, expected {1} x {1}, one row and column per degree of freedom",
+            spec.size, n));
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& e : spec.entries)
     if (e.value != 0.0) entries.emplace_back(e.row, e.column, e.value);
@@ -163,7 +165,8 @@ struct Builder {
   }
 
   void add_mass(const PointMass& m, const std::string& key) {
-    if (!(m.mass >= 0.0) || !(m.inertia >= 0.0)) throw SceneError(m.place, key, "a mass cannot be negative");
+    if (!(m.mass >= 0.0) || !(m.inertia >= 0.0))
+      throw SceneError(m.place, key, "found a negative mass or inertia, expected numbers >= 0");
     const std::array<int, 3> numbers = map.numbers_at(element::find_node(map.mesh, m.node, m.place, key));
     const Eigen::Vector3d values(m.mass, m.mass, m.inertia);
     add(mass, &SupportColumns::mass, Eigen::Matrix3d(values.asDiagonal()), numbers);

@@ -68,16 +68,21 @@ void check_user_law(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
   const UserContactLaw& law = *spec.user_law;
   if (!spec.capabilities().normal_spring)
-    refuse("a user-defined law replaces the law of a compliant contact only");
+    refuse(
+        "found a user-defined law at a contact without a normal spring; only a compliant contact can have "
+        "such a law");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
     refuse(
         "found friction or dampers in addition to a user-defined law; remove them here, and include them in "
         "the rows of the law");
   if (scene.initial.is_static || scene.initial.is_frictional) {
-    if (law.name.empty()) refuse("a static start is available for built-in laws only");
+    if (law.name.empty())
+      refuse(
+          "found a static start with a user-defined law, which has none. Give run.initial as displacements "
+          "and velocities, or use law = \"compliant\" without a user-defined law");
     throw SceneError(spec.place, spec.key("law"),
-                     fmt::format("found \"{}\", a law without a static start. Give run.initial as "
-                                 "displacements and velocities, or use law = \"compliant\"",
+                     fmt::format("found law = \"{}\" with a static start, which this law does not have. Give "
+                                 "run.initial as displacements and velocities, or use law = \"compliant\"",
                                  law.name));
   }
   if (const std::string refusal = validation_error(law); !refusal.empty()) refuse(refusal);
@@ -87,7 +92,8 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
   if (!spec.tangent && !spec.normal)
     throw SceneError(spec.place, spec.key("tangent"), "a slider needs a tangent");
   if (contact.tangent.terms.empty())
-    throw SceneError(spec.place, spec.key("tangent"), "a support fixes all motion along the tangent");
+    throw SceneError(spec.place, spec.key("tangent"),
+                     "a support fixes all motion along the tangent; remove the contact or the support");
   if (const double t = history::find_negative_time(contact.normal_force, t_end); t >= 0.0)
     throw SceneError(spec.normal_force.place, spec.key("normal_force"),
                      fmt::format("found {:.6g} at time {:.6g}, expected a compression >= 0",

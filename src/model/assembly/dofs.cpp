@@ -87,9 +87,10 @@ void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool,
   for (std::size_t c = 0; c < 3; ++c) {
     if (!fix[c]) continue;
     if (moving[c] >= 0)
-      throw SceneError(s.place, key,
-                       fmt::format("the {} of node '{}' follows another support's motion already",
-                                   scene::plane_components[c].displacement, s.node));
+      throw SceneError(
+          s.place, key,
+          fmt::format("another support already moves the {} of node '{}'; remove one of the two supports",
+                      scene::plane_components[c].displacement, s.node));
     moving[c] = static_cast<int>(map.supports.size());
   }
   map.supports.push_back(i);
@@ -104,7 +105,8 @@ void check_moving(const Scene& scene, const DofMap& map) {
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c] && !s.motion && moving[c] >= 0)
         throw SceneError(s.place, s.key + ".fix",
-                         fmt::format("the {} of node '{}' follows another support's motion",
+                         fmt::format("another support moves the {} of node '{}', so this support cannot fix "
+                                     "it; remove the component from one of the two supports",
                                      scene::plane_components[c].displacement, s.node));
   }
 }
@@ -150,8 +152,8 @@ std::array<double, 2> sliding_direction(const ContactSpec& contact) {
 
 void refuse_missing_rotation(const SourcePlace& place, const std::string& key, const std::string& node) {
   throw SceneError(place, key,
-                   fmt::format("node '{}' has no rotation: no beam without a hinge, no inertia and no "
-                               "rotational spring acts on it",
+                   fmt::format("node '{}' has no rotation: the node has no inertia and no rotational spring, "
+                               "and no beam is connected to it without a hinge",
                                node));
 }
 

@@ -125,7 +125,8 @@ void check_stiffness_range(const Scene& scene, const DofMap& map) {
   add_members(scene, map, all);
   for (std::size_t i = 0; i < scene.springs.size(); ++i)
     all.push_back({scene.springs[i].stiffness, scene.springs[i].place,
-                   fmt::format("springs.{}.stiffness", i + 1), "the stiffness of this spring"});
+                   fmt::format("springs.{}.stiffness", i + 1),
+                   fmt::format("the stiffness of spring {}", i + 1)});
   for (const ContactSpec& contact : scene.contacts)
     all.push_back({contact.normal_stiffness, contact.place, contact.key("normal_stiffness"),
                    fmt::format("normal_stiffness of contact '{}'", contact.name)});
@@ -137,11 +138,12 @@ void check_stiffness_range(const Scene& scene, const DofMap& map) {
   if (low.value >= high.value / widest) return;
   const bool too_stiff = std::abs(std::log(high.value)) > std::abs(std::log(low.value));
   const Stiffness &odd = too_stiff ? high : low, &other = too_stiff ? low : high;
-  throw SceneError(odd.place, odd.key,
-                   fmt::format("found {:.4g} as {}, and {:.4g} as {}: with a ratio above {:.3g}, squares of "
-                               "frequencies leave the range of doubles; expected {}",
-                               odd.value, odd.what, other.value, other.what, widest,
-                               too_stiff ? "a smaller value, or a rigid body" : "a larger value"));
+  throw SceneError(
+      odd.place, odd.key,
+      fmt::format("{1} is {0:.4g}, and {3} is {2:.4g}: with a ratio above {4:.3g}, squares of frequencies "
+                  "leave the range of doubles; expected {5}",
+                  odd.value, odd.what, other.value, other.what, widest,
+                  too_stiff ? "a smaller first value, or a rigid body" : "a larger first value"));
 }
 
 }  // namespace signorini::assembly

@@ -65,11 +65,10 @@ void add_body_constraint(const Scene& scene, const RigidBody& body, const BodyCo
   }
   if (before->moving == hold.moving && before->node == hold.node) return;
   if (before->moving >= 0 || hold.moving >= 0)
-    refuse_support(
-        scene, hold, body,
-        fmt::format(
-            "another support also fixes its {}, and one of the two supports moves; expected one support",
-            scene::plane_components[c].displacement));
+    refuse_support(scene, hold, body,
+                   fmt::format("another support also fixes the {} of this body, and one of the two supports "
+                               "moves; remove one of them",
+                               scene::plane_components[c].displacement));
   if (c < 2 && lever_arm(before->coordinate, hold.coordinate) != 0.0) turn = hold;
 }
 
@@ -93,9 +92,9 @@ void find_body_constraints(const Scene& scene, const RigidBody& body, int number
   }
   if (!turn) return;
   if (motion.constraints[2] && motion.constraints[2]->moving >= 0)
-    refuse_support(
-        scene, *turn, body,
-        "two supports together fix its rz, which another support moves; remove one of these supports");
+    refuse_support(scene, *turn, body,
+                   "two supports together fix the rz of this body, but another support moves rz; remove one "
+                   "of these three supports");
   motion.constraints[2] = turn;
 }
 
@@ -263,7 +262,7 @@ namespace {
 
 [[noreturn]] void refuse_tie(const TieSpec& tie, const DofMap& map, const std::string& why) {
   throw SceneError(tie.place, fmt::format("seams.{}.slave", tie.seam),
-                   fmt::format("node '{}' follows the master of this tied seam, and {}",
+                   fmt::format("node '{}' follows the master of this tied seam, but {}",
                                map.mesh.node(tie.node).name, why));
 }
 
@@ -300,13 +299,14 @@ void mark_slave_dofs(const Scene& scene, DofMap& map) {
   for (const TieSpec& tie : scene.ties) {
     const auto node = static_cast<std::size_t>(tie.node);
     if (map.body[node] >= 0)
-      refuse_tie(tie, map,
-                 fmt::format("is part of rigid body '{}'",
-                             scene.rigid[static_cast<std::size_t>(map.body[node])].name));
+      refuse_tie(
+          tie, map,
+          fmt::format("the node is also part of rigid body '{}': remove it from the seam or from the body",
+                      scene.rigid[static_cast<std::size_t>(map.body[node])].name));
     for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
       if (map.number[node][c] == DofMap::fixed || map.moving[node][c] >= 0)
         refuse_tie(tie, map,
-                   "a support fixes it: expected supports on the master, or the two boundaries exchanged");
+                   "a support fixes the node: put the support on the master, or exchange the two boundaries");
       map.number[node][c] = DofMap::absent;
     }
     for (const auto& [l, weight] : tie.master)

@@ -127,7 +127,8 @@ const Section& section_of(const Scene& scene, const Member& member) {
 void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number) {
   const Member& member = scene.members[number];
   const std::string key = fmt::format("members.{}", number + 1);
-  if (member.nodes.size() < 2) throw SceneError(member.place, key + ".nodes", "a member needs two nodes");
+  if (member.nodes.size() < 2)
+    throw SceneError(member.place, key + ".nodes", "a member needs at least two nodes");
   const Section& section = find_section(scene, member, key);
   for (std::size_t piece = 0; piece + 1 < member.nodes.size(); ++piece)
     add_piece(mesh, scene, number, piece, section, key);

@@ -310,9 +310,10 @@ class Maker {
       for (const auto& [l, weight] : tie.master)
         if (l == node)
           refuse(spec, "at",
-                 fmt::format("tied seam '{}' transfers forces of its slave to node '{}', which reactions do "
-                             "not include: expected another support, or the seam's boundaries exchanged",
-                             tie.seam, spec.at[0]));
+                 fmt::format(
+                     "tied seam '{}' transfers forces of its slave to node '{}', and a reaction does not "
+                     "include these forces: choose another support, or exchange the boundaries of the seam",
+                     tie.seam, spec.at[0]));
     if (const int body = map_.body[static_cast<std::size_t>(node)]; body >= 0)
       add_body_reaction(scene_, map_, *rows_, {body, node, d, spec.place, "output." + spec.name + ".at"},
                         row);
@@ -379,7 +380,7 @@ class Maker {
                             // the units can differ only in a scene that a program creates
                             output.unit))
         refuse(spec, "terms",
-               fmt::format("'{}' has another unit than '{}'; expected terms of one unit", part.name,
+               fmt::format("'{}' and '{}' have different units; expected terms of one unit", part.name,
                            spec.terms.front().name));
       add(output.u, term.u, factor);
       add(output.v, term.v, factor);

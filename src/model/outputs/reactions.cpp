@@ -112,8 +112,8 @@ std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model)
     // The force on the node is -cold times the direction.
     if (h.hot && h.cold * along < 0.0)
       doubts.push_back(
-          fmt::format("the hanger of spring {} pushes its node along gravity; reverse its direction, which "
-                      "must point from the hanger's anchor to the node",
+          fmt::format("the hanger of spring {} pushes its node along gravity; reverse the direction of the "
+                      "spring: it must point from the hanger's anchor to the node",
                       h.spring));
   }
   if (!model.static_start) return doubts;

@@ -88,7 +88,7 @@ ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, 
   found.pairs = modes::lowest_modes(static_cast<int>(found.kept), limit, mass, stiffness, rigid, shift);
   const Eigen::Index below = (found.pairs.values.array() < limit).count();
   if (below != found.kept || found.pairs.values.size() != found.kept + 1)
-    throw NotReducible(fmt::format("{} modes lie below the cutoff, but {} were found; move the cutoff", count,
+    throw NotReducible(fmt::format("modes below the cutoff: {} counted, but {} found; move the cutoff", count,
                                    rigid.cols() + below));
   const double first = found.pairs.values[found.kept];
   if (const int sure = modes::count_modes_below(mass, stiffness, std::max(limit, (1.0 - margin) * first));
@@ -106,10 +106,10 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
   const int count = std::max(counted, free);
   const bool most = count >= heavies / 3;
   if (count > most_modes || (most && heavies > dense_at_most))
-    throw NotReducible(
-        fmt::format("{} of {} modes lie below the cutoff; at most {} can be kept, and a third or more of all "
-                    "modes only if the structure has at most {}; lower the cutoff, or leave [reduction] out",
-                    count, heavies, most_modes, dense_at_most));
+    throw NotReducible(fmt::format(
+        "{} of {} modes lie below the cutoff; at most {} modes can be kept, and fewer than a third of all "
+        "modes if the structure has more than {}; lower the cutoff, or leave [reduction] out",
+        count, heavies, most_modes, dense_at_most));
   return most ? all_elastic(cutoff, mass, stiffness, free, heavies)
               : lowest_elastic(cutoff, count, mass, stiffness, rigid);
 }

@@ -40,10 +40,9 @@ void check_reducible(const Scene& scene, const Model& model) {
       Eigen::Index greatest = 0;
       null.col(0).cwiseAbs().maxCoeff(&greatest);
       const int dof = light[static_cast<std::size_t>(greatest)];
-      refuse(scene,
-             fmt::format("{} has no mass, and no stiffness of the structure resists it, so it has neither "
-                         "a mode nor a static response; give it a mass, or leave [reduction] out",
-                         model.dofs[static_cast<std::size_t>(dof)].displacement));
+      refuse(scene, fmt::format("{} has no mass and, with all contacts open, no stiffness, so the reduced "
+                                "model has no shape for it; give it a mass, or leave [reduction] out",
+                                model.dofs[static_cast<std::size_t>(dof)].displacement));
     }
   }
   if (modes::fastest_growth(model.stiffness, model.mass))

@@ -91,7 +91,7 @@ class LoadingPath {
         advance(end);
         idle = part_ > before ? 0 : idle + 1;
         if (found_.events.size() > most || idle > 20 + 4 * static_cast<int>(contacts_.size()))
-          refuse_stage("the states of its contacts change without end");
+          refuse_stage("the states of the contacts change without end");
       }
       StageEnd result{stage.name, end, {}, {}, {}};
       for (const LimitMargin& s : standing_) {
@@ -104,16 +104,16 @@ class LoadingPath {
   }
 
   [[noreturn]] void refuse_stage(const std::string& why) const {
-    throw SceneError(
-        place_, "run.initial",
-        fmt::format("no frictional start: at load factor {:.4g} of stage '{}' {}", part_, stage_->name, why));
+    throw SceneError(place_, "run.initial",
+                     fmt::format("no frictional start: at load factor {:.4g} of stage '{}', {}", part_,
+                                 stage_->name, why));
   }
 
   [[noreturn]] void refuse_motion(const ConstraintRows& held) const {
     const assembly::SymmetricSolver solver(held.matrix());
     const Eigen::MatrixXd null = null_motions(held.matrix());
     if (solver.ok() && solver.negative_pivots() > 0 && null.cols() == 0)
-      refuse_stage("the stiffness is indefinite");
+      refuse_stage("the stiffness is indefinite, so the structure is unstable");
     const std::string name =
         null.cols() > 0 ? assembly::describe_motion(null.col(0), map_) : std::string("structure");
     refuse_stage(
@@ -155,7 +155,7 @@ class LoadingPath {
     const Eigen::VectorXd pressed = q(openings).array() + balanced;
     if (base::solve_lcp(m(openings, openings), pressed)) return;
     refuse_stage(
-        fmt::format("{} {} would have to pull, however great the friction: the loads overturn or lift the "
+        fmt::format("{} {} would have to pull even with infinite friction: the loads overturn or lift the "
                     "structure there; check the directions of gravity and of loads, and where the loads act",
                     pulled.size() == 1 ? "contact" : "contacts", base::join_quoted(pulled)));
   }
@@ -292,7 +292,7 @@ class LoadingPath {
       if (!shared.undetermined.empty()) doubt(shared);
       if (found->ambiguous)
         doubt(
-            fmt::format("at load factor {:.4g} of stage '{}' {} may continue in several ways that all "
+            fmt::format("at load factor {:.4g} of stage '{}', {} may continue in several ways that all "
                         "satisfy the contact laws; the start takes the smallest slips and openings",
                         part_, stage_->name, names_of_unknowns(unknowns)));
       refuse_shares(rows, unknowns, shared.moves);
@@ -306,10 +306,11 @@ class LoadingPath {
     std::vector<std::string> names;
     for (const std::size_t k : shared.undetermined) names.push_back(contacts_[k].name);
     const std::string sentence = fmt::format(
-        "stage '{}': nothing resists the {} where {} {} at the limit, so the data do not determine how far "
-        "each of them slips; the start takes the smallest slips",
-        stage_->name, assembly::describe_motion(shared.motion, map_), base::join_quoted(names),
-        names.size() == 1 ? "is" : "are");
+        "stage '{}': nothing resists the {} while {} at the friction limit, so the data do not determine how "
+        "far {}; the start takes the smallest slips",
+        stage_->name, assembly::describe_motion(shared.motion, map_),
+        base::join_quoted(names) + (names.size() == 1 ? " is" : " are"),
+        names.size() == 1 ? "this contact slips" : "each of these contacts slips");
     doubt(sentence);
   }
   void doubt(const std::string& sentence) {

@@ -151,7 +151,7 @@ double find_rigid_stiffness_factor(StaticProblem problem, const std::vector<bool
 
 std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
   const std::string name = assembly::describe_motion(f.motion, problem.map);
-  if (f.contact_index < 0) return name + ", held by no contact, stays at zero";
+  if (f.contact_index < 0) return name + ", which no contact restrains, set to zero at the start";
   return fmt::format("{} held at contact '{}'", name,
                      problem.contacts[static_cast<std::size_t>(f.contact_index)].name);
 }

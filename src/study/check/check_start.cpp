@@ -70,8 +70,8 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
         if (share) continue;
         group.push_back(c.name);
         return Ambiguity{k,
-                         fmt::format("contacts {} stick rigidly to the same motion, so their friction forces "
-                                     "are not unique; give them a tangential_stiffness",
+                         fmt::format("contacts {} restrain the same motion when they stick rigidly, so their "
+                                     "friction forces are not unique; give them a tangential_stiffness",
                                      base::join_quoted(group))};
       }
     }
@@ -107,7 +107,7 @@ Start start(const Scene& scene, const Model& model) {
   Report report = simulate(model, study::without_rows(scene.run), recorder);
   if (report.outcome.kind == Outcome::Kind::stopped) {
     const std::string reason =
-        fmt::format("the run cannot start, t = {:g}: {}", report.outcome.t, report.outcome.reason);
+        fmt::format("the run cannot start at t = {:g}: {}", report.outcome.t, report.outcome.reason);
     if (const auto found = ambiguous_contacts(model)) {
       const ContactSpec& contact = scene.contacts[found->contact];
       const bool included = reason.find(found->reason) != std::string::npos;

@@ -70,8 +70,8 @@ std::vector<std::string> loose_parts(const Scene& scene) {
     result.push_back(fmt::format("no member, mass, spring or contact is attached to node{} {}",
                                  loose.size() > 1 ? "s" : "", base::join_quoted(loose, 5)));
   if (!unused.empty())
-    result.push_back(fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "",
-                                 base::join_quoted(unused, 5)));
+    result.push_back(fmt::format("{} {} not used by any member", unused.size() > 1 ? "sections" : "section",
+                                 base::join_quoted(unused, 5) + (unused.size() > 1 ? " are" : " is")));
   return result;
 }
 
@@ -85,10 +85,11 @@ std::string unstable_motion(const Scene& scene, const Model& model,
   if (!growth) return "";
   const std::string pace =
       std::isfinite(growth->rate)
-          ? fmt::format("grows like exp({:.4g} t) unless friction prevents it", growth->rate)
-          : std::string("has no mass that could slow it down");
-  return fmt::format("the structure is unstable, its stiffness matrix has a negative eigenvalue: the {} {}",
-                     assembly::describe_motion(growth->motion, map), pace);
+          ? fmt::format("grows like exp({:.4g} t) unless friction prevents the growth", growth->rate)
+          : std::string("grows without delay, because this motion moves no mass");
+  return fmt::format(
+      "the structure is unstable: its stiffness matrix has a negative eigenvalue, and the {} {}",
+      assembly::describe_motion(growth->motion, map), pace);
 }
 
 check::MassFacts mass_of(const Scene& scene, const Model& model) {

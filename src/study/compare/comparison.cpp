@@ -53,8 +53,10 @@ std::vector<CommonColumn> common_columns(const result::CsvReader& a, const resul
       quantity(c, b.header()[i]).unmatched.push_back(b.header()[i]);
     }
   if (!alone.empty()) {
-    c.notes.push_back(fmt::format("{}: {} in one of the two runs only, the first is \"{}\"", table,
-                                  base::count_text(alone.size(), "column"), alone[0]));
+    c.notes.push_back(
+        fmt::format("{}: {} in only one of the two runs{} \"{}\"", table,
+                    base::count_text(alone.size(), "column") + (alone.size() == 1 ? " occurs" : " occur"),
+                    alone.size() == 1 ? ":" : "; the first is", alone[0]));
   }
   return columns;
 }
@@ -230,7 +232,7 @@ void note_contacts(const ComparedRun& a, const ComparedRun& b, Comparison& c) {
   for (const auto& [one, two] : {std::pair(&a, &b), std::pair(&b, &a)})
     for (const auto& contact : one->figures.facts.contacts)
       if (!has(*two, contact.name)) {
-        c.notes.push_back(fmt::format("contact \"{}\" is in {} only", contact.name, one->figures.name));
+        c.notes.push_back(fmt::format("only {} has contact \"{}\"", one->figures.name, contact.name));
         c.force.unmatched.push_back(contact.name);
         c.force_away.unmatched.push_back(contact.name);
       }
@@ -270,8 +272,9 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   compare_energy(reference, other, split, c);
   compare_response(reference, other, split, c);
   if (c.common_times < 2 && c.t_end > 0.0) {
-    c.notes.push_back(fmt::format("{} output {} common: give both runs the same output times (run.output_dt)",
-                                  c.common_times, c.common_times == 1 ? "time is" : "times are"));
+    c.notes.push_back(
+        fmt::format("the two runs have {} in common: give both runs the same output times (run.output_dt)",
+                    base::count_text(c.common_times, "output time")));
   }
   return c;
 }

@@ -31,17 +31,16 @@ std::vector<TableRows> tables_of(const Comparison& c) {
           {"response.csv", &c.rows.response}};
 }
 
-std::string of_rows(const RowCount& rows) {
-  return fmt::format("{} of {} and {}", rows.compared, rows.reference, rows.other);
-}
-
 /// Text about rows of the quantity's table that were not compared; empty if all were compared. Tables have a
 /// row at each time of history.csv, and contacts.csv has a row per time and contact. response.csv also has
 /// rows at events, whose times differ from run to run.
 std::string uncompared_rows_text(const std::string& quantity, const RunFigures& reference,
                                  const RunFigures& other, const Comparison& c) {
-  const auto sentence = [](const char* file, const RowCount& rows) {
-    return fmt::format("{} rows of {} were compared", of_rows(rows), file);
+  const auto sentence = [&](const char* file, const RowCount& rows) {
+    return fmt::format("only {} of {} {} compared; {} has {}, and {} has {}",
+                       base::count_text(rows.compared, "row"), file, rows.compared == 1 ? "was" : "were",
+                       reference.name, base::count_text(rows.reference, "row"), other.name,
+                       base::count_text(rows.other, "row"));
   };
   const auto fewer = [](const char* file, const std::string& name, std::size_t rows, std::size_t expected) {
     return fmt::format("{} of {} has {}, expected {} at the times of its history.csv", file, name,
@@ -72,6 +71,11 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
 }
 
+/// "1 event has", "3 events have": the beginning of a statement about events without a matching event.
+std::string unmatched_events(std::size_t count) {
+  return base::count_text(count, "event") + (count == 1 ? " has" : " have");
+}
+
 /// Text about columns or contacts of the quantity that only one run has. Empty if the quantity has at least
 /// one column or contact, and both runs have all of them.
 std::string unmatched_columns_text(const Quantity& quantity, const Comparison& c) {
@@ -81,9 +85,9 @@ std::string unmatched_columns_text(const Quantity& quantity, const Comparison& c
   for (const auto& [name, deviation] : c.columns) common.push_back(name);
   const std::string both = common.empty() ? "none" : listed(common);
   if (!alone.empty())
-    return fmt::format("{} {} in one of the two runs only; columns in both runs: {}", listed(alone),
-                       alone.size() == 1 ? "is" : "are", both);
-  if (quantity.name == "force_away" && c.force.count > 0) return "no output time is away from events";
+    return fmt::format("only one of the two runs has {}; columns in both runs: {}", listed(alone), both);
+  if (quantity.name == "force_away" && c.force.count > 0)
+    return "no common output time is far enough from events";
   return "neither run has such a column; columns in both runs: " + both;
 }
 
@@ -103,8 +107,10 @@ std::string rows_compared(const Comparison& comparison) {
   for (const TableRows& table : tables_of(comparison)) {
     const RowCount& rows = *table.rows;
     if (rows.reference + rows.other == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", table.file,
-                        rows.all() ? std::to_string(rows.compared) : of_rows(rows));
+    text += fmt::format(
+        "{}{} {}", text.empty() ? "" : ", ", table.file,
+        rows.all() ? std::to_string(rows.compared)
+                   : fmt::format("{} (reference {}, run {})", rows.compared, rows.reference, rows.other));
   }
   return text;
 }
@@ -163,25 +169,25 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
   }
   const bool whole = reference.done() && other.done();
   if (whole && comparison.ends_differ)
-    list.push_back(fmt::format(
-        "{}: compared up to t = {:.9g}, but {} continues to {:.9g}, so limits cannot be checked beyond that "
-        "time",
-        other.name, comparison.t_end, (reference.t > other.t ? reference : other).name,
-        std::max(reference.t, other.t)));
+    list.push_back(
+        fmt::format("{0}: compared up to t = {1:.9g}, but {2} continues to {3:.9g}, so limits cannot be "
+                    "checked after t = {1:.9g}",
+                    other.name, comparison.t_end, (reference.t > other.t ? reference : other).name,
+                    std::max(reference.t, other.t)));
   const auto& split = comparison.alignment.split;
   const bool sequence_limited =
       std::any_of(limits.begin(), limits.end(), [](const Limit& l) { return l.name == sequence; });
   for (const Limit& limit : limits) {
     if (limit.name == "event_time" && split && !sequence_limited)
       list.push_back(fmt::format(
-          "{}: {} from t = {:.9g} on have no matching event, so event_time {} cannot be checked", other.name,
-          base::count_text(split->unaligned, "event"), split->t, base::format_number(limit.value)));
+          "{}: from t = {:.9g} on, {} no matching event, so the limit {} of event_time cannot be checked",
+          other.name, split->t, unmatched_events(split->unaligned), base::format_number(limit.value)));
     if (limit.name == sequence) {
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
       list.push_back(fmt::format(
-          "{}: the sequence of events differs from t = {:.9g} on: {} after this time, the limit is {}",
-          other.name, split->t, base::count_text(unaligned, "event"), base::format_number(limit.value)));
+          "{}: the sequence of events differs from t = {:.9g} on: {} no matching event, the limit is {}",
+          other.name, split->t, unmatched_events(unaligned), base::format_number(limit.value)));
       continue;
     }
     const std::vector<Quantity> known = quantities(comparison, reference.facts.units);
@@ -193,11 +199,10 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
       const MaxDifference& greatest = quantity.deviation->whole;
       const std::string why = whole ? reason_not_comparable(quantity, reference, other, comparison) : "";
       if (!why.empty())
-        list.push_back(
-            fmt::format("{}: {} has a limit, which cannot be checked: {}", other.name, limit.name, why));
+        list.push_back(fmt::format("{}: the limit of {} cannot be checked: {}", other.name, limit.name, why));
       if (!(greatest.value <= limit.value))
-        list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds {}", other.name, limit.name,
-                                   greatest.value, quantity.unit, greatest.t, greatest.where,
+        list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds the limit {}", other.name,
+                                   limit.name, greatest.value, quantity.unit, greatest.t, greatest.where,
                                    base::format_number(limit.value)));
     }
   }

@@ -72,9 +72,9 @@ std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outp
     points.push_back(std::move(p));
   }
   if (points.size() < rows)
-    throw FileError(
-        (directory / "branch.csv").string(),
-        fmt::format("has {} rows, expected {} up to the checkpoint in last/", points.size(), rows));
+    throw FileError((directory / "branch.csv").string(),
+                    fmt::format("has {}, expected {} up to the checkpoint in last/",
+                                base::count_text(points.size(), "row"), rows));
   return points;
 }
 
@@ -119,8 +119,8 @@ void check_branch_identity(const fs::path& directory, const base::Json& kept, co
       fmt::format("{}", fmt::join(differ.begin(), differ.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
   if (differ.size() > shown) text += fmt::format(", and {} more keys", differ.size() - shown);
   throw UsageError(
-      fmt::format("--resume: the branch in {} belongs to another scene, or to other options: {}. "
-                  "Resume it with its own scene and options, or follow a new branch with --force",
+      fmt::format("--resume: the branch in {} was computed with another scene or other options; different: "
+                  "{}. Resume it with its own scene and options, or follow a new branch with --force",
                   directory.string(), text));
 }
 
@@ -156,7 +156,8 @@ BranchCheckpoint read_checkpoint(const fs::path& directory, const SceneReader& r
   try {
     std::ifstream branch_stream(directory / "branch.json", std::ios::binary);
     if (base::parse_json(branch_stream).value("complete", false))
-      throw UsageError(fmt::format("--resume: the branch in {} is complete", directory.string()));
+      throw UsageError(
+          fmt::format("--resume: the branch in {} is complete, so it cannot be resumed", directory.string()));
     std::ifstream stream(last / "mark.json", std::ios::binary);
     std::ifstream orbit_stream(last / "orbit.json", std::ios::binary);
     const base::Json saved = base::parse_json(stream);

@@ -96,9 +96,9 @@ TargetSpectrum TargetSpectrum::read(const std::string& name_or_file, double ag) 
   for (std::size_t i = 0; i < table.times.size(); ++i) {
     const double T = table.times[i], value = table.values[i];
     if (!(T > 0.0) || !(value > 0.0) || (i > 0 && T == table.times[i - 1]))
-      throw FileError(name_or_file, fmt::format("row {} has T = {} and PSA = {}, expected both above 0 and "
-                                                "each T once",
-                                                i + 1, T, value));
+      throw FileError(name_or_file,
+                      fmt::format("row {} has T = {} and PSA = {}, expected {}", i + 1, T, value,
+                                  T > 0.0 && value > 0.0 ? "each T only once" : "both above 0"));
     target.rows_.emplace_back(T, value);
   }
   if (target.rows_.empty()) throw FileError(name_or_file, "has no row, expected rows T,PSA");

@@ -70,7 +70,7 @@ ExcitedModes excited_modes(const Model& structure, const reduce::KeptModes& kept
       base::symmetric_eigen(h.transpose() * (structure.mass * h));  // 1/omega^2, ascending
   const Eigen::Index all = ritz.values.size();
   if (all == 0 || !ritz.values.allFinite())
-    throw reduce::NotReducible("the contribution of the modes left out cannot be estimated");
+    throw reduce::NotReducible("the contribution of the truncated modes cannot be estimated");
   const Eigen::Index count = (ritz.values.array() > needs_no_mass * ritz.values[all - 1]).count();
   const Eigen::VectorXd inverse = ritz.values.tail(count).reverse();
   result.squares = inverse.cwiseInverse();

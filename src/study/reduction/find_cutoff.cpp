@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/build.hpp"
 #include "model/modes/frequencies.hpp"
@@ -314,7 +315,8 @@ Trial trial(const Scene& scene, const SystemMatrices& structure, const SystemMat
   result.ended = report.outcome.kind == Outcome::Kind::interrupted;
   if (result.ended) return result;
   if (report.outcome.kind == Outcome::Kind::stopped) {
-    result.failure = fmt::format("a trial with {} modes stopped at t = {:.6g}: {}", cutoff.kept,
+    result.failure = fmt::format("a trial with {} stopped at t = {:.6g}: {}",
+                                 base::count_text(static_cast<std::size_t>(cutoff.kept), "mode"),
                                  report.outcome.t, report.outcome.reason);
     return result;
   }

@@ -298,9 +298,12 @@ void read_parameters(const fs::path& file, Sensitivities& s, Sigmas& sigmas) {
   } catch (const base::Json::exception& error) {
     throw FileError(file.string(), std::string("is not a file of `signorini sensitivity`: ") + error.what());
   }
-  if (s.parameters.empty() || (!sigmas.empty() && sigmas.size() != s.parameters.size()))
-    throw FileError(file.string(),
-                    "expected at least one parameter, and a sigma for every parameter or for none");
+  if (s.parameters.empty()) throw FileError(file.string(), "has no parameter, expected at least one");
+  if (!sigmas.empty() && sigmas.size() != s.parameters.size())
+    throw FileError(
+        file.string(),
+        fmt::format("has a sigma for {} of {} parameters, expected a sigma for all of them or for none",
+                    sigmas.size(), s.parameters.size()));
 }
 
 }  // namespace

@@ -62,8 +62,8 @@ std::string pareto_sentence(const std::vector<WorkRow>& rows, const std::string&
   std::string sentence;
   for (const std::size_t i : last) {
     const WorkRow& row = rows[i];
-    sentence += sentence.empty() ? fmt::format("For errors of {} ", what) : ", below that ";
-    sentence += fmt::format("down to {:.1e} {} {} is cheapest (", ranked(row, quantity, range),
+    sentence += sentence.empty() ? fmt::format("For errors of {} ", what) : ", below that error, ";
+    sentence += fmt::format("down to {:.1e} {}, {} is cheapest (", ranked(row, quantity, range),
                             row.error(quantity)->unit, row.point.line());
     if (row.point.accuracy) sentence += row.point.setting() + ": ";
     sentence += fmt::format("{:.2g} s)", *row.wall_time());

@@ -229,7 +229,7 @@ std::vector<std::string> work_failures(const WorkReport& report) {
 }
 
 std::string work_conditions(const WorkReport& report) {
-  return fmt::format("{}, {}; {}, {}; Signorini {}, SUNDIALS {}, {}; least of {} without output",
+  return fmt::format("{}, {}; {}, {}; Signorini {}, SUNDIALS {}, {}; wall time: least of {} without output",
                      base::count_text(report.unknowns, "dof"), base::count_text(report.contacts, "contact"),
                      report.machine.processor, base::count_text(report.machine.cores, "core"), version,
                      sundials_version, report.machine.compiler, base::count_text(report.repeats, "repeat"));

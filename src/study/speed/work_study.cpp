@@ -118,14 +118,15 @@ WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
   report_.unknowns = model.dofs.size();
   report_.contacts = model.contacts.size();
   if (!capture_velocities_.empty())
-    report_.notes.push_back(fmt::format("rigid contacts without a capture_velocity have {} {}/{} in all runs",
+    report_.notes.push_back(fmt::format("rigid contacts without a capture_velocity use {} {}/{} in all runs",
                                         capture_velocities_.front().value, scene.units.length,
                                         scene.units.time));
 }
 
 study::PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   if (base::fingerprint_of(read_scene(request_.scene, request_.settings("")).resolved) != fingerprint_)
-    throw FileError(request_.scene, "has changed while the study ran; its runs cannot be compared");
+    throw FileError(request_.scene,
+                    "has changed during the study, so the runs cannot be compared; start the study again");
   std::vector<Override> changes = capture_velocities_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
@@ -192,8 +193,8 @@ void WorkStudy::measure_reference_error(const WorkPoint& point) {
   perturbed_reference_ = compare::read_compared_run(folder, point.name() + " again");
   reference_error_measured_ = true;
   report_.notes.push_back(
-      fmt::format("the error of the reference is estimated by a relative change of all masses by {:g}; "
-                  "smaller errors cannot be distinguished",
+      fmt::format("the error of the reference is estimated from a second run with all masses changed by the "
+                  "factor 1 + {:g}; errors below this estimate cannot be distinguished",
                   last_digits));
   double& until = report_.compared_until;
   const double whole = until;
@@ -228,7 +229,7 @@ std::optional<WorkPoint> WorkStudy::series_of_exact() {
     const double seconds = run::expected_cost(run.model, run.scene.run).estimate.by_series;
     if (seconds <= request_.limits.seconds) return series;
     report_.notes.push_back(
-        fmt::format("{} is left out: it would take {} s, more than the time limit of {:g} s", series.name(),
+        fmt::format("{} is omitted: it would take {} s, more than the time limit of {:g} s", series.name(),
                     run::seconds_text(seconds), request_.limits.seconds));
   } catch (const SceneError&) {  // the error is reported when `exact` itself runs
   }
@@ -321,7 +322,7 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
   try {
     if (const double seconds = seconds_of(point); seconds > max_expected_ratio * request_.limits.seconds) {
       row.outcome = "too slow";
-      row.reason = fmt::format("not tried: it would take {} s", run::seconds_text(seconds));
+      row.reason = fmt::format("not started: the run would take {} s", run::seconds_text(seconds));
       report_.rows.push_back(std::move(row));
       return report_.rows.back();
     }

@@ -76,7 +76,9 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
                                  parts[2], parts[0], parts[1]));
   // A stop that is a multiple of the step up to rounding is included.
   const double steps = std::floor((stop - start) / step * (1.0 + 1e-12) + 1e-9);
-  if (!(steps < most_points)) throw UsageError(option + ": expected at most 1e6 values");
+  if (!(steps < most_points))
+    throw UsageError(
+        fmt::format("{}: found {:.6g} values, expected at most 1e6 values", option, steps + 1.0));
   const int digits = std::max(decimals(parts[0]), decimals(parts[2]));
   const bool integers = std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
     return base::parse_integer(part).has_value();
@@ -158,7 +160,7 @@ std::vector<std::size_t> in_step(const std::vector<ParameterRange>& varied, std:
     if (j < i) return {};
     members.push_back(j);
     if (varied[j].values.size() != varied[i].values.size())
-      throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected equal numbers",
+      throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected equally many values",
                                    varied[i].path, base::count_text(varied[i].values.size(), "value"),
                                    varied[j].path, varied[j].values.size()));
   }
@@ -288,7 +290,8 @@ Inverse parse_distribution(const std::string& text, const std::string& option) {
   for (const Distribution& d : distributions) known += fmt::format("{}{}", known.empty() ? "" : ", ", d.name);
   const std::size_t open = text.find('(');
   if (open == std::string::npos || text.back() != ')')
-    throw UsageError(option + ": expected PATH=DISTRIBUTION(numbers), one of " + known);
+    throw UsageError(option +
+                     ": expected PATH=DISTRIBUTION(numbers) with one of these distributions: " + known);
   const std::string name = trimmed(text.substr(0, open));
   std::vector<double> numbers;
   std::string inside = text.substr(open + 1, text.size() - open - 2) + ",";

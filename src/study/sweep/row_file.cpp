@@ -23,7 +23,7 @@ void check_kind(const fs::path& file) {
   std::error_code ignored;
   std::string why = base::input_file_error(file);
   if (fs::is_symlink(fs::symlink_status(file, ignored))) why = "is a symbolic link";
-  if (!why.empty()) throw FileError(file.string(), why + ", expected the rows of a sweep");
+  if (!why.empty()) throw FileError(file.string(), why + ", expected a file with the rows of a sweep");
 }
 
 /// Calls take(line, number) for each complete line; returns the total size of these lines in bytes.

@@ -70,7 +70,7 @@ std::string strobe_warning(const StroboscopicMap& strobe, const Scene& scene) {
   if (turns > 0.5 && std::abs(turns - std::round(turns)) <= same_period * turns) return {};
   return fmt::format(
       "--strobe {}: the period of the loads is {}, so the points of one run are states at different phases "
-      "of the loads; --strobe loads takes the period of each run's loads",
+      "of the loads; use --strobe loads, which takes the period of the loads of each run",
       strobe.text, base::format_number(*period));
 }
 

@@ -74,7 +74,9 @@ void check_directory(const fs::path& path) {
   if (!fs::exists(fs::symlink_status(path, error))) return;
   if (!fs::is_directory(path, error)) throw FileError(path.string(), "exists and is not a directory");
   if (!fs::is_empty(path, error) && !is_sweep(path))
-    throw FileError(path.string(), "is not empty and contains no sweep to continue (no sweep.json)");
+    throw FileError(
+        path.string(),
+        "is not empty and has no sweep.json, so it contains no sweep to continue; choose another directory");
 }
 
 /// True for numbers as run_directory() writes them: six digits, more only if needed.
@@ -89,7 +91,7 @@ bool is_own_folder(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) return false;
   if (fs::is_directory(status)) return true;
-  throw FileError(path.string(), "is not a folder that a sweep has created; --force removes nothing in it");
+  throw FileError(path.string(), "was not created by a sweep, so --force removes nothing in it");
 }
 
 /// Folders of the runs of an earlier sweep.
@@ -157,7 +159,7 @@ std::map<std::size_t, NumberedRow> SweepDirectory::rows_in(const fs::path& file)
     };
     if (index >= points_.size())
       throw wrong(fmt::format("not a row of this sweep, which has {} rows", points_.size()));
-    if (!spec_.share.holds(index)) throw wrong("not of share " + spec_.share.text());
+    if (!spec_.share.holds(index)) throw wrong("not part of share " + spec_.share.text());
     const auto& point = points_[index];
     bool ours = found.row.values.size() == point.size();
     for (std::size_t i = 0; ours && i < point.size(); ++i) ours = found.row.values[i] == point[i].value;
@@ -195,8 +197,9 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
   try {
     const base::Json json = base::parse_json(stream);
     if (json.at("sweep") != format)
-      throw FileError(file.string(),
-                      "is of an earlier version of Signorini; choose another directory, or use --force");
+      throw FileError(
+          file.string(),
+          "was written by an earlier version of Signorini; choose another directory, or use --force");
     SweepSpec spec;
     spec.scene = json.at("scene");
     spec.fingerprint = json.at("fingerprint");

@@ -280,11 +280,13 @@ void VerificationRuns::conclude(const Sequence& here, Verification& result) cons
     result.verdict = Agreement::differ;
     result.sentence = differences(result);
   } else if (here.differs) {
-    result.sentence = fmt::format("the sequences of events differ, and exact agrees with ida: {}; use {}",
-                                  here.reason, finer);
+    result.sentence = fmt::format(
+        "the sequences of events of newmark and ida differ, while exact agrees with ida: {}; use {}",
+        here.reason, finer);
   } else if (rough) {
     result.sentence =
-        "newmark's steps are too coarse: its observed orders of convergence differ too much from two; use " +
+        "newmark's time steps are too long: the observed orders of convergence differ too much from two; "
+        "use " +
         finer;
   } else if (here.until < t_end_) {
     result.sentence = fmt::format("ida and newmark agree until t = {:.9g} {}; {}", here.until,

@@ -95,7 +95,7 @@ class Study {
     } catch (const run::UnsupportedSceneError& unfit) {
       throw SceneError(run_.place, "verify",
                        fmt::format("verify checks ida with newmark, but newmark {}; signorini run --certify "
-                                   "checks ida with a finer ida instead",
+                                   "compares ida with a more accurate run of ida instead",
                                    unfit.reason));
     }
   }

@@ -188,7 +188,7 @@ TEST_SUITE("unit/study/check/check") {
     s.sections.push_back({"new", 1.0, 1.0, 1.0});
     CHECK(checked(s).warnings ==
           std::vector<std::string>{"no member, mass, spring or contact is attached to node 'E'",
-                                   "no member has the sections 'old' and 'new'"});
+                                   "sections 'old' and 'new' are not used by any member"});
   }
 
   TEST_CASE("negative stiffness is called unstable, with the rate of the fastest motion") {

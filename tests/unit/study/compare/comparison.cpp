@@ -139,7 +139,7 @@ TEST_CASE("comparison: other output times, other columns, a run that is cut off"
   CHECK(c.force.whole.value == 1.0);
   REQUIRE(c.notes.size() == 2);
   CHECK(c.notes[0] == "compared up to t = 2, the end of b; a ends at 4");
-  CHECK(c.notes[1] == "history.csv: 3 columns in one of the two runs only, the first is \"A.rz\"");
+  CHECK(c.notes[1] == "history.csv: 3 columns occur in only one of the two runs; the first is \"A.rz\"");
   CHECK(compare::exceeded(compare::parse_limits({"displacement=1"}), a.figures, b.figures, c).size() == 1);
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
     return &cases.back().tables;
   };
   add("no such column in both", "displacement=1",
-      "A.ux, B.ux are in one of the two runs only; columns in both runs: A.rz, A.vx")
+      "only one of the two runs has A.ux, B.ux; columns in both runs: A.rz, A.vx")
       ->history = "t,B.ux,A.rz,A.vx\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n4,4,0,0\n";
   add("no such column in either", "angular_velocity=1",
       "neither run has such a column; columns in both runs: A.ux, A.rz, A.vx and 2 more");
@@ -165,11 +165,12 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
   add("forces cut off", "force_away=1", "contacts.csv of b has 1 row")->contacts = "0,c,-1,0\n";
   add("energies cut off", "energy=1", "energy.csv of b has 2 rows, expected 5")->energy = "0,0,0\n1,1,0\n";
   Folder::Tables* const other_times =
-      add("other times", "displacement=1", "2 of 5 and 3 rows of history.csv were compared");
+      add("other times", "displacement=1",
+          "only 2 rows of history.csv were compared; a has 5 rows, and b has 3 rows");
   other_times->history = "t,A.ux,A.rz,A.vx\n0,0,0,0\n1.5,1.5,0,0\n4,4,0,0\n";
   other_times->contacts = "0,c,-1,0\n1.5,c,-1,0\n4,c,-1,0\n";
   other_times->energy = "0,0,0\n1.5,1.5,0\n4,4,0\n";
-  cases.push_back({"the same", "force=1", "2 of 5 and 3 rows of history.csv", *other_times});
+  cases.push_back({"the same", "force=1", "only 2 rows of history.csv were compared", *other_times});
   Folder::Tables* const longer =
       add("longer", "displacement=1", "b: compared up to t = 4, but b continues to 5");
   longer->outcome = R"({"kind": "done", "t": 5, "t_end": 5, "reason": ""})";
@@ -190,7 +191,8 @@ TEST_CASE("comparison: a limit fails where what is compared is not the whole of 
   const compare::Comparison c = compare::compare_runs(a, b);
   CHECK(c.rows.history == compare::RowCount{2, 5, 3});
   CHECK(compare::rows_compared(c) ==
-        "history.csv 2 of 5 and 3, contacts.csv 2 of 5 and 3, energy.csv 2 of 5 and 3");
+        "history.csv 2 (reference 5, run 3), contacts.csv 2 (reference 5, run 3), energy.csv 2 (reference 5, "
+        "run 3)");
   const compare::ComparedRun same = folder.run("same", reference);
   CHECK(compare::rows_compared(compare::compare_runs(a, same)) ==
         "history.csv 5, contacts.csv 5, energy.csv 5");

@@ -63,10 +63,11 @@ TEST_CASE(
                                       row("ida", 1e-4, 1e-3, 0.5),     row("ida", 1e-6, 1e-5, 0.9),
                                       row("exact", 0.0, 1e-14, 3.0),   row("ida", 1e-3, 2e-3, 0.47)};
   CHECK(speed::pareto_front(rows, "event_time") == std::vector<std::size_t>{0, 2, 3, 4});
-  CHECK(
-      speed::pareto_sentence(rows, "event_time") ==
-      "For errors of event time down to 1.0e-02 s newmark is cheapest (dt=0.01: 0.1 s), below that down to "
-      "1.0e-05 s ida is cheapest (rtol=1e-06: 0.9 s), below that down to 1.0e-14 s exact is cheapest (3 s).");
+  CHECK(speed::pareto_sentence(rows, "event_time") ==
+        "For errors of event time down to 1.0e-02 s, newmark is cheapest (dt=0.01: 0.1 s), below that error, "
+        "down to "
+        "1.0e-05 s, ida is cheapest (rtol=1e-06: 0.9 s), below that error, down to 1.0e-14 s, exact is "
+        "cheapest (3 s).");
   rows[3].split = "lost";
   CHECK(speed::pareto_front(rows, "event_time") == std::vector<std::size_t>{0, 2, 1, 4});
   rows[4].outcome = "stopped";

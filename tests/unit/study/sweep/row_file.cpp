@@ -98,7 +98,7 @@ TEST_CASE("row file: every byte of a row counts") {
 TEST_CASE("row file: what is no file of its own is refused, by name") {
   const tests::OwnFolder folder;
   const auto refused = [&](const fs::path& file, const std::string& why) {
-    const std::string message = file.string() + ": " + why + ", expected the rows of a sweep";
+    const std::string message = file.string() + ": " + why + ", expected a file with the rows of a sweep";
     CHECK(why_refused(file) == message);
     CHECK_THROWS_WITH_AS(sweep::RowFile{file}, message.c_str(), FileError);
   };

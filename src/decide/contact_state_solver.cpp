@@ -181,6 +181,25 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
          systems_.held_by_others(c, solver_state.states, solver_state.after, solver_state.instant.t);
 }
 
+/// True if others keep the slip rate or the gap of this guard at zero: the guard is then absent.
+bool ContactStateSolver::holds_foot(std::size_t c, Guard guard, const SolverState& solver_state) const {
+  if (guard == Guard::sliding) return held_by_others(c, solver_state);
+  return guard == Guard::closing && systems_.may_share(c) && solver_state.states[c].is_open() &&
+         std::abs(solver_state.jets[c].motion[0].gap) <= solver_state.jets[c].noise[0].gap &&
+         systems_.gap_held_by_others(c, solver_state.states);
+}
+
+/// Lets feet that bear their limit or nothing at rest be decided anew, whose forces of least norm leave that face of
+/// their cones.
+void ContactStateSolver::add_released(SolverState& solver_state) const {
+  for (const TriggeredGuard& f : solver_state.instant.triggered) {
+    const bool failed = std::any_of(solver_state.failed.begin(), solver_state.failed.end(),
+                                    [&](const FailedGuard& other) { return other.contact == f.contact; });
+    if (failed || !holds_foot(f.contact, f.guard, solver_state)) continue;
+    solver_state.failed.push_back({f.contact, f.guard, {}, {-1, 1, 1.0}});
+  }
+}
+
 /// Finds the guards that fail in the evaluated states, and notifies the listener. before: these are the
 /// states of the motion up to the instant.
 void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
@@ -189,7 +208,7 @@ void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
                          solver_state.impact_result.known, solver_state.so_far,
                          solver_state.open ? *solver_state.open : all_contacts_);
   std::erase_if(solver_state.failed, [&](const FailedGuard& f) {
-    if (f.guard == Guard::sliding && held_by_others(f.contact, solver_state)) return true;
+    if (holds_foot(f.contact, f.guard, solver_state)) return true;
     return std::find(solver_state.undecided.begin(), solver_state.undecided.end(), blocks_.of[f.contact]) !=
            solver_state.undecided.end();
   });
@@ -371,6 +390,7 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
   if (Refusal why = begin(before, solver_state)) return why;
   solver_state.tried_states.push_back(solver_state.states);
   check_guards(solver_state, true);
+  add_released(solver_state);
   if (solver_state.failed.empty() && !solver_state.instant.triggered.empty() && !solver_state.instant.jump) {
     solver_state
         .increase_noise();  // the engine located a zero of a guard: its positive value may be rounding
@@ -466,8 +486,7 @@ void ContactStateSolver::finish(SolverState& solver_state) {
       const GuardForm& guard = guards[i];
       GuardStart& start = d.guards[d.layout.guard(c, i)];
       // Other contacts may hold its slip rate at zero, except for rounding: the guard is then absent.
-      if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, solver_state)))
-        continue;
+      if (guard.kind == Guard::none || holds_foot(c, guard.kind, solver_state)) continue;
       start.kind = guard.kind;
       start.noise = solver_state.instant.noise_factor *
                     (guard.is_linear() ? QuickForm(guard.form).magnitude(jet.noise[0])

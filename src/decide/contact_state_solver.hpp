@@ -61,6 +61,8 @@ class ContactStateSolver {
   [[nodiscard]] Refusal propose(SolverState& solver_state);
   [[nodiscard]] Refusal try_next(SolverState& solver_state);
   [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& solver_state) const;
+  [[nodiscard]] bool holds_foot(std::size_t c, Guard guard, const SolverState& solver_state) const;
+  void add_released(SolverState& solver_state) const;
   [[nodiscard]] Refusal iterate(const motion::Forcing& before, SolverState& solver_state);
   [[nodiscard]] static bool rests_at_limit(const SolverState& solver_state, std::size_t c,
                                            const GuardStart& guard);

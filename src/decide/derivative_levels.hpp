@@ -8,6 +8,9 @@
 // derivative, with all decided contacts as constraints. Contacts that are undecided after the last known derivative
 // keep their states. Uncoupled contacts have one problem per block.
 //
+// Feet of one body that rest are decided by the forces of least norm (decide/resting_forces.hpp) as long as some forces
+// within the cones hold the body; only then are they decided by these levels.
+//
 // A problem without solution, or with several that differ in their accelerations, is Painleve's paradox: friction
 // couples the tangent to the normal so strongly that pressing a sliding contact pushes it into the ground. The decision
 // is then refused with the numbers of the problem.
@@ -19,6 +22,7 @@
 #include "decide/coulomb_problem.hpp"
 #include "decide/delassus.hpp"
 #include "decide/guard_signs.hpp"
+#include "decide/resting_forces.hpp"
 #include "motion/jet.hpp"
 #include "signorini/trace.hpp"
 
@@ -61,6 +65,13 @@ class DerivativeLevels {
     Eigen::VectorXd noise;  // of problem.b
     motion::StateSystemPtr system;
   };
+  [[nodiscard]] std::vector<RestingFeet> find_resting(const Instant& instant, const motion::Forcing& forcing,
+                                                      const std::vector<Participant>& participants,
+                                                      contact::ContactStates states);
+  [[nodiscard]] Refusal decide_moving(const Instant& instant, const motion::Forcing& forcing,
+                                      const std::vector<Participant>& participants,
+                                      const contact::ContactStates& old, contact::ContactStates& states,
+                                      std::vector<KnownGuards>& known);
   [[nodiscard]] CoulombItem item_of(const Entry& entry, const motion::Forcing& forcing, double t) const;
   void fill(const Instant& instant, const motion::Forcing& forcing, const std::vector<Entry>& entries,
             const std::vector<MotionJet>& jets, Level& level) const;

@@ -108,6 +108,11 @@ class StateSystems {
   [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates states, const Forcing& forcing,
                                     double t) const;
 
+  /// True if contact c sticks alone in this system, or together with others whose surfaces move as its own does.
+  [[nodiscard]] bool holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing, double t) const;
+  /// True if other contacts keep the gap of contact c at its value.
+  [[nodiscard]] bool gap_held_by_others(std::size_t c, contact::ContactStates states) const;
+
   /// Gives slipping contacts that others hold the states static_limit_plus and static_limit_minus, in which
   /// they keep their static friction; contacts that are no longer held get slip_plus and slip_minus. Contacts
   /// with equal coefficients are left as they are.

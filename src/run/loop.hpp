@@ -56,6 +56,7 @@ class Loop {
   bool start();
   bool step();
   void finish_step(const engine::Step& step);
+  void find_release(engine::Step& step);
   bool steer();
   bool steered();
   bool instant(std::vector<decide::TriggeredGuard> fired,
@@ -92,6 +93,7 @@ class Loop {
     bool open = false;
     bool same_forcing = false;  // the last instant has not changed the forcing
   } stretch_;                   // the current stretch
+  std::vector<decide::RestingFeet::Release> releases_;  // of the current stretch
   bool begun_ = false, running_ = false;
 };
 

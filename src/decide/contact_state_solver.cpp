@@ -184,9 +184,8 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
 /// True if others keep the slip rate or the gap of this guard at zero: the guard is then absent.
 bool ContactStateSolver::holds_foot(std::size_t c, Guard guard, const SolverState& solver_state) const {
   if (guard == Guard::sliding) return held_by_others(c, solver_state);
-  return guard == Guard::closing && systems_.may_share(c) && solver_state.states[c].is_open() &&
-         std::abs(solver_state.jets[c].motion[0].gap) <= solver_state.jets[c].noise[0].gap &&
-         systems_.gap_held_by_others(c, solver_state.states);
+  return guard == Guard::closing && solver_state.states[c].is_open() &&
+         is_held_at_zero_gap(systems_, c, solver_state.states, solver_state.decision.u);
 }
 
 /// Lets feet that bear their limit or nothing at rest be decided anew, whose forces of least norm leave that face of

@@ -219,15 +219,14 @@ std::vector<RestingFeet::Release> RestingFeet::releases(const contact::ContactSt
   return result;
 }
 
-namespace {
-
-/// True if the contact has no gap, to the rounding of its sum.
-bool touches(const Contact& contact, const Vector& u) {
-  return std::abs(contact.gap_at(u)) <=
-         rounding::many_operations * (std::abs(contact.gap) + contact.normal.magnitude(u));
+bool is_held_at_zero_gap(const motion::StateSystems& systems, std::size_t c, const contact::ContactStates& states,
+                         const Vector& u) {
+  if (!systems.may_share(c)) return false;
+  const Model& model = systems.model();
+  const Contact& contact = model.contacts[c];
+  const double size = std::abs(contact.gap) + contact.normal.magnitude(u) + model.scales.displacement;
+  return std::abs(contact.gap_at(u)) <= rounding::many_operations * size && systems.gap_held_by_others(c, states);
 }
-
-}  // namespace
 
 std::optional<RestingFeet> find_resting_feet(motion::StateSystems& systems, const motion::Forcing& forcing, double t,
                                              const std::vector<std::size_t>& feet, contact::ContactStates states) {
@@ -249,7 +248,8 @@ std::vector<RestingFeet::Release> releases(motion::StateSystems& systems, const 
     std::vector<std::size_t> feet;
     bool at_faces = false;
     for (const std::size_t c : group) {
-      if (!model.contacts[c].takes_impulses() || (states[c].is_open() && !touches(model.contacts[c], u))) continue;
+      if (!model.contacts[c].takes_impulses()) continue;
+      if (states[c].is_open() && !is_held_at_zero_gap(systems, c, states, u)) continue;
       feet.push_back(c);
       at_faces = at_faces || states[c].is_open() || slip_sign(states[c].state) != 0;
     }

@@ -72,6 +72,10 @@ class RestingFeet {
   Eigen::MatrixXd a_;
 };
 
+/// True if an open foot touches, to the rounding of displacements, and other feet of its body keep its gap.
+[[nodiscard]] bool is_held_at_zero_gap(const motion::StateSystems& systems, std::size_t contact,
+                                       const contact::ContactStates& states, const Vector& u);
+
 /// The feet `feet`, if all of them can stick together, and their forces are then not unique. states: of all other
 /// contacts.
 [[nodiscard]] std::optional<RestingFeet> find_resting_feet(motion::StateSystems& systems,

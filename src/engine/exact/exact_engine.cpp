@@ -156,9 +156,9 @@ double ExactEngine::flights_limit() const {
     const ContactMotion& m = decision.after[c];
     if (!model_.contacts[c].takes_impulses() || !decision.states[c].is_open() || !(m.an < 0.0)) continue;
     // A contact that leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight computed
-    // from it.
+    // from it. Without the guard other contacts keep its gap.
     const decide::GuardStart& closing = decision.guards[model_.layout.guard(c)];
-    if (closing.leading_order < 0 || closing.leading_order > 1) continue;
+    if (closing.kind == Guard::none || closing.leading_order < 0 || closing.leading_order > 1) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
   }

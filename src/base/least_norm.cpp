@@ -182,7 +182,8 @@ std::optional<LeastNorm> least_norm_point(const MatrixXd& a, const VectorXd& r, 
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps; ++step) {
     const VectorXd left = r - a * now.x;
-    if (left.norm() <= rounding::elimination * size) {
+    // A' y may be far greater than its projection; x then has the rounding of A' y.
+    if (left.norm() <= rounding::elimination * size + rounding::few_operations * z.norm()) {
       if (!(left.norm() < 0.5 * least)) return best;  // rounding is all that is left
       least = left.norm();
       best = LeastNorm{now.x, z};

@@ -48,7 +48,7 @@ struct LeastNorm {
 };
 
 /// a: orthonormal rows, m x n with m <= n; sets: their sizes add up to n; r: m. A x = r holds within
-/// rounding::elimination |r|. nullopt: no point was found, since there is none or rounding hides it.
+/// rounding::elimination |r| and the rounding of A' y. nullopt: no point was found, since there is none or rounding hides it.
 [[nodiscard]] std::optional<LeastNorm> least_norm_point(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
                                                         const std::vector<ConvexSet>& sets);
 /// The same, x alone.

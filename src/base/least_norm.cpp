@@ -60,9 +60,7 @@ Projection onto_ray(const VectorXd& e, const VectorXd& z) {
   return {along * e, e * e.transpose()};
 }
 
-Projection onto_line(const VectorXd& e, const VectorXd& z) {
-  return {e.dot(z) * e, e * e.transpose()};
-}
+Projection onto_line(const VectorXd& e, const VectorXd& z) { return {e.dot(z) * e, e * e.transpose()}; }
 
 Projection onto_half_space(const VectorXd& e, const VectorXd& z) {
   const MatrixXd all = MatrixXd::Identity(z.size(), z.size());
@@ -131,7 +129,7 @@ ConvexSet critical_cone_of_cone(const ConvexSet& set, const VectorXd& z, double 
   return {Kind::origin, set.size, 0.0, 0.0, {}};
 }
 
-/// Of { x : e.x >= 0 } and { c e : c >= 0 }: what is left where e.z is negative is `beyond`.
+/// Critical cone of { x : e.x >= 0 } or { c e : c >= 0 }: `within` where e.z is positive, `beyond` where it is negative.
 ConvexSet critical_cone_of_half(const ConvexSet& set, const VectorXd& z, double zero, const ConvexSet& within,
                                 const ConvexSet& beyond) {
   const double along = set.direction.dot(z);
@@ -156,8 +154,8 @@ ConvexSet critical_cone(const ConvexSet& set, const VectorXd& z, double zero) {
       return critical_cone_of_half(set, z, zero, {Kind::line, set.size, 0.0, 0.0, set.direction}, origin);
     case Kind::half_space: {
       if (set.size == 1) return critical_cone_of_half(set, z, zero, whole, origin);
-      const VectorXd along = Eigen::Vector2d(std::abs(set.direction[1]),
-                                             std::copysign(set.direction[0], -set.direction[1]));
+      const VectorXd along =
+          Eigen::Vector2d(std::abs(set.direction[1]), std::copysign(set.direction[0], -set.direction[1]));
       return critical_cone_of_half(set, z, zero, whole, {Kind::line, set.size, 0.0, 0.0, along});
     }
     case Kind::line:
@@ -173,7 +171,8 @@ std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const s
   return found ? std::optional<VectorXd>(std::move(found->x)) : std::nullopt;
 }
 
-std::optional<LeastNorm> least_norm_point(const MatrixXd& a, const VectorXd& r, const std::vector<ConvexSet>& sets) {
+std::optional<LeastNorm> least_norm_point(const MatrixXd& a, const VectorXd& r,
+                                          const std::vector<ConvexSet>& sets) {
   const double size = r.norm();
   VectorXd y = r;  // the solution if no set restricts x
   VectorXd z = a.transpose() * y;

@@ -281,7 +281,8 @@ bool DerivativeLevels::apply_solution(const Level& level, const CoulombSolution&
 
 /// Groups of participants that forces within their cones hold at rest, by the accelerations alone. states: of all
 /// other contacts.
-std::vector<RestingFeet> DerivativeLevels::find_resting(const Instant& instant, const motion::Forcing& forcing,
+std::vector<RestingFeet> DerivativeLevels::find_resting(const Instant& instant,
+                                                        const motion::Forcing& forcing,
                                                         const std::vector<Participant>& participants,
                                                         contact::ContactStates states) {
   std::vector<RestingFeet> result;
@@ -321,7 +322,8 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
         states[c] = {contact::state_at_rest(model_.contacts[c]), 0.0};
         std::erase_if(moving, [&](const Participant& participant) { return participant.contact == c; });
       }
-    if (Refusal why = decide_moving(instant, forcing, moving, old, states, known); why || resting.empty()) return why;
+    if (Refusal why = decide_moving(instant, forcing, moving, old, states, known); why || resting.empty())
+      return why;
     const motion::StateSystemPtr system = systems_.system_of(states);
     if (!system) return dependent_rows(in_force(participants, states));
     std::vector<MotionJet> jets;
@@ -340,9 +342,9 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
 }
 
 Refusal DerivativeLevels::decide_moving(const Instant& instant, const motion::Forcing& forcing,
-                                 const std::vector<Participant>& participants,
-                                 const contact::ContactStates& old, contact::ContactStates& states,
-                                 std::vector<KnownGuards>& known) {
+                                        const std::vector<Participant>& participants,
+                                        const contact::ContactStates& old, contact::ContactStates& states,
+                                        std::vector<KnownGuards>& known) {
   std::vector<Entry> entries;
   for (const Participant& participant : participants) {
     entries.push_back({participant});

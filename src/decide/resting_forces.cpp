@@ -34,8 +34,10 @@ State state_of(const Contact& contact, const base::ConvexSet& set) {
 }
 
 /// Adds what the derivative of this order has decided: the guards that were zero before rise.
-void add_known(const base::ConvexSet& before, const base::ConvexSet& now, std::size_t order, KnownGuards& known) {
-  const bool bears = now.kind == SetKind::whole || now.kind == SetKind::line || now.kind == SetKind::half_space;
+void add_known(const base::ConvexSet& before, const base::ConvexSet& now, std::size_t order,
+               KnownGuards& known) {
+  const bool bears =
+      now.kind == SetKind::whole || now.kind == SetKind::line || now.kind == SetKind::half_space;
   const bool apex = before.kind == SetKind::cone || before.kind == SetKind::ray;
   if (apex && bears && order > 0) known.separation = {order, true};
   if (now.kind != SetKind::whole || order == 0 || before.kind == SetKind::whole) return;
@@ -54,8 +56,11 @@ RestingFeet::RestingFeet(const Model& model, std::vector<std::size_t> contacts)
     at_.push_back(static_cast<Eigen::Index>(rows_.size()));
     rows_.push_back(model.layout.normal(c));
     if (contact.has_friction()) rows_.push_back(model.layout.tangent(c));
-    sets_.push_back({SetKind::cone, contact.has_friction() ? 2 : 1,
-                     contact.has_friction() ? contact::static_friction(contact) : 0.0, 0.0, {}});
+    sets_.push_back({SetKind::cone,
+                     contact.has_friction() ? 2 : 1,
+                     contact.has_friction() ? contact::static_friction(contact) : 0.0,
+                     0.0,
+                     {}});
   }
 }
 
@@ -86,7 +91,8 @@ Eigen::VectorXd RestingFeet::forces(const std::vector<MotionJet>& jets, std::siz
 }
 
 /// Rounding of these derivatives of the forces, and their change within the resolution of time.
-double RestingFeet::zero_force(const Instant& instant, const std::vector<MotionJet>& jets, std::size_t order) const {
+double RestingFeet::zero_force(const Instant& instant, const std::vector<MotionJet>& jets,
+                               std::size_t order) const {
   double zero = 0.0;
   for (const std::size_t c : contacts_)
     zero = std::max({zero, jets[c].noise[order].N, jets[c].noise[order].T});
@@ -109,8 +115,8 @@ bool RestingFeet::is_degenerate(const Eigen::VectorXd& x, double zero) const {
     const Eigen::VectorXd part = x.segment(at, n);
     if (part.norm() <= zero) continue;
     const bool inside = n == 1 || sets_[i].friction * part[0] - std::abs(part[1]) > zero;
-    face.block(at, at, n, n) =
-        inside ? Eigen::MatrixXd::Identity(n, n) : Eigen::MatrixXd(part * part.transpose() / part.squaredNorm());
+    face.block(at, at, n, n) = inside ? Eigen::MatrixXd::Identity(n, n)
+                                      : Eigen::MatrixXd(part * part.transpose() / part.squaredNorm());
   }
   const Eigen::VectorXd values = base::singular_values(a_ * face * a_.transpose());
   return values.minCoeff() <= located_digits * values.maxCoeff();
@@ -118,8 +124,8 @@ bool RestingFeet::is_degenerate(const Eigen::VectorXd& x, double zero) const {
 
 /// The forces of least norm at an instant, with the multipliers just after it. Where multipliers are not unique, those
 /// are taken that the first change of r leads to.
-std::optional<base::LeastNorm> RestingFeet::at_instant(const std::vector<MotionJet>& jets, const Eigen::VectorXd& noise,
-                                                       double& zero) const {
+std::optional<base::LeastNorm> RestingFeet::at_instant(const std::vector<MotionJet>& jets,
+                                                       const Eigen::VectorXd& noise, double& zero) const {
   const Eigen::VectorXd now = forces(jets, 0);
   auto least = base::least_norm_point(a_, a_ * now, sets_);
   if (!least || !is_degenerate(least->x, located_digits * now.norm())) return least;
@@ -127,13 +133,14 @@ std::optional<base::LeastNorm> RestingFeet::at_instant(const std::vector<MotionJ
     const Eigen::VectorXd change = forces(jets, order);
     if (change.norm() <= noise[static_cast<Eigen::Index>(order)]) continue;
     zero = rounding::many_operations / rounding::eps * located_digits;
-    return base::least_norm_point(a_, a_ * (now + located_digits * now.norm() / change.norm() * change), sets_);
+    return base::least_norm_point(a_, a_ * (now + located_digits * now.norm() / change.norm() * change),
+                                  sets_);
   }
   return least;
 }
 
-bool RestingFeet::decide(const Instant& instant, const std::vector<MotionJet>& jets, contact::ContactStates& states,
-                         std::vector<KnownGuards>& known) const {
+bool RestingFeet::decide(const Instant& instant, const std::vector<MotionJet>& jets,
+                         contact::ContactStates& states, std::vector<KnownGuards>& known) const {
   std::vector<base::ConvexSet> sets = sets_;
   for (const std::size_t c : contacts_) {
     known[c] = {};
@@ -147,8 +154,7 @@ bool RestingFeet::decide(const Instant& instant, const std::vector<MotionJet>& j
     const double noise = noises[static_cast<Eigen::Index>(order)];
     if (x.norm() <= noise) continue;  // no change by this derivative
     double blur = 0.0;
-    const auto least =
-        order == 0 ? at_instant(jets, noises, blur) : base::least_norm_point(a_, a_ * x, sets);
+    const auto least = order == 0 ? at_instant(jets, noises, blur) : base::least_norm_point(a_, a_ * x, sets);
     if (!least) return false;
     const double size = std::max(least->multipliers.norm(), x.norm());
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -165,7 +171,8 @@ bool RestingFeet::decide(const Instant& instant, const std::vector<MotionJet>& j
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const std::size_t c = contacts_[i];
     states[c] = {state_of(model_->contacts[c], sets[i]), 0.0};
-    if (sets[i].kind == SetKind::half_space && sets[i].size > 1)  // at its limit, and no derivative leads away
+    if (sets[i].kind == SetKind::half_space &&
+        sets[i].size > 1)  // at its limit, and no derivative leads away
       (sets[i].direction[1] > 0.0 ? known[c].slip_plus : known[c].slip_minus) = Known::at_limit();
     if (sets[i].kind == SetKind::ray || sets[i].kind == SetKind::cone) {
       known[c].separation = known[c].slip_plus = known[c].slip_minus = Known::at_limit();
@@ -219,29 +226,32 @@ std::vector<RestingFeet::Release> RestingFeet::releases(const contact::ContactSt
   return result;
 }
 
-bool is_held_at_zero_gap(const motion::StateSystems& systems, std::size_t c, const contact::ContactStates& states,
-                         const Vector& u) {
+bool is_held_at_zero_gap(const motion::StateSystems& systems, std::size_t c,
+                         const contact::ContactStates& states, const Vector& u) {
   if (!systems.may_share(c)) return false;
   const Model& model = systems.model();
   const Contact& contact = model.contacts[c];
   const double size = std::abs(contact.gap) + contact.normal.magnitude(u) + model.scales.displacement;
-  return std::abs(contact.gap_at(u)) <= rounding::many_operations * size && systems.gap_held_by_others(c, states);
+  return std::abs(contact.gap_at(u)) <= rounding::many_operations * size &&
+         systems.gap_held_by_others(c, states);
 }
 
-std::optional<RestingFeet> find_resting_feet(motion::StateSystems& systems, const motion::Forcing& forcing, double t,
-                                             const std::vector<std::size_t>& feet, contact::ContactStates states) {
+std::optional<RestingFeet> find_resting_feet(motion::StateSystems& systems, const motion::Forcing& forcing,
+                                             double t, const std::vector<std::size_t>& feet,
+                                             contact::ContactStates states) {
   const Model& model = systems.model();
   if (feet.size() < 2) return std::nullopt;
   for (const std::size_t c : feet) states[c] = {contact::state_at_rest(model.contacts[c]), 0.0};
   const motion::StateSystemPtr system = systems.system_of(states);
   if (!system) return std::nullopt;
   for (const std::size_t c : feet)
-    if (model.contacts[c].has_friction() && !systems.holds_as_one(c, *system, forcing, t)) return std::nullopt;
+    if (model.contacts[c].has_friction() && !systems.holds_as_one(c, *system, forcing, t))
+      return std::nullopt;
   return RestingFeet::make(model, *system, feet);
 }
 
-std::vector<RestingFeet::Release> releases(motion::StateSystems& systems, const motion::Forcing& forcing, double t,
-                                           const contact::ContactStates& states, const Vector& u) {
+std::vector<RestingFeet::Release> releases(motion::StateSystems& systems, const motion::Forcing& forcing,
+                                           double t, const contact::ContactStates& states, const Vector& u) {
   const Model& model = systems.model();
   std::vector<RestingFeet::Release> result;
   for (const std::vector<std::size_t>& group : systems.sharing()) {

@@ -58,7 +58,8 @@ class RestingFeet {
   RestingFeet(const Model& model, std::vector<std::size_t> contacts);
   /// Forces of the contacts: l and k in the order of rows_, derivative of this order.
   [[nodiscard]] Eigen::VectorXd forces(const std::vector<MotionJet>& jets, std::size_t order) const;
-  [[nodiscard]] double zero_force(const Instant& instant, const std::vector<MotionJet>& jets, std::size_t order) const;
+  [[nodiscard]] double zero_force(const Instant& instant, const std::vector<MotionJet>& jets,
+                                  std::size_t order) const;
 
   [[nodiscard]] bool is_degenerate(const Eigen::VectorXd& x, double zero) const;
   [[nodiscard]] std::optional<base::LeastNorm> at_instant(const std::vector<MotionJet>& jets,
@@ -66,9 +67,10 @@ class RestingFeet {
 
   const Model* model_;
   std::vector<std::size_t> contacts_;
-  std::vector<std::size_t> rows_;         // of the model's layout, contact by contact: N, then T where there is friction
-  std::vector<base::ConvexSet> sets_;     // of each contact
-  std::vector<Eigen::Index> at_;          // first row of each contact
+  std::vector<std::size_t>
+      rows_;  // of the model's layout, contact by contact: N, then T where there is friction
+  std::vector<base::ConvexSet> sets_;  // of each contact
+  std::vector<Eigen::Index> at_;       // first row of each contact
   Eigen::MatrixXd a_;
 };
 
@@ -86,6 +88,7 @@ class RestingFeet {
 /// Conditions under which feet that bear their limit or nothing at rest keep these states. u: displacements.
 [[nodiscard]] std::vector<RestingFeet::Release> releases(motion::StateSystems& systems,
                                                          const motion::Forcing& forcing, double t,
-                                                         const contact::ContactStates& states, const Vector& u);
+                                                         const contact::ContactStates& states,
+                                                         const Vector& u);
 
 }  // namespace signorini::decide

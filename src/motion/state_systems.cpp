@@ -194,12 +194,15 @@ StateSystemPtr StateSystems::system_of(const contact::ContactStates& contact_sta
   return last_ = std::make_shared<const StateSystem>(contact_states, std::move(rows), std::move(factorised));
 }
 
-bool StateSystems::holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing, double t) const {
+bool StateSystems::holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing,
+                                double t) const {
   for (const linear::SharedForces& shared : system.factorised().shared) {
     const auto at =
         std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
-    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::has_share(shared.null, at)) continue;
-    if (!moves_as_one(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t)) return false;
+    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::has_share(shared.null, at))
+      continue;
+    if (!moves_as_one(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t))
+      return false;
   }
   return true;
 }
@@ -207,11 +210,14 @@ bool StateSystems::holds_as_one(std::size_t c, const StateSystem& system, const 
 bool StateSystems::gap_held_by_others(std::size_t c, contact::ContactStates contact_states) const {
   const Contact& contact = model_.contacts[c];
   if (!may_share(c) || !contact.takes_impulses()) return false;
-  contact_states[c].state = contact.has_friction() ? State::slip_plus : State::closed;  // its normal row alone
+  contact_states[c].state =
+      contact.has_friction() ? State::slip_plus : State::closed;  // its normal row alone
   for (const linear::SharedForces& shared :
        matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states))) {
-    const auto at = std::find(shared.rows.begin(), shared.rows.end(), model_.layout.normal(c)) - shared.rows.begin();
-    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && linear::has_share(shared.null, at)) return true;
+    const auto at =
+        std::find(shared.rows.begin(), shared.rows.end(), model_.layout.normal(c)) - shared.rows.begin();
+    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && linear::has_share(shared.null, at))
+      return true;
   }
   return false;
 }

@@ -109,7 +109,8 @@ class StateSystems {
                                     double t) const;
 
   /// True if contact c sticks alone in this system, or together with others whose surfaces move as its own does.
-  [[nodiscard]] bool holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing, double t) const;
+  [[nodiscard]] bool holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing,
+                                  double t) const;
   /// True if other contacts keep the gap of contact c at its value.
   [[nodiscard]] bool gap_held_by_others(std::size_t c, contact::ContactStates states) const;
 

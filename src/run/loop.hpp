@@ -91,8 +91,8 @@ class Loop {
   struct Stretch {
     double end = 0.0;
     bool open = false;
-    bool same_forcing = false;  // the last instant has not changed the forcing
-  } stretch_;                   // the current stretch
+    bool same_forcing = false;                          // the last instant has not changed the forcing
+  } stretch_;                                           // the current stretch
   std::vector<decide::RestingFeet::Release> releases_;  // of the current stretch
   bool begun_ = false, running_ = false;
 };

@@ -158,7 +158,8 @@ TEST_CASE("no point: a pull beyond both cones") {
   CHECK_FALSE(base::least_norm(a, Eigen::Vector2d(-1.0, 0.0), sets));
 }
 
-TEST_CASE("the minimum moves by the point of least norm within critical cones, on faces and where faces meet") {
+TEST_CASE(
+    "the minimum moves by the point of least norm within critical cones, on faces and where faces meet") {
   // r_0 + h r_1: the same sets and, for a small h, the same faces. Some feet begin on an edge, in the apex or both.
   std::mt19937_64 random(17);
   int solved = 0;
@@ -169,7 +170,8 @@ TEST_CASE("the minimum moves by the point of least norm within critical cones, o
     VectorXd y = normal_matrix(random, 3, 1);
     if (i % 2 == 0) {  // the argument of the first foot lies on an edge of its cone, or of the polar cone
       const double f = sets[0].friction, side = i % 4 == 0 ? 1.0 : -1.0;
-      const VectorXd edge = i % 3 == 0 ? VectorXd(Eigen::Vector2d(-f, side)) : VectorXd(Eigen::Vector2d(1.0, side * f));
+      const VectorXd edge =
+          i % 3 == 0 ? VectorXd(Eigen::Vector2d(-f, side)) : VectorXd(Eigen::Vector2d(1.0, side * f));
       y = a.topLeftCorner(3, 2).transpose().completeOrthogonalDecomposition().solve(edge);
     }
     if (i % 5 == 0) y.setZero();

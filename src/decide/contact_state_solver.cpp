@@ -25,14 +25,6 @@ Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   return result;
 }
 
-/// True if the guard did not reach zero continuously: it was above its rounding just before, and another contact's new
-/// state made it jump below zero.
-bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion& before,
-               const ContactMotion& noise) {
-  return f.sign.order == 0 && !instant.has_triggered(f.contact, f.guard) &&
-         f.form.value(before) > retry_noise_factor * f.form.rounding(&before, &noise, 0);
-}
-
 std::vector<std::size_t> every_contact(const Model& model) {
   std::vector<std::size_t> all(model.contacts.size());
   std::iota(all.begin(), all.end(), 0U);
@@ -64,13 +56,12 @@ Refusal no_system(const Model& model, const contact::ContactStates& states) {
 /// Keys of stiffnesses that make the forces unique, for messages. Only sliders may have a
 /// tangential_stiffness without a normal one.
 std::string springs_for_uniqueness(const Model& model, const std::vector<std::size_t>& contacts) {
-  const bool sliders = std::any_of(contacts.begin(), contacts.end(),
-                                   [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
-  const bool others = std::any_of(contacts.begin(), contacts.end(),
-                                  [&](std::size_t k) { return !model.contacts[k].normal_force_given(); });
-  return sliders && others ? "law = \"compliant\", for sliders a tangential_stiffness,"
-         : sliders         ? "a tangential_stiffness"
-                           : "law = \"compliant\"";
+  const auto sliders = std::count_if(contacts.begin(), contacts.end(),
+                                     [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
+  if (sliders == 0) return "law = \"compliant\"";
+  return sliders < static_cast<std::ptrdiff_t>(contacts.size())
+             ? "law = \"compliant\", for sliders a tangential_stiffness,"
+             : "a tangential_stiffness";
 }
 
 }  // namespace
@@ -188,15 +179,13 @@ bool ContactStateSolver::holds_foot(std::size_t c, Guard guard, const SolverStat
          is_held_at_zero_gap(systems_, c, solver_state.states, solver_state.decision.u);
 }
 
-/// Lets feet that bear their limit or nothing at rest be decided anew, whose forces of least norm leave that face of
-/// their cones.
+/// Feet at rest whose forces of least norm leave a face of their cones are decided anew.
 void ContactStateSolver::add_released(SolverState& solver_state) const {
-  for (const TriggeredGuard& f : solver_state.instant.triggered) {
-    const bool failed = std::any_of(solver_state.failed.begin(), solver_state.failed.end(),
-                                    [&](const FailedGuard& other) { return other.contact == f.contact; });
-    if (failed || !holds_foot(f.contact, f.guard, solver_state)) continue;
-    solver_state.failed.push_back({f.contact, f.guard, {}, {-1, 1, 1.0}});
-  }
+  const std::vector<std::size_t> failed = contacts_of(solver_state.failed);
+  for (const TriggeredGuard& f : solver_state.instant.triggered)
+    if (std::find(failed.begin(), failed.end(), f.contact) == failed.end() &&
+        holds_foot(f.contact, f.guard, solver_state))
+      solver_state.failed.push_back({f.contact, f.guard, {}, {-1, 1, 1.0}});
 }
 
 /// Finds the guards that fail in the evaluated states, and notifies the listener. before: these are the
@@ -408,7 +397,7 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
   return {};
 }
 
-/// True if the contact sticks at its limit from this instant on, for a time that no derivative determines.
+/// True if the contact sticks at its limit from now on, for a time that no derivative determines.
 bool ContactStateSolver::rests_at_limit(const SolverState& solver_state, std::size_t c,
                                         const GuardStart& guard) {
   const bool limit = contact::is_friction_limit(guard.kind);

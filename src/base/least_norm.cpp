@@ -13,6 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Kind = ConvexSet::Kind;
 
 constexpr int most_steps = 100;        // limit of the number of Newton steps; usually a few suffice
 constexpr int max_step_halvings = 40;  // limit of the number of halvings of one step
@@ -59,14 +60,41 @@ Projection onto_ray(const VectorXd& e, const VectorXd& z) {
   return {along * e, e * e.transpose()};
 }
 
+Projection onto_line(const VectorXd& e, const VectorXd& z) { return {e.dot(z) * e, e * e.transpose()}; }
+
+Projection onto_half_space(const VectorXd& e, const VectorXd& z) {
+  const MatrixXd all = MatrixXd::Identity(z.size(), z.size());
+  const double along = e.dot(z);
+  if (along >= 0.0) return {z, all};
+  return {z - along * e, all - e * e.transpose()};
+}
+
+Projection onto(const ConvexSet& set, const VectorXd& z) {
+  switch (set.kind) {
+    case Kind::cone:
+      return onto_cone(set.friction, z);
+    case Kind::disc:
+      return onto_disc(set.radius, z);
+    case Kind::ray:
+      return onto_ray(set.direction, z);
+    case Kind::line:
+      return onto_line(set.direction, z);
+    case Kind::half_space:
+      return onto_half_space(set.direction, z);
+    case Kind::origin:
+      return {VectorXd::Zero(z.size()), MatrixXd::Zero(z.size(), z.size())};
+    case Kind::whole:
+      break;
+  }
+  return {z, MatrixXd::Identity(z.size(), z.size())};
+}
+
 Projection projected(const std::vector<ConvexSet>& sets, const VectorXd& z) {
   Projection all{VectorXd(z.size()), MatrixXd::Zero(z.size(), z.size())};
   Index at = 0;
   for (const ConvexSet& set : sets) {
     const VectorXd part = z.segment(at, set.size);
-    const Projection p = set.kind == ConvexSet::Kind::cone   ? onto_cone(set.friction, part)
-                         : set.kind == ConvexSet::Kind::disc ? onto_disc(set.radius, part)
-                                                             : onto_ray(set.direction, part);
+    const Projection p = onto(set, part);
     all.x.segment(at, set.size) = p.x;
     all.derivative.block(at, at, set.size, set.size) = p.derivative;
     at += set.size;
@@ -80,19 +108,84 @@ double dual(const VectorXd& r, const VectorXd& y, const VectorXd& z, const Vecto
 
 }  // namespace
 
+namespace {
+
+ConvexSet critical_cone_of_cone(const ConvexSet& set, const VectorXd& z, double zero) {
+  const double f = set.friction, t = z.size() > 1 ? z[1] : 0.0, side = t < 0.0 ? -1.0 : 1.0;
+  const double length = std::hypot(1.0, f);
+  VectorXd edge = VectorXd::Ones(1), inward = edge;  // of the edge next to z
+  if (z.size() > 1) {
+    edge = Eigen::Vector2d(1.0, side * f) / length;
+    inward = Eigen::Vector2d(f, -side) / length;
+  }
+  const double depth = inward.dot(z), along = edge.dot(z);
+  if (z.norm() <= zero) return set;
+  if (depth > zero) return {Kind::whole, set.size, 0.0, 0.0, {}};
+  if (along > zero) {
+    if (depth >= -zero) return {Kind::half_space, set.size, 0.0, 0.0, inward};
+    return {Kind::line, set.size, 0.0, 0.0, edge};
+  }
+  if (along >= -zero) return {Kind::ray, set.size, 0.0, 0.0, edge};
+  return {Kind::origin, set.size, 0.0, 0.0, {}};
+}
+
+/// Critical cone of { x : e.x >= 0 } or { c e : c >= 0 }: `within` where e.z is positive, `beyond` where it is negative.
+ConvexSet critical_cone_of_half(const ConvexSet& set, const VectorXd& z, double zero, const ConvexSet& within,
+                                const ConvexSet& beyond) {
+  const double along = set.direction.dot(z);
+  return along > zero ? within : along >= -zero ? set : beyond;
+}
+
+}  // namespace
+
+ConvexSet critical_cone(const ConvexSet& set, const VectorXd& z, double zero) {
+  const ConvexSet whole{Kind::whole, set.size, 0.0, 0.0, {}}, origin{Kind::origin, set.size, 0.0, 0.0, {}};
+  switch (set.kind) {
+    case Kind::cone:
+      return critical_cone_of_cone(set, z, zero);
+    case Kind::disc: {
+      const VectorXd inward = VectorXd::Constant(1, z[0] < 0.0 ? 1.0 : -1.0);
+      const double depth = set.radius - std::abs(z[0]);
+      return depth > zero    ? whole
+             : depth < -zero ? origin
+                             : ConvexSet{Kind::half_space, set.size, 0.0, 0.0, inward};
+    }
+    case Kind::ray:
+      return critical_cone_of_half(set, z, zero, {Kind::line, set.size, 0.0, 0.0, set.direction}, origin);
+    case Kind::half_space: {
+      if (set.size == 1) return critical_cone_of_half(set, z, zero, whole, origin);
+      const VectorXd along =
+          Eigen::Vector2d(std::abs(set.direction[1]), std::copysign(set.direction[0], -set.direction[1]));
+      return critical_cone_of_half(set, z, zero, whole, {Kind::line, set.size, 0.0, 0.0, along});
+    }
+    case Kind::line:
+    case Kind::origin:
+    case Kind::whole:
+      break;
+  }
+  return set;
+}
+
 std::optional<VectorXd> least_norm(const MatrixXd& a, const VectorXd& r, const std::vector<ConvexSet>& sets) {
+  auto found = least_norm_point(a, r, sets);
+  return found ? std::optional<VectorXd>(std::move(found->x)) : std::nullopt;
+}
+
+std::optional<LeastNorm> least_norm_point(const MatrixXd& a, const VectorXd& r,
+                                          const std::vector<ConvexSet>& sets) {
   const double size = r.norm();
   VectorXd y = r;  // the solution, if no set restricts x
   VectorXd z = a.transpose() * y;
   Projection now = projected(sets, z);
-  std::optional<VectorXd> best;
+  std::optional<LeastNorm> best;
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps; ++step) {
     const VectorXd left = r - a * now.x;
-    if (left.norm() <= rounding::elimination * size) {
+    // A' y may be far greater than its projection; x then has the rounding error of A' y.
+    if (left.norm() <= rounding::elimination * size + rounding::few_operations * z.norm()) {
       if (!(left.norm() < 0.5 * least)) return best;  // the residual is only rounding error
       least = left.norm();
-      best = now.x;
+      best = LeastNorm{now.x, z};
     }
     const double damping = std::max(least_damping, most_damping * std::min(1.0, left.norm() / size));
     MatrixXd curvature = a * now.derivative * a.transpose();

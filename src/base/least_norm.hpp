@@ -12,6 +12,14 @@
 //   set    { (n, t) : |t| <= f n }    a second-order cone; without tangents t: the half-line n >= 0
 //          { t : |t| <= F }           a disc
 //          { c e : c >= 0 }           a ray along the unit vector e
+//          { c e }, { 0 }, all        a line, the origin, the whole space
+//          { x : e . x >= 0 }         a half-space
+//
+// If r changes with time, x moves by the point of least norm again, of A x' = r' within the critical cone of each set:
+//
+//   P(z + h z' + ...) = P(z) + h P'(z'),   P': projection onto  { x' tangent to C at P(z),  x' . (z - P(z)) = 0 }
+//
+// Sets of one tangent are polyhedral, so that this holds exactly, and for derivatives of any order in turn.
 // Source: Facchinei, Pang, Finite-Dimensional Variational Inequalities, chapter 11 (projections); Moreau's decomposition.
 #pragma once
 
@@ -23,15 +31,28 @@ namespace signorini::base {
 
 /// A convex set for the force components of one contact, which are consecutive entries of x.
 struct ConvexSet {
-  enum class Kind : unsigned char { cone, disc, ray } kind = Kind::cone;
+  enum class Kind : unsigned char { cone, disc, ray, line, origin, whole, half_space } kind = Kind::cone;
   Eigen::Index size = 1;  ///< number of entries; cone: 1 + tangents (the first entry is n); disc: tangents
   double friction = 0.0;  ///< cone: f >= 0
   double radius = 0.0;    ///< disc: F >= 0
-  Eigen::VectorXd direction;  ///< ray: e
+  Eigen::VectorXd direction;  ///< ray, line, half-space: e
 };
 
-/// Returns x; A x = r is satisfied within rounding::elimination |r|. nullopt: no x was found, because there is none, or because
-/// of rounding errors. a: m x n with orthonormal rows, m <= n; r: length m; the sizes of the sets add up to n.
+/// Set within which the projection moves if its argument z begins to move. Distances up to `zero` from a face count as zero.
+/// Only for a cone or disc with at most one tangent.
+[[nodiscard]] ConvexSet critical_cone(const ConvexSet& set, const Eigen::VectorXd& z, double zero);
+
+/// The minimum x, and its multipliers A' y: x = P(multipliers).
+struct LeastNorm {
+  Eigen::VectorXd x, multipliers;
+};
+
+/// Returns the minimum; A x = r is satisfied within rounding::elimination |r| and the rounding error of A' y. nullopt: no x was
+/// found, because there is none, or because of rounding errors. a: m x n with orthonormal rows, m <= n; r: length m; the sizes
+/// of the sets add up to n.
+[[nodiscard]] std::optional<LeastNorm> least_norm_point(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
+                                                        const std::vector<ConvexSet>& sets);
+/// Same, but returns x only.
 [[nodiscard]] std::optional<Eigen::VectorXd> least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& r,
                                                         const std::vector<ConvexSet>& sets);
 

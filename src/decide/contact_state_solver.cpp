@@ -25,14 +25,6 @@ Crossing crossing(const GuardForm& guard, const MotionJet& jet) {
   return result;
 }
 
-/// True if the guard did not reach zero continuously: its value was clearly positive just before the instant, and jumped below
-/// zero because of the new state of another contact.
-bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion& before,
-               const ContactMotion& noise) {
-  return f.sign.order == 0 && !instant.has_triggered(f.contact, f.guard) &&
-         f.form.value(before) > retry_noise_factor * f.form.rounding(&before, &noise, 0);
-}
-
 std::vector<std::size_t> indices_of_all_contacts(const Model& model) {
   std::vector<std::size_t> all(model.contacts.size());
   std::iota(all.begin(), all.end(), 0U);
@@ -64,13 +56,12 @@ Refusal unsolvable_refusal(const Model& model, const contact::ContactStates& sta
 /// Keys that make the forces of these contacts unique, for messages. Only sliders may have a tangential_stiffness without a
 /// normal_stiffness.
 std::string springs_for_uniqueness(const Model& model, const std::vector<std::size_t>& contacts) {
-  const bool sliders = std::any_of(contacts.begin(), contacts.end(),
-                                   [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
-  const bool others = std::any_of(contacts.begin(), contacts.end(),
-                                  [&](std::size_t k) { return !model.contacts[k].normal_force_given(); });
-  return sliders && others ? "law = \"compliant\" (for sliders a tangential_stiffness)"
-         : sliders         ? "a tangential_stiffness"
-                           : "law = \"compliant\"";
+  const auto sliders = std::count_if(contacts.begin(), contacts.end(),
+                                     [&](std::size_t k) { return model.contacts[k].normal_force_given(); });
+  if (sliders == 0) return "law = \"compliant\"";
+  return sliders < static_cast<std::ptrdiff_t>(contacts.size())
+             ? "law = \"compliant\" (for sliders a tangential_stiffness)"
+             : "a tangential_stiffness";
 }
 
 }  // namespace
@@ -182,6 +173,23 @@ bool ContactStateSolver::held_by_others(std::size_t c, const SolverState& solver
          systems_.held_by_others(c, solver_state.states, solver_state.after, solver_state.instant.t);
 }
 
+/// True if other contacts keep the slip rate or the gap of this guard at zero: the guard is then omitted.
+bool ContactStateSolver::guard_is_kept_at_zero(std::size_t c, Guard guard,
+                                               const SolverState& solver_state) const {
+  if (guard == Guard::sliding) return held_by_others(c, solver_state);
+  return guard == Guard::closing && solver_state.states[c].is_open() &&
+         is_held_at_zero_gap(systems_, c, solver_state.states, solver_state.decision.u);
+}
+
+/// Adds the feet at rest that the loop has released (Loop::find_release()): the states of their body are decided again.
+void ContactStateSolver::add_released(SolverState& solver_state) const {
+  const std::vector<std::size_t> failed = contacts_of(solver_state.failed);
+  for (const TriggeredGuard& f : solver_state.instant.triggered)
+    if (std::find(failed.begin(), failed.end(), f.contact) == failed.end() &&
+        guard_is_kept_at_zero(f.contact, f.guard, solver_state))
+      solver_state.failed.push_back({f.contact, f.guard, {}, {-1, 1, 1.0}});
+}
+
 /// Finds the guards that fail in the evaluated states, and calls the listener. before: true if the evaluated states are the
 /// states before the instant.
 void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
@@ -190,7 +198,7 @@ void ContactStateSolver::check_guards(SolverState& solver_state, bool before) {
                          solver_state.impact_result.known, solver_state.motion_up_to_instant,
                          solver_state.open ? *solver_state.open : all_contacts_);
   std::erase_if(solver_state.failed, [&](const FailedGuard& f) {
-    if (f.guard == Guard::sliding && held_by_others(f.contact, solver_state)) return true;
+    if (guard_is_kept_at_zero(f.contact, f.guard, solver_state)) return true;
     return std::find(solver_state.undecided.begin(), solver_state.undecided.end(), blocks_.of[f.contact]) !=
            solver_state.undecided.end();
   });
@@ -373,6 +381,7 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
   if (Refusal why = begin(before, solver_state)) return why;
   solver_state.tried_states.push_back(solver_state.states);
   check_guards(solver_state, true);
+  add_released(solver_state);
   if (solver_state.failed.empty() && !solver_state.instant.triggered.empty() && !solver_state.instant.jump) {
     solver_state
         .increase_noise();  // the engine located a zero of a guard, so a positive value may be rounding
@@ -469,9 +478,7 @@ void ContactStateSolver::finish(SolverState& solver_state) {
     for (std::size_t i = 0; i < d.layout.guards(c); ++i) {
       const GuardForm& guard = guards[i];
       GuardStart& start = d.guards[d.layout.guard(c, i)];
-      // If other contacts constrain the slip rate to zero, its guard is omitted.
-      if (guard.kind == Guard::none || (guard.kind == Guard::sliding && held_by_others(c, solver_state)))
-        continue;
+      if (guard.kind == Guard::none || guard_is_kept_at_zero(c, guard.kind, solver_state)) continue;
       start.kind = guard.kind;
       start.noise = solver_state.instant.noise_factor *
                     (guard.is_linear() ? QuickForm(guard.form).magnitude(jet.noise[0])

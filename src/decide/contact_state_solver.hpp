@@ -60,6 +60,8 @@ class ContactStateSolver {
   [[nodiscard]] Refusal propose_states(SolverState& solver_state);
   [[nodiscard]] Refusal try_next_states(SolverState& solver_state);
   [[nodiscard]] bool held_by_others(std::size_t c, const SolverState& solver_state) const;
+  [[nodiscard]] bool guard_is_kept_at_zero(std::size_t c, Guard guard, const SolverState& solver_state) const;
+  void add_released(SolverState& solver_state) const;
   [[nodiscard]] Refusal iterate(const motion::Forcing& before, SolverState& solver_state);
   [[nodiscard]] static bool sticks_at_limit(const SolverState& solver_state, std::size_t c,
                                             const GuardStart& guard);

@@ -109,6 +109,12 @@ Refusal CycleFallback::next_step(SolverState& solver_state) {
   return {};
 }
 
+bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion& before,
+               const ContactMotion& noise) {
+  return f.sign.order == 0 && !instant.has_triggered(f.contact, f.guard) &&
+         f.form.value(before) > retry_noise_factor * f.form.rounding(&before, &noise, 0);
+}
+
 void defer_pushed_failures(const Model& model, const std::vector<bool>& visited,
                            const std::vector<std::size_t>& block_of, std::vector<FailedGuard>& failed) {
   const auto does_not_stick = [&](const FailedGuard& f) {

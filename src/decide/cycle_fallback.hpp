@@ -68,4 +68,9 @@ class CycleFallback {
 void defer_pushed_failures(const Model& model, const std::vector<bool>& visited,
                            const std::vector<std::size_t>& block_of, std::vector<FailedGuard>& failed);
 
+/// True if the guard did not reach zero continuously: it was above its rounding just before, and another contact's new
+/// state made it jump below zero.
+[[nodiscard]] bool is_pushed(const FailedGuard& f, const Instant& instant, const ContactMotion& before,
+                             const ContactMotion& noise);
+
 }  // namespace signorini::decide

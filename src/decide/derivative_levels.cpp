@@ -283,10 +283,72 @@ bool DerivativeLevels::apply_solution(const Level& level, const CoulombSolution&
   return decides;
 }
 
+/// Groups of participants that forces within their cones hold at rest, by the accelerations alone. states: of all
+/// other contacts.
+std::vector<RestingFeet> DerivativeLevels::find_resting(const Instant& instant,
+                                                        const motion::Forcing& forcing,
+                                                        const std::vector<Participant>& participants,
+                                                        contact::ContactStates states) {
+  std::vector<RestingFeet> result;
+  for (const Participant& participant : participants) states[participant.contact] = {State::open, 0.0};
+  for (const std::vector<std::size_t>& group : systems_.sharing()) {
+    std::vector<std::size_t> feet;
+    bool rests = true;
+    for (const Participant& participant : participants) {
+      if (std::find(group.begin(), group.end(), participant.contact) == group.end()) continue;
+      rests = rests && !participant.slipping && !participant.kinetic &&
+              model_.contacts[participant.contact].takes_impulses();
+      feet.push_back(participant.contact);
+    }
+    if (!rests) continue;
+    auto resting = find_resting_feet(systems_, forcing, instant.t, feet, states);
+    if (!resting) continue;
+    contact::ContactStates sticking = states;
+    for (const std::size_t c : feet) sticking[c] = {contact::state_at_rest(model_.contacts[c]), 0.0};
+    std::vector<MotionJet> jets;
+    const motion::StateSystemPtr system = systems_.system_of(sticking);
+    static_cast<void>(jets_.make(system, forcing, instant.t, instant.u, instant.v, jets));
+    if (resting->may_rest(jets)) result.push_back(std::move(*resting));
+  }
+  return result;
+}
+
 Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& forcing,
                                  const std::vector<Participant>& participants,
                                  const contact::ContactStates& old, contact::ContactStates& states,
                                  std::vector<KnownGuards>& known) {
+  const contact::ContactStates given = states;
+  const std::vector<KnownGuards> given_known = known;
+  for (std::vector<RestingFeet> resting = find_resting(instant, forcing, participants, states);;) {
+    std::vector<Participant> moving = participants;
+    for (const RestingFeet& feet : resting)
+      for (const std::size_t c : feet.contacts()) {
+        states[c] = {contact::state_at_rest(model_.contacts[c]), 0.0};
+        std::erase_if(moving, [&](const Participant& participant) { return participant.contact == c; });
+      }
+    if (Refusal why = decide_moving(instant, forcing, moving, old, states, known); why || resting.empty())
+      return why;
+    const motion::StateSystemPtr system = systems_.system_of(states);
+    if (!system) return dependent_rows(in_force(participants, states));
+    std::vector<MotionJet> jets;
+    static_cast<void>(jets_.make(system, forcing, instant.t, instant.u, instant.v, jets));
+    const auto moves = std::find_if(resting.begin(), resting.end(), [&](const RestingFeet& feet) {
+      return !feet.decide(instant, jets, states, known);
+    });
+    if (moves == resting.end()) {
+      systems_.mark_static_limits(states, forcing, instant.t);
+      return {};
+    }
+    resting.erase(moves);  // ends: one group fewer
+    states = given;
+    known = given_known;
+  }
+}
+
+Refusal DerivativeLevels::decide_moving(const Instant& instant, const motion::Forcing& forcing,
+                                        const std::vector<Participant>& participants,
+                                        const contact::ContactStates& old, contact::ContactStates& states,
+                                        std::vector<KnownGuards>& known) {
   std::vector<Entry> entries;
   for (const Participant& participant : participants) {
     entries.push_back({participant});

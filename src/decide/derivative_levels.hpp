@@ -8,6 +8,9 @@
 // next derivative, with all decided contacts as constraints. A contact that is undecided after the last known derivative keeps
 // its state. There is one problem for each block of coupled contacts.
 //
+// Feet of one body at rest are decided by the forces of least norm (decide/resting_forces.hpp) if forces within the cones can
+// hold the body. Otherwise these levels decide.
+//
 // If a problem has no solution, or several solutions with different accelerations, this is Painleve's paradox: friction couples
 // tangent and normal so strongly that pressing a sliding contact pushes it into the ground. The decision is then refused; the
 // message contains the numbers of the problem.
@@ -19,6 +22,7 @@
 #include "decide/coulomb_problem.hpp"
 #include "decide/delassus.hpp"
 #include "decide/guard_signs.hpp"
+#include "decide/resting_forces.hpp"
 #include "motion/jet.hpp"
 #include "signorini/trace.hpp"
 
@@ -61,6 +65,13 @@ class DerivativeLevels {
     Eigen::VectorXd noise;  // noise of problem.b
     motion::StateSystemPtr system;
   };
+  [[nodiscard]] std::vector<RestingFeet> find_resting(const Instant& instant, const motion::Forcing& forcing,
+                                                      const std::vector<Participant>& participants,
+                                                      contact::ContactStates states);
+  [[nodiscard]] Refusal decide_moving(const Instant& instant, const motion::Forcing& forcing,
+                                      const std::vector<Participant>& participants,
+                                      const contact::ContactStates& old, contact::ContactStates& states,
+                                      std::vector<KnownGuards>& known);
   [[nodiscard]] CoulombItem item_of(const Entry& entry, const motion::Forcing& forcing, double t) const;
   void fill(const Instant& instant, const motion::Forcing& forcing, const std::vector<Entry>& entries,
             const std::vector<MotionJet>& jets, Level& level) const;

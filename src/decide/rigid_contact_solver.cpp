@@ -252,7 +252,8 @@ RigidContactSolver::TouchingContacts RigidContactSolver::find_touching(
     // A contact whose gap has become negative may touch, too: it closes together with other contacts, within the resolution.
     const bool pull_before =
         std::any_of(failed.begin(), failed.end(), [&](const FailedGuard& f) { return f.contact == c; });
-    const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known;
+    const bool touches = !open || instant.has_triggered(c, Guard::closing) || std::abs(m.gap) <= known ||
+                         is_held_at_zero_gap(systems_, c, states, instant.u);
     const bool split = !touches && (pull_before || std::abs(m.gap) <= known + carried.gap) &&
                        closes_with_others(a, instant, jets, failed, block);
     const bool comes = is_zero(m.gap, known, m.vn);

@@ -193,6 +193,34 @@ StateSystemPtr StateSystems::system_of(const contact::ContactStates& contact_sta
   return last_ = std::make_shared<const StateSystem>(contact_states, std::move(rows), std::move(factorised));
 }
 
+bool StateSystems::holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing,
+                                double t) const {
+  for (const linear::SharedForces& shared : system.factorised().shared) {
+    const auto at =
+        std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
+    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::participates_in(shared.null, at))
+      continue;
+    if (!surfaces_move_alike(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t))
+      return false;
+  }
+  return true;
+}
+
+bool StateSystems::gap_held_by_others(std::size_t c, contact::ContactStates contact_states) const {
+  const Contact& contact = model_.contacts[c];
+  if (!may_share(c) || !contact.takes_impulses()) return false;
+  contact_states[c].state =
+      contact.has_friction() ? State::slip_plus : State::closed;  // its normal row alone
+  for (const linear::SharedForces& shared :
+       matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states))) {
+    const auto at =
+        std::find(shared.rows.begin(), shared.rows.end(), model_.layout.normal(c)) - shared.rows.begin();
+    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && linear::participates_in(shared.null, at))
+      return true;
+  }
+  return false;
+}
+
 bool StateSystems::held_by_others(std::size_t c, contact::ContactStates contact_states,
                                   const Forcing& forcing, double t) const {
   if (!may_share(c) || !model_.contacts[c].sticks_rigidly() || contact_states[c].is_open()) return false;

@@ -108,6 +108,12 @@ class StateSystems {
   [[nodiscard]] bool held_by_others(std::size_t c, contact::ContactStates states, const Forcing& forcing,
                                     double t) const;
 
+  /// True if contact c sticks alone in this system, or with others whose surfaces move as its own does.
+  [[nodiscard]] bool holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing,
+                                  double t) const;
+  /// True if other contacts keep the gap of contact c at its value.
+  [[nodiscard]] bool gap_held_by_others(std::size_t c, contact::ContactStates states) const;
+
   /// Replaces slip_plus and slip_minus by static_limit_plus and static_limit_minus for contacts for which held_by_others() is
   /// true, so that they keep their static friction; does the inverse for contacts for which it is false. Contacts whose static
   /// and kinetic coefficients are equal stay unchanged.

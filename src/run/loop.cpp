@@ -148,11 +148,13 @@ bool Loop::step() {
     }
     if (hooks_.faults) hooks_.faults->watch(s.decision.guards);
     engine_->start({end, &s.decision, &s.forcing, stretch_.same_forcing});
+    releases_ = decide::releases(systems_, s.forcing, s.t, s.decision.states, s.decision.u);
     stretch_.end = end;
     stretch_.open = true;
   }
   engine::Step step = engine_->advance();
   if (step.kind == engine::Step::Kind::failed) return stop(step.reason);
+  if (!releases_.empty()) find_release(step);
   s.resolution = step.resolution;
   const bool event = step.kind == engine::Step::Kind::event;
   if (event && hooks_.event_shift) step.end += hooks_.event_shift->shift(step);
@@ -163,6 +165,40 @@ bool Loop::step() {
   if (step.end >= stretch_.end) return instant({}) && steered();
   if (!steer()) return false;
   return !changes_.change().any || (instant({}) && steered());
+}
+
+/// Ends the step where a foot at rest, at its friction limit or without force, is released. Its condition is a linear form of
+/// the contact forces; its sign is examined at the ends of `parts` parts of the step.
+void Loop::find_release(engine::Step& step) {
+  constexpr int parts = 16;
+  engine::DenseOutput& motion = engine_->dense_output();
+  motion::Point point = state_.point;
+  const auto value = [&](const decide::RestingFeet::Release& release, double t) {
+    motion.evaluate(t, point);
+    return release.weights.dot(point.forces);
+  };
+  for (const decide::RestingFeet::Release& release : releases_) {
+    double last = step.begin, before = value(release, last);
+    const double zero = rounding::elimination * release.weights.cwiseAbs().dot(point.forces.cwiseAbs());
+    for (int i = 1; i <= parts; ++i) {
+      const double t = i == parts ? step.end : step.begin + (step.end - step.begin) * i / parts;
+      const double now = value(release, t);
+      if (now >= -zero) {
+        last = t;
+        before = now;
+        continue;
+      }
+      double low = last, high = t;
+      if (before > 0.0)
+        for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high))
+          (value(release, middle) > 0.0 ? low : high) = middle;
+      step.kind = engine::Step::Kind::event;
+      step.end = before > 0.0 ? high : low;
+      step.triggered = {release.guard};
+      step.engine_states.reset();
+      break;
+    }
+  }
 }
 
 /// Passes the completed step to the listeners: its interior first, then its end.

@@ -56,6 +56,7 @@ class Loop {
   bool start();
   bool step();
   void finish_step(const engine::Step& step);
+  void find_release(engine::Step& step);
   bool steer();
   bool steered();
   bool instant(std::vector<decide::TriggeredGuard> fired,
@@ -92,6 +93,8 @@ class Loop {
     bool open = false;
     bool same_forcing = false;  // the last instant has not changed the forcing
   } stretch_;                   // interval of smooth motion from the last instant to `end`
+  std::vector<decide::RestingFeet::Release>
+      releases_;  // conditions in the current stretch that release feet at rest
   bool begun_ = false, running_ = false;
 };
 

@@ -160,9 +160,9 @@ double ExactEngine::flights_limit() const {
     const ContactMotion& m = decision.after[c];
     if (!model_.contacts[c].takes_impulses() || !decision.states[c].is_open() || !(m.an < 0.0)) continue;
     // If g' = 0 and the leading derivative of the gap is of higher order than two, g'' is only a rounding error, and a flight
-    // computed from g'' would be meaningless.
+    // computed from g'' would be meaningless. If the guard is omitted, other contacts keep the gap.
     const decide::GuardStart& closing = decision.guards[model_.layout.guard(c)];
-    if (closing.leading_order < 0 || closing.leading_order > 1) continue;
+    if (closing.kind == Guard::none || closing.leading_order < 0 || closing.leading_order > 1) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
   }

@@ -1,7 +1,8 @@
 // The point of least norm against what makes it one: no feasible point lies in a direction that is shorter.
 #include <doctest/doctest.h>
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -155,6 +156,47 @@ TEST_CASE("no point: a pull beyond both cones") {
   CHECK(base::least_norm(a, Eigen::Vector2d(1.0, 0.49), sets));
   CHECK_FALSE(base::least_norm(a, Eigen::Vector2d(1.0, 0.51), sets));
   CHECK_FALSE(base::least_norm(a, Eigen::Vector2d(-1.0, 0.0), sets));
+}
+
+TEST_CASE(
+    "the minimum moves by the point of least norm within critical cones, on faces and where faces meet") {
+  // r_0 + h r_1: the same sets and, for a small h, the same faces. Some feet begin on an edge, in the apex or both.
+  std::mt19937_64 random(17);
+  int solved = 0;
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    const auto [sets, point] = random_sets(random, 3, 1, false);
+    const MatrixXd a = base::orthonormal(normal_matrix(random, 6, 3)).transpose();
+    VectorXd y = normal_matrix(random, 3, 1);
+    if (i % 2 == 0) {  // the argument of the first foot lies on an edge of its cone, or of the polar cone
+      const double f = sets[0].friction, side = i % 4 == 0 ? 1.0 : -1.0;
+      const VectorXd edge =
+          i % 3 == 0 ? VectorXd(Eigen::Vector2d(-f, side)) : VectorXd(Eigen::Vector2d(1.0, side * f));
+      y = a.topLeftCorner(3, 2).transpose().completeOrthogonalDecomposition().solve(edge);
+    }
+    if (i % 5 == 0) y.setZero();
+    const VectorXd z = a.transpose() * y;
+    std::vector<base::ConvexSet> critical;
+    VectorXd x0(6);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = 2 * static_cast<Index>(k);
+      critical.push_back(base::critical_cone(sets[k], z.segment(at, 2), 1e-12));
+      const double f = sets[k].friction, side = z[at + 1] < 0.0 ? -1.0 : 1.0;
+      const Eigen::Vector2d edge = Eigen::Vector2d(1.0, side * f).normalized();
+      const bool inside = std::abs(z[at + 1]) <= f * z[at];
+      x0.segment(at, 2) = inside ? Eigen::Vector2d(z.segment(at, 2))
+                                 : Eigen::Vector2d(std::max(0.0, edge.dot(z.segment(at, 2))) * edge);
+    }
+    const VectorXd direction = a * point;
+    const auto rate = base::least_norm(a, direction, critical);
+    if (!rate) continue;
+    const double h = 1e-6;
+    const auto moved = base::least_norm(a, a * x0 + h * direction, sets);
+    if (!moved) continue;  // no forces within the cones, or rounding hides them
+    ++solved;
+    CHECK((*moved - x0 - h * *rate).norm() <= 1e-4 * h * (1.0 + rate->norm()));
+  }
+  CHECK(solved > 150);
 }
 
 TEST_SUITE_END();

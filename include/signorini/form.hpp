@@ -58,7 +58,10 @@ inline constexpr std::size_t max_user_law_states = 31;
   return kind_of(state) == State::open || state == State::inside;
 }
 /// Direction of slip: +1, -1; 0 if the contact does not slip.
-[[nodiscard]] int slip_sign(State state);
+[[nodiscard]] constexpr int slip_sign(State state) {
+  const State kind = kind_of(state);
+  return kind == State::slip_plus ? 1 : kind == State::slip_minus ? -1 : 0;
+}
 
 /// Forces and motion of one contact at one instant, or a time derivative of them.
 struct ContactMotion {

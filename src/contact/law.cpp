@@ -68,14 +68,7 @@ const char* to_string(Law law) {
 
 }  // namespace signorini::contact
 
-namespace signorini {
-
-int slip_sign(State state) {
-  const State kind = kind_of(state);
-  return kind == State::slip_plus ? 1 : kind == State::slip_minus ? -1 : 0;
-}
-
-}  // namespace signorini
+namespace signorini {}  // namespace signorini
 
 namespace signorini::contact {
 

@@ -2,14 +2,6 @@
 
 namespace signorini::contact {
 
-ContactWork work_on(const Contact& contact, State state, double N, double T, const ContactIncrement& path) {
-  return contact.law->work(contact, state, N, T, path);
-}
-
-double working_slip_rate(const Contact& contact, State state, const ContactMotion& m) {
-  return contact.law->working_slip_rate(contact, state, m);
-}
-
 double dashpot_loss_inside(const Contact& contact, State state, double gap_from, double gap_to) {
   if (state != State::inside) return 0.0;
   return 0.5 * contact.normal_stiffness * (gap_from - gap_to) * (gap_from + gap_to);

@@ -28,12 +28,32 @@ struct ContactWork {
 
 namespace signorini::contact {
 
+/// Work of a contact with Coulomb friction.
+[[nodiscard]] inline ContactWork coulomb_work(const Contact& contact, State state, double N, double T,
+                                              const ContactIncrement& path) {
+  ContactWork work;
+  if (slip_sign(state) != 0) work.friction = T * path.slip;
+  work.surface = -T * path.surface;
+  if (!is_open(state)) work.damping = contact.normal_damping * path.gap_rate * path.gap;
+  work.applied_normal_force = -N * path.time;
+  return work;
+}
+
+// Engines evaluate the next two functions at each step of each contact: contacts with Coulomb friction, which most are,
+// are computed without a virtual call.
+
 /// Work of the contact forces N and T during the increment `path`, for a contact in this state.
-[[nodiscard]] ContactWork work_on(const Contact& contact, State state, double N, double T,
-                                  const ContactIncrement& path);
+[[nodiscard]] inline ContactWork work_on(const Contact& contact, State state, double N, double T,
+                                         const ContactIncrement& path) {
+  return contact.obeys_coulomb() ? coulomb_work(contact, state, N, T, path)
+                                 : contact.law->work(contact, state, N, T, path);
+}
 
 /// Rate of ContactIncrement::slip: p' in a slipping state, ut' for a user-defined law, otherwise 0.
-[[nodiscard]] double working_slip_rate(const Contact& contact, State state, const ContactMotion& m);
+[[nodiscard]] inline double working_slip_rate(const Contact& contact, State state, const ContactMotion& m) {
+  return contact.obeys_coulomb() && slip_sign(state) == 0 ? 0.0
+                                                          : contact.law->working_slip_rate(contact, state, m);
+}
 
 /// Energy dissipated by the dashpot of a contact in state `inside` while the gap changes from gap_from to gap_to; 0 in any
 /// other state.

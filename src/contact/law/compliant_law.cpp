@@ -31,8 +31,9 @@ class CompliantLaw : public CoulombLaw {
     const double spring = m.N - contact.normal_damping * m.vn;
     return spring * spring / (2.0 * contact.normal_stiffness);
   }
-  void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
-                             Violations& v) const override {
+  [[nodiscard]] Violations violations(const Contact& contact, State state,
+                                      const ContactMotion& m) const override {
+    Violations v = CoulombLaw::violations(contact, state, m);
     // Deformation of the normal spring. In state "inside" the deformation is still negative, because the dashpot delays its
     // return to zero.
     const double element = !is_open(state) ? (m.N - contact.normal_damping * m.vn) / contact.normal_stiffness
@@ -40,6 +41,7 @@ class CompliantLaw : public CoulombLaw {
                                                     : 0.0;
     v.gap = -(m.gap - element);
     v.product = std::abs(v.gap * m.N);
+    return v;
   }
 };
 

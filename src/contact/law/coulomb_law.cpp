@@ -167,12 +167,7 @@ double CoulombLaw::working_slip_rate(const Contact& contact, State state, const 
 
 ContactWork CoulombLaw::work(const Contact& contact, State state, double N, double T,
                              const ContactIncrement& path) const {
-  ContactWork work;
-  if (slip_sign(state) != 0) work.friction = T * path.slip;
-  work.surface = -T * path.surface;
-  if (!is_open(state)) work.damping = contact.normal_damping * path.gap_rate * path.gap;
-  work.applied_normal_force = -N * path.time;
-  return work;
+  return contact::coulomb_work(contact, state, N, T, path);
 }
 
 double CoulombLaw::normal_energy(const Contact& /*contact*/, State /*state*/,
@@ -184,13 +179,9 @@ double CoulombLaw::stored_energy(const Contact& contact, State state, const Cont
   return contact::shear_energy(contact, m.T) + normal_energy(contact, state, m);
 }
 
-void CoulombLaw::add_normal_violations(const Contact& /*contact*/, State /*state*/,
-                                       const ContactMotion& /*m*/, Violations& /*v*/) const {}
-
 Violations CoulombLaw::violations(const Contact& contact, State state, const ContactMotion& m) const {
   Violations v;
   v.tension = m.N;
-  add_normal_violations(contact, state, m, v);
   const int s = slip_sign(state);
   const double limit = s == 0 || is_at_static_limit(state) || contact.friction.is_load_dependent()
                            ? contact::sticking_limit(contact, m.N)

@@ -32,6 +32,7 @@ class CoulombLaw : public ContactLaw {
                                  const ContactIncrement& path) const override;
   [[nodiscard]] double stored_energy(const Contact& contact, State state,
                                      const ContactMotion& m) const override;
+  /// Violations of (7) and the tension. A normal law with a gap adds the violations of (6).
   [[nodiscard]] Violations violations(const Contact& contact, State state,
                                       const ContactMotion& m) const override;
 
@@ -46,9 +47,6 @@ class CoulombLaw : public ContactLaw {
   /// Energy stored by the normal force.
   [[nodiscard]] virtual double normal_energy(const Contact& contact, State state,
                                              const ContactMotion& m) const;
-  /// Adds the violations of condition (6).
-  virtual void add_normal_violations(const Contact& contact, State state, const ContactMotion& m,
-                                     Violations& v) const;
 
  private:
   Law law_;

@@ -17,10 +17,12 @@ class RigidLaw final : public CoulombLaw {
   void add_normal_rate(const Contact& /*contact*/, double factor, Form& form) const override {
     form.applied_normal_force_rate = -factor;  // never used: a rigid contact has no kt
   }
-  void add_normal_violations(const Contact& /*contact*/, State state, const ContactMotion& m,
-                             Violations& v) const override {
+  [[nodiscard]] Violations violations(const Contact& contact, State state,
+                                      const ContactMotion& m) const override {
+    Violations v = CoulombLaw::violations(contact, state, m);
     v.penetration = !is_open(state) ? std::abs(m.gap) : -m.gap;
     v.product = std::abs(m.gap * m.N);
+    return v;
   }
 };
 

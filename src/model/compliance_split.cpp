@@ -6,6 +6,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
@@ -183,7 +184,7 @@ Compliance compliance_of(const Model& model) {
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
   const SparseMatrix pick = assembly::selection(light, model.size());
-  const assembly::SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
+  const linear::SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
   const auto m = static_cast<Eigen::Index>(f.contacts.size());
   Eigen::MatrixXd n(static_cast<Eigen::Index>(light.size()), m), t = n, response_to_normal = n;
   t.setZero();

@@ -7,6 +7,7 @@
 
 #include "base/rounding.hpp"
 #include "base/text.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/mechanisms.hpp"
@@ -72,7 +73,7 @@ void mark_massless(const Scene& scene, const assembly::DofMap& map, const assemb
     throw SceneError(assembly::place_of_structure(scene), "",
                      "nothing in the scene has mass; give masses, densities or mass_per_length");
   // After scaling to a unit diagonal the pivots are dimensionless.
-  const assembly::SymmetricSolver solver(block(assembly.mass, position, heavy, s));
+  const linear::SymmetricSolver solver(block(assembly.mass, position, heavy, s));
   if (!solver.ok() || solver.smallest_pivot() <= rounding::many_operations * heavy)
     throw SceneError(
         assembly::place_of_structure(scene), "matrices.mass",

@@ -6,6 +6,7 @@
 #include "base/history/pieces.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/model_warnings.hpp"
@@ -174,7 +175,7 @@ StaticResponse find_static_response(const std::vector<Vector>& forces, const Mod
   const SparseMatrix gripped = modes::with_constraint_springs(k, holding.fixed);
   if (statics::null_motions(gripped).cols() > 0) return {};
   const modes::ConstrainedStructure structure(k, holding.fixed);
-  const assembly::SymmetricSolver loose(gripped);
+  const linear::SymmetricSolver loose(gripped);
   StaticResponse result;
   for (const Vector& p : forces) {
     const double answer = assembly::max_translation(structure.solve(p), map);
@@ -215,7 +216,7 @@ double thrown(const Model& model, const assembly::DofMap& map, const EffectiveAm
   SparseMatrix mass = model.mass;
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) mass.coeffRef(i, i) = 1.0;
-  const assembly::SymmetricSolver solver(mass);
+  const linear::SymmetricSolver solver(mass);
   double acceleration = 0.0;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const Load& load = model.loads[k];

@@ -7,6 +7,7 @@
 #include "behaviour/engines.hpp"
 #include "behaviour/random_starts.hpp"
 #include "behaviour/scene_parts.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/springs.hpp"
 #include "signorini/simulate.hpp"
 
@@ -168,7 +169,7 @@ TEST_CASE("the portal's feet carry the thrust of the force method, two thirds of
   Vector weight = Vector::Zero(model.size());
   for (const Load& load : model.loads)
     if (load.name == "gravity") load.direction.add_to(weight, 1.0);
-  const Vector u = assembly::SymmetricSolver(
+  const Vector u = linear::SymmetricSolver(
                        assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts)))
                        .solve(weight);
   CHECK((u - model.u0).cwiseAbs().maxCoeff() < 1e-12 * u.cwiseAbs().maxCoeff());

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "contact/friction.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/slip_growth.hpp"
 
@@ -103,14 +104,14 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   const SparseMatrix damping = 0.5 * (model.damping + SparseMatrix(model.damping.transpose()));
   g_ = model.mass + damping / w +
        assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts)) / (w * w);
-  assembly::SymmetricSolver solver(g_);
+  linear::SymmetricSolver solver(g_);
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) {
     // If stiffness or damping makes G indefinite, the magnitudes of its diagonal entries define the norm instead.
     std::vector<Eigen::Triplet<double>> diagonal;
     for (int i = 0; i < n; ++i) diagonal.emplace_back(i, i, std::max(std::abs(g_.coeff(i, i)), 1e-300));
     g_.setZero();
     g_.setFromTriplets(diagonal.begin(), diagonal.end());
-    solver = assembly::SymmetricSolver(g_);
+    solver = linear::SymmetricSolver(g_);
   }
   const auto greatest = [&](const Combination& form) {
     Vector x = Vector::Zero(n);

@@ -1,11 +1,10 @@
-// springs.hpp: stiffness matrix plus line springs, and linear solvers for such matrices.
+// springs.hpp: stiffness matrix plus line springs, and the range of stiffnesses that a scene may have.
 //
-//   K + sum_k s_k a_k a_k^T,    K x = b
+//   K + sum_k s_k a_k a_k^T
 //
 // Shapes: K n x n, symmetric, both triangles stored; a_k sparse forms on n degrees of freedom.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "model/assembly/dofs.hpp"
@@ -29,45 +28,6 @@ struct LineSpring {
 
 /// |x|^T |K| |x|: magnitude of the terms of x^T K x. The rounding error of x^T K x is this magnitude times eps.
 [[nodiscard]] double term_magnitude(const SparseMatrix& k, const Vector& x);
-
-/// L D L^T of a symmetric sparse matrix, with a fill-reducing order.
-class SymmetricSolver {
- public:
-  explicit SymmetricSolver(const SparseMatrix& k);
-  ~SymmetricSolver();
-  SymmetricSolver(SymmetricSolver&&) noexcept;
-  SymmetricSolver& operator=(SymmetricSolver&&) noexcept;
-
-  /// False if a pivot is exactly zero.
-  [[nodiscard]] bool ok() const;
-  [[nodiscard]] Vector solve(const Vector& b) const;
-  /// The smallest pivot; 0 without pivots.
-  [[nodiscard]] double smallest_pivot() const;
-  /// Smallest ratio of a pivot to its diagonal entry; independent of the units of the rows.
-  [[nodiscard]] double smallest_pivot_ratio() const;
-  /// Number of negative eigenvalues (Sylvester's law of inertia).
-  [[nodiscard]] int negative_pivots() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
-
-/// A = F F^T of a symmetric positive definite sparse matrix, by L L^T in a fill-reducing order.
-class CholeskyFactor {
- public:
-  explicit CholeskyFactor(const SparseMatrix& a);
-  ~CholeskyFactor();
-  /// False if A is not positive definite.
-  [[nodiscard]] bool ok() const;
-  [[nodiscard]] Vector times(const Vector& x) const;                    ///< F x
-  [[nodiscard]] Vector solve_factor(const Vector& x) const;             ///< F^-1 x
-  [[nodiscard]] Vector solve_transposed_factor(const Vector& x) const;  ///< F^-T x
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
 
 // Refuses scenes whose stiffness ratio overflows when squared.
 //

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/springs.hpp"
 
 namespace signorini::modes {
@@ -26,7 +27,7 @@ class ConstrainedStructure {
     std::vector<int> dofs;
     Eigen::MatrixXd t, correction;
   };
-  assembly::SymmetricSolver solver_;
+  linear::SymmetricSolver solver_;
   std::vector<ConstraintBlock> constraint_blocks_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/modes/constrained_structure.hpp"
@@ -268,7 +269,7 @@ constexpr double nearest = 1e-9, farthest = 1e-5;  // range of alternative shift
 constexpr double accurate = 1e-6;  // backward error of a factorisation whose pivot signs are reliable
 
 /// Checks a factorisation by a trial solution: pivots are not chosen by size, so an unlucky shift may lose all digits.
-bool is_accurate(const assembly::SymmetricSolver& solver, const SparseMatrix& a) {
+bool is_accurate(const linear::SymmetricSolver& solver, const SparseMatrix& a) {
   if (!solver.ok()) return false;
   const Vector b = a.diagonal().cwiseAbs();
   const Vector x = solver.solve(b);
@@ -282,7 +283,7 @@ bool is_accurate(const assembly::SymmetricSolver& solver, const SparseMatrix& a)
 int count_modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square) {
   for (double beyond = 0.0; beyond <= farthest; beyond = beyond > 0.0 ? 10.0 * beyond : nearest) {
     const SparseMatrix a = stiffness - (1.0 + beyond) * square * mass;
-    const assembly::SymmetricSolver solver(a);
+    const linear::SymmetricSolver solver(a);
     if (is_accurate(solver, a)) return solver.negative_pivots();
   }
   return -1;

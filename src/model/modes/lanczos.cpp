@@ -8,6 +8,7 @@
 #include <exception>
 #include <random>
 
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
@@ -125,7 +126,7 @@ base::EigenPairs join(const base::EigenPairs& a, const base::EigenPairs& b) {
 
 /// Modes from a Krylov space with a single start vector. Free motions are removed from each solution, because rounding errors
 /// of free motions would otherwise dominate.
-base::EigenPairs lanczos(int count, const assembly::SymmetricSolver& solver, const SparseMatrix& mass,
+base::EigenPairs lanczos(int count, const linear::SymmetricSolver& solver, const SparseMatrix& mass,
                          const Eigen::MatrixXd& free, double shift, int heavies) {
   const Eigen::MatrixXd inertia = mass * free;
   const Operator inverse = [&](const Eigen::VectorXd& x) {
@@ -139,7 +140,7 @@ base::EigenPairs lanczos(int count, const assembly::SymmetricSolver& solver, con
 /// Modes from the space spanned by X, A X, A^2 X, ..., M-orthogonal to `known`.
 class BlockKrylov {
  public:
-  BlockKrylov(const assembly::SymmetricSolver& solver, const SparseMatrix& mass, const Eigen::MatrixXd& known,
+  BlockKrylov(const linear::SymmetricSolver& solver, const SparseMatrix& mass, const Eigen::MatrixXd& known,
               double shift, int width, unsigned seed)
       : solver_(solver),
         mass_(mass),
@@ -209,7 +210,7 @@ class BlockKrylov {
     return q;
   }
 
-  const assembly::SymmetricSolver& solver_;
+  const linear::SymmetricSolver& solver_;
   const SparseMatrix& mass_;
   const Eigen::MatrixXd& known_;
   double shift_;
@@ -225,7 +226,7 @@ void deflate(const Eigen::MatrixXd& basis, const SparseMatrix& mass, Eigen::Matr
 
 base::EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass,
                               const SparseMatrix& stiffness, const Eigen::MatrixXd& free, double shift) {
-  const assembly::SymmetricSolver solver(SparseMatrix(stiffness + shift * mass));
+  const linear::SymmetricSolver solver(SparseMatrix(stiffness + shift * mass));
   base::EigenPairs found{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) return found;
   const int heavies = assembly::degrees_with_mass(mass) - static_cast<int>(free.cols());

@@ -6,6 +6,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/modes/constrained_structure.hpp"
@@ -61,7 +62,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   const SparseMatrix kmd = light.transpose() * k * heavy;
   // A massless motion without stiffness (dampers only) cannot be condensed; fixing it gives an upper bound.
   const bool condense = l > 0 && statics::null_motions(kmm).cols() == 0;
-  const assembly::SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
+  const linear::SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
   auto condensed = [&](const Vector& x) -> Vector {
     Vector y = kdd * x;
     if (condense) y -= kmd.transpose() * massless.solve(kmd * x);
@@ -74,7 +75,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
         base::generalized_eigenvalues(0.5 * (kc + kc.transpose()), Eigen::MatrixXd(m));
     return values.size() == 0 ? 0.0 : frequency(values[values.size() - 1]);
   }
-  const assembly::CholeskyFactor factor(m);
+  const linear::CholeskyFactor factor(m);
   if (!factor.ok()) return 0.0;
   auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return factor.solve_factor(condensed(factor.solve_transposed_factor(x)));
@@ -141,7 +142,7 @@ double rounding_floor(const Model& model) {
   if (!(model.omega1 > 0.0) || model.stiffness.nonZeros() == 0) return 0.0;
   const SparseMatrix k = assembly::with_springs(model.stiffness, assembly::contact_springs(model.contacts));
   const double shift = beside * model.omega1 * model.omega1;
-  const assembly::SymmetricSolver solver(SparseMatrix(k - shift * model.mass));
+  const linear::SymmetricSolver solver(SparseMatrix(k - shift * model.mass));
   if (!solver.ok()) return 0.0;
   Vector x = Vector::LinSpaced(model.size(), 1.0, 1.7);  // not orthogonal to any shape by symmetry
   for (int i = 0; i < solves; ++i) {

@@ -7,6 +7,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/modes/constrained_structure.hpp"
@@ -110,7 +111,7 @@ std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatr
   const Pencil pencil = without_common_null_motions(elastic, geometric, fixed);
   const auto shift = find_shift(pencil, fixed);
   if (!shift) return {0.0};
-  const assembly::CholeskyFactor factor(shift->matrix);
+  const linear::CholeskyFactor factor(shift->matrix);
   if (!factor.ok()) return {0.0};
   Eigen::MatrixXd across = form_columns(fixed, n);  // orthonormal columns that span F^-1 T
   for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j) = factor.solve_factor(Vector(across.col(j)));
@@ -177,7 +178,7 @@ std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix&
     const bool settled = rate <= (1.0 + converged_rate_change) * growth.rate;
     if (rate > growth.rate) growth = {rate, x};
     if (settled) break;
-    const assembly::SymmetricSolver solver(SparseMatrix(k + 1.5 * growth.rate * growth.rate * mass));
+    const linear::SymmetricSolver solver(SparseMatrix(k + 1.5 * growth.rate * growth.rate * mass));
     if (!solver.ok()) break;
     x = solver.solve(mass * x).normalized();
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/modes/frequencies.hpp"
 #include "model/modes/lanczos.hpp"
@@ -34,7 +35,7 @@ base::EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffne
   Eigen::MatrixXd condensed(k), follow(l.cols(), h.cols());
   if (l.cols() > 0) {
     const SparseMatrix coupling = l.transpose() * stiffness * h;
-    const assembly::SymmetricSolver massless(SparseMatrix(l.transpose() * stiffness * l));
+    const linear::SymmetricSolver massless(SparseMatrix(l.transpose() * stiffness * l));
     if (!massless.ok()) throw NotReducible("the stiffness of the massless degrees of freedom is singular");
     for (Eigen::Index j = 0; j < follow.cols(); ++j) follow.col(j) = -massless.solve(coupling.col(j));
     condensed += coupling.transpose() * follow;
@@ -114,8 +115,8 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
               : lowest_elastic(cutoff, count, mass, stiffness, rigid);
 }
 
-assembly::SymmetricSolver regular(const SparseMatrix& a) {
-  assembly::SymmetricSolver solver(a);
+linear::SymmetricSolver regular(const SparseMatrix& a) {
+  linear::SymmetricSolver solver(a);
   if (a.rows() > 0 && (!solver.ok() || !(solver.smallest_pivot() > 0.0)))
     throw NotReducible("the stiffness is singular up to rounding; move the cutoff");
   return solver;
@@ -146,7 +147,7 @@ KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatri
 
   // A step of inverse iteration improves the low modes, whose energy is small compared with the high ones.
   Eigen::MatrixXd x = pairs.vectors;
-  const assembly::SymmetricSolver solver = regular(SparseMatrix(stiffness + result.shift * mass));
+  const linear::SymmetricSolver solver = regular(SparseMatrix(stiffness + result.shift * mass));
   modes::deflate(rigid, mass, x);
   for (Eigen::Index j = 0; j < taken; ++j)
     x.col(j) = (pairs.values[j] + result.shift) * solver.solve(mass * x.col(j));
@@ -177,7 +178,7 @@ ResidualFlexibility::ResidualFlexibility(const SparseMatrix& mass, const SparseM
       inertia_size_(inertia_.cwiseAbs()),
       shift_(modes.free > 0 ? modes.shift : 0.0),
       complete_(modes.shapes.cols() == mass.rows()),
-      solver_(complete_      ? assembly::SymmetricSolver(SparseMatrix(0, 0))
+      solver_(complete_      ? linear::SymmetricSolver(SparseMatrix(0, 0))
               : shift_ > 0.0 ? regular(SparseMatrix(stiffness + shift_ * mass))
                              : regular(stiffness)) {}
 

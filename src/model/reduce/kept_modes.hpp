@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/springs.hpp"
 #include "signorini/model.hpp"
 
@@ -63,7 +64,7 @@ class ResidualFlexibility {
   Eigen::MatrixXd inertia_, inertia_size_;  // M Phi, and its absolute values
   double shift_;                            // shift of omega^2; its effect is removed by iteration
   bool complete_;
-  assembly::SymmetricSolver solver_;
+  linear::SymmetricSolver solver_;
 };
 
 // Shapes for the static compliance of the truncated modes.

@@ -8,6 +8,7 @@
 
 #include "base/lcp.hpp"
 #include "base/text.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/quasi_static_rates.hpp"
@@ -110,7 +111,7 @@ class LoadingPath {
   }
 
   [[noreturn]] void refuse_motion(const ConstraintRows& held) const {
-    const assembly::SymmetricSolver solver(held.matrix());
+    const linear::SymmetricSolver solver(held.matrix());
     const Eigen::MatrixXd null = null_motions(held.matrix());
     if (solver.ok() && solver.negative_pivots() > 0 && null.cols() == 0)
       refuse_stage("the stiffness is indefinite, so the structure is unstable");

@@ -8,6 +8,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
@@ -36,7 +37,7 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   const auto n = static_cast<int>(a.rows());
   SparseMatrix shift(n, n);
   shift.setIdentity();
-  const assembly::SymmetricSolver solver(SparseMatrix(a + rounding::many_operations * shift));
+  const linear::SymmetricSolver solver(SparseMatrix(a + rounding::many_operations * shift));
   std::mt19937 random(1);  // fixed seed: reproducible results
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::MatrixXd x(n, count);
@@ -58,7 +59,7 @@ bool surely_constrained(const SparseMatrix& a) {
   const double most = (a.cwiseAbs() * Vector::Ones(n)).maxCoeff();
   SparseMatrix one(n, n);
   one.setIdentity();
-  const assembly::SymmetricSolver solver(SparseMatrix(a - (10.0 * rounding::many_operations * most) * one));
+  const linear::SymmetricSolver solver(SparseMatrix(a - (10.0 * rounding::many_operations * most) * one));
   return solver.ok() && solver.smallest_pivot() > 0.0;
 }
 
@@ -105,7 +106,7 @@ bool may_have_null_motions(const SparseMatrix& k) {
   // unnecessary search.
   constexpr double certainly_held = 1e-9;
   const Vector s = scaling(k);
-  const assembly::SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));
+  const linear::SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));
   return !solver.ok() || !(solver.smallest_pivot() > certainly_held);
 }
 

@@ -10,6 +10,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "contact/motion.hpp"
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
@@ -331,7 +332,7 @@ ConstrainedState solve_constrained(const StaticProblem& problem, const std::vect
   std::vector<assembly::LineSpring> apart;
   for (const std::size_t c : stiff.list)
     apart.push_back({problem.contacts[c].normal, problem.contacts[c].normal_stiffness});
-  const assembly::SymmetricSolver solver(apart.empty() ? k : assembly::with_springs(k, apart));
+  const linear::SymmetricSolver solver(apart.empty() ? k : assembly::with_springs(k, apart));
   // load: includes the gap terms of soft contacts. of_scene: true for the load of the scene; gap terms of stiff contacts are
   // then added.
   const auto refined = [&](const Vector& load, bool of_scene) {

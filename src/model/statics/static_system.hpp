@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/springs.hpp"
 #include "signorini/model.hpp"
@@ -54,7 +55,7 @@ class ConstraintRows {
 
   std::vector<ConstraintRow> rows_;
   SparseMatrix matrix_;
-  assembly::SymmetricSolver solver_;
+  linear::SymmetricSolver solver_;
   bool regular_;
   std::vector<std::size_t> rigid_;
   Eigen::MatrixXd schur_;

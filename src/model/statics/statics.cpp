@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/mechanisms.hpp"
@@ -270,7 +271,7 @@ std::vector<bool> closed_supports(const StaticProblem& problem) {
   const std::size_t rounds = 100 + 10 * closed.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     const Vector target =
-        assembly::SymmetricSolver(problem.matrix(closed) + weak).solve(problem.right_side(closed));
+        linear::SymmetricSolver(problem.matrix(closed) + weak).solve(problem.right_side(closed));
     const std::vector<bool> next = closed_at(problem, target);
     if (next == closed) return closed;
     if (round == 0) {  // the first u is the equilibrium with all contacts closed

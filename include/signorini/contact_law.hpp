@@ -142,8 +142,8 @@ class ContactLawPtr {
   std::shared_ptr<const ContactLaw> law_;
 };
 
-/// Law of a rigid contact on massless parts: a compliant law whose springs belong to the structure as its local compliance
-/// (model/compliance_split.hpp).
+/// Law of a rigid contact on massless parts. It is computed as a compliant contact; its springs are the local compliance of the
+/// structure, which is removed from the structure (model/compliance_split.hpp).
 [[nodiscard]] ContactLawPtr compliance_split_law();
 
 }  // namespace signorini

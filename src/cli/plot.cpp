@@ -237,8 +237,8 @@ bool ready_to_draw(const fs::path& directory) {
   return study::add_picture_rows(directory, [] { return !Interrupt::requested(); });
 }
 
-std::vector<fs::path> write_any_plots(const fs::path& directory, const result::PlotWindow& window,
-                                      const result::PictureStyle& look) {
+std::vector<fs::path> write_plot_scripts(const fs::path& directory, const result::PlotWindow& window,
+                                         const result::PictureStyle& look) {
   const std::string kind = report::kind_of_results(directory);
   if (kind == "run") return result::run_pictures(directory, window, look).write(directory);
   if (window.from || window.to)
@@ -260,7 +260,7 @@ ExitCode plot(const fs::path& directory, const result::PlotWindow& window, const
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
   if (!ready_to_draw(directory)) return ExitCode::interrupted;
-  const std::vector<fs::path> scripts = scripts_to_draw(write_any_plots(directory, window, look));
+  const std::vector<fs::path> scripts = scripts_to_draw(write_plot_scripts(directory, window, look));
   if (scripts.empty())
     throw FileError(directory.string(),
                     "has nothing to draw: the results have fewer than two output times or rows");

@@ -38,8 +38,8 @@ struct Drawing {
 
 /// Writes the gnuplot scripts and returns their paths. Errors: FileError; UsageError if the window has times, but the
 /// pictures of these results do not show time.
-std::vector<std::filesystem::path> write_any_plots(const std::filesystem::path& directory,
-                                                   const result::PlotWindow& window,
-                                                   const result::PictureStyle& look);
+std::vector<std::filesystem::path> write_plot_scripts(const std::filesystem::path& directory,
+                                                      const result::PlotWindow& window,
+                                                      const result::PictureStyle& look);
 
 }  // namespace signorini::cli

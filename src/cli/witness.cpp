@@ -27,7 +27,7 @@ std::string text_of(const directory_check::DirectoryLawCheck& found, const std::
   if (const auto more = found.law_checks.violated - static_cast<long>(found.law_checks.violations.size());
       more > 0)
     text += fmt::format("and {} more\n", more);
-  text += fmt::format("{}: {} instants, {} events, {} rows of contacts: ", directory, found.instants,
+  text += fmt::format("{}: {} instants, {} events, {} rows of contacts.csv: ", directory, found.instants,
                       found.events, found.rows);
   text += found.law_checks.violated == 0 ? "all laws hold\n"
                                          : fmt::format("{} violation{}\n", found.law_checks.violated,

@@ -391,7 +391,7 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
   while (!solver_state.failed.empty() || (solver_state.instant.start && d.rounds == 0)) {
     if (++d.rounds > max_rounds_)
       return {Refusal::Kind::endless,
-              fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
+              fmt::format("state changes at one instant do not end within {} rounds; guards that fail: {}",
                           max_rounds_, names_of(model_, solver_state.failed)),
               contacts_of(solver_state.failed)};
     if (Refusal why = try_next_states(solver_state)) return why;

@@ -27,8 +27,8 @@ struct ContactBlocks {
     for (std::size_t b = 0; b < all.size(); ++b)
       for (const std::size_t c : all[b]) of[c] = b;
   }
-  /// Largest number of contacts in a block that can stick rigidly; the constraint rows of two such contacts may be linearly
-  /// dependent. If any contact takes impulses, the result is the largest std::size_t, because such a contact is always decided
+  /// The largest number, over all blocks, of contacts in one block that can stick rigidly. The constraint rows of two or more
+  /// such contacts may be linearly dependent. If any contact takes impulses, the result is the largest std::size_t, because such a contact is always decided
   /// together with its block.
   [[nodiscard]] std::size_t max_rigid(const Model& model) const;
 

@@ -65,7 +65,7 @@ void InstantLawChecker::continuity() {
     if (off <= limit) continue;
     if (!closed) closed = closing();
     limit += (*closed)[i];
-    if (off > limit) limit += massless_uncertainty(i);
+    if (off > limit) limit += massless_dof_uncertainty(i);
     if (off <= limit) continue;
     add(-1, "continuity", off, limit, turn ? Unit{} : seen::length, false);
     break;
@@ -78,7 +78,7 @@ void InstantLawChecker::continuity() {
 /// Uncertainty of u_i at a massless degree of freedom i, where u follows from forces. Stiff contact springs convert the
 /// rounding of u to forces, which bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: stiffness of the structure on
 /// massless degrees of freedom. Returns 0 if the degree of freedom has mass, or K is singular.
-double InstantLawChecker::massless_uncertainty(int dof) const {
+double InstantLawChecker::massless_dof_uncertainty(int dof) const {
   if (context_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
   const std::vector<int>& all = context_.massless();
   const SparseMatrix only = assembly::selection(all, model_.size());

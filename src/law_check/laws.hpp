@@ -172,7 +172,7 @@ class InstantLawChecker {
   [[nodiscard]] bool friction_follows_drop(std::size_t k, const ContactKinematics& before,
                                            const ContactKinematics& after, double off_N, double off_T) const;
   [[nodiscard]] Vector closing() const;
-  [[nodiscard]] double massless_uncertainty(int dof) const;
+  [[nodiscard]] double massless_dof_uncertainty(int dof) const;
   [[nodiscard]] ContactKinematics touching(std::size_t k, const CheckedSide& side) const;
   void event_row(const RecordedEvent& event);
   void row_before(const RecordedEvent& event, const ContactKinematics& before,

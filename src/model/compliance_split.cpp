@@ -221,8 +221,9 @@ std::optional<ComplianceSplit> split_compliance(const Scene& scene, const Sparse
     if (!(stiffness > 0.0))
       refuse_compliance_split(
           scene, rows[j].contact, "law",
-          fmt::format("{} has neither mass nor stiffness; give it a mass, or the contact law = \"compliant\"",
-                      rows[j].dof->displacement));
+          fmt::format(
+              "{} has neither mass nor stiffness; give it a mass, or set law = \"compliant\" for the contact",
+              rows[j].dof->displacement));
     c.law = compliance_split_law();
     if (rows[j].normal)
       c.normal_stiffness = stiffness;

@@ -15,7 +15,7 @@
 namespace signorini::model {
 namespace {
 
-/// Weight of C relative to K if K alone does not resist all motions: half of the digits of a double.
+/// Factor w of C in K + w C, the sum used if K alone does not resist all motions. 1e8 is half of the 16 digits of a double.
 constexpr double damping_weight = 1e8;
 
 /// Block of s_i A_ij s_j for rows and columns with position[i] >= 0; position[i] is the row of i in the block.

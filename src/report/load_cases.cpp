@@ -93,8 +93,8 @@ std::string place_of(const base::Json& extreme) {
   if (!at.is_array() || at.size() != 2) return "";
   const std::string fibre = text_in(entry_of(extreme, "fibre"));
   const auto station = number_in(entry_of(extreme, "station"));
-  return fmt::format("{}-{} {}{}", text_in(at[0]), text_in(at[1]),
-                     station ? fmt::format("{:.3g}", *station) : "", fibre.empty() ? "" : " " + fibre);
+  return fmt::format("{}-{}{}{}", text_in(at[0]), text_in(at[1]),
+                     station ? fmt::format(" {:.3g}", *station) : "", fibre.empty() ? "" : " " + fibre);
 }
 
 std::vector<Figure> response_figures(const base::Json& summary) {

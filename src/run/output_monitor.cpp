@@ -248,8 +248,8 @@ double OutputMonitor::turning(engine::DenseOutput& motion, const Part& step) {
       std::max(fast_mode_cutoff_.fastest(max_pieces * longest), longest / (step.end - step.begin));
   if (omega > most && !coarse_warning_)
     coarse_warning_ = fmt::format(
-        "outputs: the phase of the fastest motion advances by {:.2g} radians in the run; extremes were "
-        "searched in intervals of {:.2g} radians, so a peak may be missed",
+        "outputs: the phase of the fastest motion advances by {:.2g} radians in the run, but extremes were "
+        "searched for in intervals of {:.2g} radians of this phase, so a peak may be missed",
         omega / fast_mode_cutoff_.fastest(1.0), omega / most * longest);
   return std::min(omega, most);
 }

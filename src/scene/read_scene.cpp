@@ -117,8 +117,8 @@ void compare_with_run(Scene& scene) {
     throw SceneError(
         scene.initial.place, "run.initial.run",
         fmt::format(
-            "found no {}, expected this file of the frozen static forces, because the stiffness of a run "
-            "with run.geometric = true depends on them",
+            "found no {}; this file has the frozen static forces, on which the stiffness of a run with "
+            "run.geometric = true depends",
             (std::filesystem::path(scene.initial.saved->run) / prestress_file).string()));
   scene.initial.saved->structure_differences = differing_structure(run, here);
 }

@@ -22,7 +22,7 @@ std::vector<Eigen::Index> contact_dofs(const Model& model, const std::vector<con
   return {dofs.begin(), dofs.end()};
 }
 
-DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::size_t c, double x) {
+DrivenRates driven_rates(const ForcingDerivatives& series, double scale, std::size_t c, double x) {
   DrivenRates d;
   const auto value = [&](const std::vector<double>& rows, std::size_t order) {
     double sum = 0.0;

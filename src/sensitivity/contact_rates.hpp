@@ -18,7 +18,7 @@ struct DrivenRates {
   double surface[3] = {0.0, 0.0, 0.0}, applied_normal_force[2] = {0.0, 0.0};
 };
 /// Derivatives of a contact's surface motion and applied normal force at position x of a series with this scale.
-[[nodiscard]] DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::size_t contact,
+[[nodiscard]] DrivenRates driven_rates(const ForcingDerivatives& series, double scale, std::size_t contact,
                                        double x);
 
 /// Degrees of freedom on which the contacts, or their derivatives with respect to any parameter, depend.
@@ -63,7 +63,7 @@ struct WatchedMotion {
 /// Data of one parameter for a stretch (the motion between two instants).
 struct TangentSource {
   const Tangent* start = nullptr;  ///< tangent at the start of the stretch; nullptr: not computed
-  ForcingRatesSeries forcing;      ///< derivatives of the forcing, as a series with scale 1
+  ForcingDerivatives forcing;      ///< derivatives of the forcing, as a series with scale 1
 };
 
 /// Force law of one contact, and its derivatives with respect to one parameter.

@@ -69,7 +69,7 @@ void DiscreteRun::begin(const run::RunInstant& start) {
     moved.v = d.v0;
     moved.a = Vector::Zero(model_.size());
     moved.forces = Vector::Zero(model_.force_count());
-    const ForcingRatesSeries series = forcing_at(node_derivatives_.size() - 1, 0.0);
+    const ForcingDerivatives series = forcing_at(node_derivatives_.size() - 1, 0.0);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = d.contacts[c];
@@ -85,8 +85,8 @@ void DiscreteRun::begin(const run::RunInstant& start) {
   rows_at(start);
 }
 
-ForcingRatesSeries DiscreteRun::forcing_at(std::size_t p, double t) const {
-  ForcingRatesSeries series;
+ForcingDerivatives DiscreteRun::forcing_at(std::size_t p, double t) const {
+  ForcingDerivatives series;
   ForcingRates(model_, states_[p].derivative, node_.t, motion::Side::after).expand(t, 1.0, few_terms, series);
   return series;
 }
@@ -111,7 +111,7 @@ DiscreteRun::Node DiscreteRun::repeat_step(const motion::Forcing& forcing, doubl
 
 /// Derivative of a contact's motion at a node whose time depends on the parameter.
 ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const motion::Forcing& forcing, const Node& at,
-                                 const NodeDerivative& moved, const ForcingRatesSeries& series) const {
+                                 const NodeDerivative& moved, const ForcingDerivatives& series) const {
   const Contact& contact = model_.contacts[c];
   const DrivenRates driven = driven_rates(series, 1.0, c, 0.0);
   ContactMotion m = parameter_rate(contact, states_[p].derivative.contacts[c], model_.layout, c,
@@ -210,7 +210,7 @@ void DiscreteRun::row(const run::RunStep& step, double t) {
     sample.driven.emplace_back();
     sample.anchors.push_back(node_derivatives_[p].anchors);
     if (!states_[p].valid) continue;
-    const ForcingRatesSeries series = forcing_at(p, t);
+    const ForcingDerivatives series = forcing_at(p, t);
     const NodeDerivative moved = advance(p, step.forcing, {node_, at, node_derivatives_[p], series}, 0.0);
     sample.tangents.back() = {moved.u, moved.v, moved.a, moved.forces, Vector::Zero(moved.forces.size())};
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
@@ -225,7 +225,7 @@ void DiscreteRun::step(const run::RunStep& step) {
   std::vector<NodeDerivative> next = node_derivatives_;
   for (std::size_t p = 0; p < states_.size(); ++p) {
     if (!states_[p].valid) continue;
-    const ForcingRatesSeries series = forcing_at(p, end.t);
+    const ForcingDerivatives series = forcing_at(p, end.t);
     const Ends ends{node_, end, node_derivatives_[p], series};
     next[p] = advance(p, step.forcing, ends, end_of(p, step, ends));
   }
@@ -241,7 +241,7 @@ void DiscreteRun::hit(std::size_t p, const run::RunInstant& now) {
   if (std::none_of(impulses.begin(), impulses.end(), [](const decide::Impulse& i) { return i.normal > 0.0; }))
     return;
   std::vector<double> surface;
-  const ForcingRatesSeries series = forcing_at(p, now.t);
+  const ForcingDerivatives series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c)
     surface.push_back(driven_rates(series, 1.0, c, 0.0).surface[1] +
                       node_derivatives_[p].t * now.forcing_before.surface(c, now.t, 2));
@@ -255,7 +255,7 @@ void DiscreteRun::hit(std::size_t p, const run::RunInstant& now) {
 
 /// Updates the derivatives of anchors that are set at this instant, like TangentEvents::move_anchors.
 void DiscreteRun::hold(std::size_t p, const run::RunInstant& now) {
-  const ForcingRatesSeries series = forcing_at(p, now.t);
+  const ForcingDerivatives series = forcing_at(p, now.t);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactState &old = now.states_before[c], &state = now.after.states[c];
@@ -270,7 +270,7 @@ void DiscreteRun::hold(std::size_t p, const run::RunInstant& now) {
 void DiscreteRun::fill(std::size_t p, const run::RunInstant& now, const Node& before,
                        const NodeDerivative& was) {
   TangentState& state = states_[p];
-  const ForcingRatesSeries series = forcing_at(p, now.t);
+  const ForcingDerivatives series = forcing_at(p, now.t);
   const NodeDerivative& is = node_derivatives_[p];
   state.dt = is.t;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
@@ -320,7 +320,7 @@ void DiscreteRun::pass(const run::RunInstant& now) {
     state.rates.assign(model_.contacts.size(), EventRates{});
     state.dt = EventRates::none;
     if (!state.valid) continue;
-    const ForcingRatesSeries series = forcing_at(p, now.t);
+    const ForcingDerivatives series = forcing_at(p, now.t);
     const NodeDerivative here = node_derivatives_[p];
     node_derivatives_[p] = advance(p, now.forcing_after, {node_, node_, here, series}, here.t);
     state.now.point.u = node_derivatives_[p].u - node_derivatives_[p].t * node_.point.v;
@@ -345,7 +345,7 @@ void DiscreteRun::rows_at(const run::RunInstant& instant) {
       sample.tangents.push_back(known ? SeriesPoint{m.u, m.v, m.a, m.forces, Vector::Zero(m.forces.size())}
                                       : SeriesPoint{});
       sample.driven.emplace_back();
-      const ForcingRatesSeries series = forcing_at(p, instant.t);
+      const ForcingDerivatives series = forcing_at(p, instant.t);
       for (std::size_t c = 0; c < model_.contacts.size(); ++c)
         sample.driven.back().push_back(driven_rates(series, 1.0, c, 0.0));
       sample.anchors.push_back(m.anchors);

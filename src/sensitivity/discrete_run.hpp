@@ -51,21 +51,21 @@ class DiscreteRun final : public run::RunListener {
   struct Ends {
     const Node &from, &to;
     const NodeDerivative& moved;
-    const ForcingRatesSeries&
+    const ForcingDerivatives&
         forcing;  ///< derivatives of the forcing at the end of the step, as a series with scale 1
   };
 
   void stop(const std::string& reason, double t);
   void factorise(double h);
   [[nodiscard]] Node repeat_step(const motion::Forcing& forcing, double t);
-  [[nodiscard]] ForcingRatesSeries forcing_at(std::size_t parameter, double t) const;
+  [[nodiscard]] ForcingDerivatives forcing_at(std::size_t parameter, double t) const;
   [[nodiscard]] NodeDerivative advance(std::size_t parameter, const motion::Forcing& forcing,
                                        const Ends& ends, double Dt);
   void add_rows(std::size_t parameter, const motion::Forcing& forcing, const Ends& ends,
                 const NodeDerivative& known);
   [[nodiscard]] ContactMotion along(std::size_t parameter, std::size_t contact,
                                     const motion::Forcing& forcing, const Node& at,
-                                    const NodeDerivative& moved, const ForcingRatesSeries& series) const;
+                                    const NodeDerivative& moved, const ForcingDerivatives& series) const;
   [[nodiscard]] double end_of(std::size_t parameter, const run::RunStep& step, const Ends& ends);
   void row(const run::RunStep& step, double t);
   void hit(std::size_t parameter, const run::RunInstant& instant);

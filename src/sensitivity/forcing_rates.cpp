@@ -56,7 +56,7 @@ ForcingRates::ForcingRates(const Model& model, const ModelDerivative& derivative
   }
 }
 
-void ForcingRates::expand(double t, double scale, std::size_t count, ForcingRatesSeries& out) const {
+void ForcingRates::expand(double t, double scale, std::size_t count, ForcingDerivatives& out) const {
   out.count = count;
   out.loaded = false;
   out.load.setZero(model_->size(), static_cast<Eigen::Index>(count));

@@ -23,7 +23,7 @@ void add_rate_series(const Piece& piece, const Piece& rates, double t, double sc
                      double factor, double* out);
 
 /// Derivatives of the forcing, stored like ForcingSeries: rows of `count` coefficients, one row per contact; `load` by columns.
-struct ForcingRatesSeries {
+struct ForcingDerivatives {
   std::size_t count = 0;
   bool loaded = false;   ///< false: `load` is zero
   Eigen::MatrixXd load;  ///< n x count
@@ -36,7 +36,7 @@ class ForcingRates {
   ForcingRates(const Model& model, const ModelDerivative& derivative, double t, motion::Side side);
 
   /// Computes series with `count` coefficients about t, in powers of (time - t)/scale.
-  void expand(double t, double scale, std::size_t count, ForcingRatesSeries& out) const;
+  void expand(double t, double scale, std::size_t count, ForcingDerivatives& out) const;
 
  private:
   struct Part {

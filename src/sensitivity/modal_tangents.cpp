@@ -11,7 +11,7 @@ namespace {
 
 constexpr double negligible_damping = 1e-13;  // rounding error of C_p - alpha M_p, relative to C_p
 
-bool has_constant_excitation(const ForcingRatesSeries& f) {
+bool has_constant_excitation(const ForcingDerivatives& f) {
   const auto still = [&](const std::vector<double>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (i % f.count != 0 && rows[i] != 0.0) return false;

@@ -76,7 +76,7 @@ void TangentRun::begin(const run::RunInstant& start) {
   end_.forces = end_.force_rates = Vector::Zero(model_.force_count());
   for (TangentState& state : states_) {
     const ModelDerivative& d = state.derivative;
-    ForcingRatesSeries series;
+    ForcingDerivatives series;
     ForcingRates(model_, d, 0.0, motion::Side::after).expand(0.0, 1.0, 3, series);
     SeriesPoint& w = state.now.point;
     w.u = d.u0;

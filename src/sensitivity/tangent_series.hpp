@@ -65,7 +65,7 @@ class TangentSeries {
   /// points_at() for this series.
   [[nodiscard]] std::vector<SeriesPoint> at(const std::vector<double>& x,
                                             const std::vector<Eigen::Index>& dofs) const;
-  [[nodiscard]] const ForcingRatesSeries& forcing() const { return forcing_; }
+  [[nodiscard]] const ForcingDerivatives& forcing() const { return forcing_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] long solves() const { return solves_; }
   /// Error of the last expand(): rounding errors of the terms, omitted terms at x, and friction at slip rates that the series
@@ -93,7 +93,7 @@ class TangentSeries {
   const motion::StateSystem* system_ = nullptr;
   const motion::Series* motion_ = nullptr;
   const Tangent* start_ = nullptr;
-  ForcingRatesSeries forcing_;
+  ForcingDerivatives forcing_;
   // One entry per contact with varying friction.
   std::vector<std::pair<std::size_t, contact::FrictionTangent>> friction_;
   Eigen::MatrixXd u_, forces_;

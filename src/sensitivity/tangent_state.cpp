@@ -71,7 +71,7 @@ void SeriesTangents::integrate(TangentState& state, const run::RunStep& step, do
                                double to) const {
   const engine::Expansion& e = step.facts.expansion;
   const exact::GaussRule& rule = exact::gauss_rule();
-  const ForcingRatesSeries& forcing = state.series.forcing();
+  const ForcingDerivatives& forcing = state.series.forcing();
   const double h = (to - from) / work_parts;
   if (!(h > 0.0)) return;
   std::vector<double> x, own;

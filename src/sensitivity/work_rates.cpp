@@ -183,7 +183,7 @@ std::optional<double> LossRates::friction_drop_loss(const Sides& s, std::size_t 
 /// Derivative of P . (u+ - u-) on massless parts, which jump under continuous loads.
 double LossRates::load_work_rate(const Sides& s) const {
   const run::RunInstant& now = s.motion.instant;
-  ForcingRatesSeries rates;
+  ForcingDerivatives rates;
   ForcingRates(model_, derivative_, now.t, motion::Side::after).expand(now.t, 1.0, 1, rates);
   Vector load = Vector::Zero(model_.size()), rate = rates.load.col(0);
   now.forcing_after.add_load(now.t, 0, load.data());

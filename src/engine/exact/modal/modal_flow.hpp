@@ -77,7 +77,8 @@ class ModalFlow {
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
   /// See StepFacts::eigenvector_condition; for the current segment.
   [[nodiscard]] virtual double eigenvector_condition() const = 0;
-  /// Magnitudes of the terms in the sums over modes. Zero if the terms do not cancel.
+  /// Magnitudes of the terms in the sums over modes, for the rounding error of cancellation. A flow without cancellation returns
+  /// zeros.
   [[nodiscard]] virtual SumTerms terms(const ModalPoint& /*at*/) const { return {}; }
   /// Number of contact states whose modes were computed.
   [[nodiscard]] virtual long states_made() const = 0;

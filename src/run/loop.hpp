@@ -56,7 +56,9 @@ class Loop {
   bool start();
   bool step();
   void finish_step(const engine::Step& step);
-  void find_release(engine::Step& step);
+  void end_at_release(engine::Step& step);
+  void release_first(const std::vector<std::size_t>& negative, const std::vector<double>& before,
+                     std::pair<double, double> between, engine::Step& step);
   bool steer();
   bool steered();
   bool instant(std::vector<decide::TriggeredGuard> fired,

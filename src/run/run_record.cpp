@@ -122,7 +122,7 @@ void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
 /// Audits each contact at its own turning points; used if no motion is drawn.
 void RunRecord::turns(const RunStep& step) {
   for (const events::TurningPointDetector::TurningPoint& turn : *step.facts.contact_turning_points) {
-    if (!std::isfinite(turn.time)) continue;
+    if (!std::isfinite(turn.time) || turn.time > step.step.end) continue;
     const std::size_t contact = turn.contact();
     step.motion.evaluate_watched(turn.time, contact, point_);
     if (records_interior_peaks())

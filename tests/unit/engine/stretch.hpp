@@ -79,7 +79,11 @@ class Stretch {
       for (std::size_t i = 0; i < x.size(); ++i)
         for (const double side : {-1.0, 1.0}) {
           const double t = from + half * (2 * part + 1 + side * x[i]);
-          powers.at(forcing, t, decision.states, at(t), now.data());
+          const motion::Point point = at(t);
+          std::vector<ContactMotion> motions;
+          for (std::size_t c = 0; c < model.contacts.size(); ++c)
+            motions.push_back(motion::motion_of(model.contacts[c], c, forcing, t, point));
+          powers.at(forcing, t, decision.states, point, motions, now.data());
           powers.add(now.data(), half * w[i], works);
         }
   }

@@ -131,9 +131,17 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
   const auto guard = std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) {
     return g.kind != Guard::none && g == crossing.form;
   });
-  if (guard == forms.end()) return std::nullopt;  // the guard belongs to an intermediate state
   const bool fired = std::any_of(now.triggered.begin(), now.triggered.end(),
                                  [&](const decide::TriggeredGuard& f) { return f.contact == c; });
+  if (guard == forms.end()) {
+    if (fired && crossing.form.kind == Guard::none)
+      course.stop(
+          fmt::format("contact '{}', which shares forces with other contacts, is released from its friction "
+                      "limit or begins to "
+                      "bear; derivatives of the time of such an event are not supported",
+                      contact.name));
+    return std::nullopt;  // the guard belongs to an intermediate state
+  }
   const double value = crossing.form.value(course.m.motion_before[c]);
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
   // The guard is not zero just before the instant, so another contact has changed the state of this contact.

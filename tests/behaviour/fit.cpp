@@ -199,7 +199,7 @@ TEST_CASE("fit: keys that measurements do not determine are named and have no va
   CHECK_FALSE(both.converged);
   CHECK(std::isnan(both.keys[0].value));
   CHECK(std::isnan(both.keys[1].value));
-  CHECK(doubted(both, "do not determine springs.1.stiffness, masses.1.mass, run.initial.block.ux"));
+  CHECK(doubted(both, "do not determine springs.1.stiffness, masses.1.mass and run.initial.block.ux"));
   const Fit one = fit(oscillator(), {"springs.1.stiffness", "run.initial.block.ux"}, turns_of(1.01, 1e-4));
   CHECK_FALSE(one.converged);
   CHECK(std::abs(one.keys[0].value - 102.01) < 1e-5);

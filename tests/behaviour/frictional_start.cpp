@@ -304,7 +304,7 @@ TEST_CASE("a symmetric portal stays symmetric where nothing says which of its fe
       CHECK(end.states == std::vector<State>{State::slip_minus, State::slip_plus});
       CHECK(end.T[0] == doctest::Approx(-friction * 40.0).epsilon(1e-12));
       REQUIRE(model.warnings.size() >= 1);
-      CHECK(model.warnings[0].find("horizontal motion where 'left' and 'right' are at the limit") !=
+      CHECK(model.warnings[0].find("horizontal motion while 'left' and 'right' are at the friction limit") !=
             std::string::npos);
       // Mirrored, with the contacts in another order, and turned by a right angle.
       Scene other = scene;

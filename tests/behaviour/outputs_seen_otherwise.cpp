@@ -142,7 +142,7 @@ TEST_CASE("outputs: what is wrong is said with its place") {
   };
   CHECK(refusal("").empty());
   has(refusal(output("first", "velocity", "at = \"B\"\ndirection = [1.0, 0.0]")), "found \"first\" twice");
-  has(refusal(output("t", "velocity", "at = \"B\"\ndirection = [1.0, 0.0]")), "is the time");
+  has(refusal(output("t", "velocity", "at = \"B\"\ndirection = [1.0, 0.0]")), "the column of times");
   has(refusal(output("x", "velocity", "direction = [1.0, 0.0]")),
       "output.x.at: missing, expected the name of a node");
   has(refusal(output("x", "velocity", "at = \"Q\"\ndirection = [1.0, 0.0]")), "unknown node \"Q\"");

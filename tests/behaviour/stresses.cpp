@@ -349,7 +349,7 @@ TEST_CASE("what is wrong with stresses, envelopes and factors is said") {
       "output.x.terms.N: terms 'N' [kN/m^2] with its factor and 'M' [kN/m] with its factor have different "
       "units");
   has(terms("{ M = { factor = 1.0, unit = \"1/mm\" } }"),
-      "found \"1/mm\", expected a product of powers of kN, t, m, s");
+      "found \"1/mm\", expected a product of powers of kN, t, m and s");
   has(terms("{ M = { factor = 1.0 } }"), "unit");
   CHECK(terms("{ M = { factor = 1.0, unit = \"1/m\" }, N = 1.0 }").empty());
 }

@@ -211,7 +211,7 @@ friction = 0.3
     CAPTURE(degrees);
     const std::string said = refusal(at_angle(text, degrees));
     CAPTURE(said);
-    CHECK(said.find("no frictional start: at load factor 0.6987 of stage 'weight' contact 'brake' can "
+    CHECK(said.find("no frictional start: at load factor 0.6987 of stage 'weight', contact 'brake' can "
                     "neither stick nor slip") != std::string::npos);
   }
 }
@@ -267,7 +267,7 @@ friction = 0.34
     CAPTURE(degrees);
     const std::string said = refusal(at_angle(text, degrees));
     CAPTURE(said);
-    CHECK(said.find("no frictional start: at load factor 0 of stage 'loads' nothing restrains the motion") !=
+    CHECK(said.find("no frictional start: at load factor 0 of stage 'loads', nothing restrains the motion") !=
           std::string::npos);
   }
 }

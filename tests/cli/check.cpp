@@ -100,7 +100,7 @@ surface_velocity = 0.2
   CHECK(twice.code == 3);
   CHECK(twice.out.empty());
   CHECK(twice.err.rfind("error: two.toml:", 0) == 0);
-  CHECK(contains(twice.err, "'belt' and 'again' stick rigidly"));
+  CHECK(contains(twice.err, "'belt' and 'again' restrain the same motion when they stick rigidly"));
 }
 
 TEST_CASE("cli check: warnings of the run's start, and where the static start puts the contacts") {

@@ -108,7 +108,7 @@ TEST_CASE("cli compare: a setting for one engine, and the first difference of th
                  "ida:contacts.belt.friction=1.2", "--set", "run.t_end=25", "--limit", "sequence=0"});
   CHECK(ending.code == 5);
   CHECK(has(ending.out, "first difference at t = "));
-  CHECK(has(ending.err, "ida: sequence differs from t = "));
+  CHECK(has(ending.err, "ida: the sequence of events differs from t = "));
   const json report = json::parse(shell.read("belt-compare/compare.json"));
   const json& first = report["comparisons"][0]["first_difference"];
   CHECK(first["unaligned"].get<int>() > 0);
@@ -244,7 +244,8 @@ TEST_CASE("cli compare: what is wrong is told before anything is written") {
       {{"compare", "belt.toml", "--engines", "ida,exact", "--limit", "event_time"}, "expected NAME=NUMBER"},
       {{"compare", "belt.toml", "--engines", "ida,exact", "--set", "exat:run.rtol=1e-9"},
        "did you mean \"exact\"?"},
-      {{"compare", "belt.toml", "--engines", "ida,exact", "--set", "run.engine=ida"}, "--engines gives"},
+      {{"compare", "belt.toml", "--engines", "ida,exact", "--set", "run.engine=ida"},
+       "choose the engines with --engines"},
       {{"compare", "belt.toml", "--engines", "ida,exact", "--instant", "-1"}, "expected a time >= 0"},
       {{"compare", "belt.toml", "belt.toml", "--engines", "ida,exact"}, "found 2 scenes"},
   };

@@ -73,7 +73,7 @@ TEST_CASE("cli quake: what is wrong is told, with exit code 2 or 6, and nothing 
   const Shell shell;
   const std::pair<std::vector<std::string>, const char*> wrong[] = {
       {{"quake", "q", "--pga", "0"}, "--pga: found 0, expected"},
-      {{"quake", "q", "--duration", "10.003"}, "a whole number"},
+      {{"quake", "q", "--duration", "10.003"}, "expected a multiple of --dt 0.01"},
       {{"quake", "q", "--seed", "-1"}, "--seed: found -1"},
       {{"quake", "q", "--spectrum", "ec8-F"}, "expected ec8-A to ec8-E"},
       {{"quake", "q", "--spectrum", "ec8-A", "--dt", "0.02"}, "at most 0.0125"},

@@ -110,14 +110,14 @@ TEST_CASE(
                                    "loads.1.history.omega=1.5:1.8", "--no-plots"});
   CAPTURE(period.err);
   CHECK(period.code == 3);
-  CHECK(period.err.find("one with the period of the orbit") != std::string::npos);
+  CHECK(period.err.find("expected a history with this period") != std::string::npos);
   shell.write("late.toml",
               rubbed(harmonic() + "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.5\nhistory = { type = "
                                   "\"rectangle\", start = 0.5, end = 1.0 }\n"));
   const Ending late = shell.run({"orbit", "late.toml", "--over", "loads.2.history.end=1:500", "--no-plots"});
   CAPTURE(late.err);
   CHECK(late.code == 4);  // on the way: what was found before is kept
-  CHECK(late.err.find("the loads are periodic only from t = ") != std::string::npos);
+  CHECK(late.err.find("loads that are periodic only from t = ") != std::string::npos);
 }
 
 TEST_CASE("cli orbit: a branch that the scene refuses on the way is resumed where the scene no longer does") {

@@ -12,6 +12,9 @@ set -euo pipefail
 [[ $# -ge 2 ]] || { sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 old=$(realpath "$1") new=$(realpath "$2")
+for program in "$old" "$new"; do
+  "$program" --version >/dev/null || { echo "same-results.sh: $program is not a program of Signorini that runs" >&2; exit 2; }
+done
 shift 2
 scenes=("$@")
 [[ ${#scenes[@]} -gt 0 ]] || scenes=("$root"/models/*.toml "$root"/models/calculix/*.toml "$root"/tests/cases/*.toml)

@@ -21,7 +21,8 @@ refuse() {  # lines of stdin, why
 
 refuse "refused word" < <(files | xargs -0 grep -nHiwE "$words" || true)
 refuse "refused name" < <(files | xargs -0 grep -nHwE "$names" || true)
-refuse "a comment begins with \"Of \"" < <(comments | grep -E '^[^ ]*: Of ' || true)
+refuse "refused name" < <(files | xargs -0 grep -nHoE '\b[A-Za-z]*(Told|Felt|Meddl)[A-Za-z]*\b' || true)
+refuse "a comment begins with \"Of \" or \"What \"" < <(comments | grep -E '^[^ ]*: (Of|What) ' || true)
 
 if [[ "${1:-}" == --count ]]; then
   for word in Of As What; do echo "$word: $(comments | grep -cE "^[^ ]*: $word " || true) comments"; done

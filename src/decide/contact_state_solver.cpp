@@ -181,7 +181,7 @@ bool ContactStateSolver::guard_is_kept_at_zero(std::size_t c, Guard guard,
          is_held_at_zero_gap(systems_, c, solver_state.states, solver_state.decision.u);
 }
 
-/// Adds the feet at rest that the loop has released (Loop::end_at_release()): the states of their body are decided again.
+/// Adds the feet at rest that the loop has released (run/foot_releases.hpp): the states of their body are decided again.
 void ContactStateSolver::add_released(SolverState& solver_state) const {
   const std::vector<std::size_t> failed = contacts_of(solver_state.failed);
   for (const TriggeredGuard& f : solver_state.instant.triggered)

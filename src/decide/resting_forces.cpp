@@ -21,7 +21,7 @@ State state_of(const Contact& contact, const base::ConvexSet& set) {
     case SetKind::origin:
       return State::open;
     case SetKind::line:
-    case SetKind::ray:  // no derivative tells whether the foot begins to bear
+    case SetKind::ray:  // no derivative decides whether the foot begins to bear
       if (!contact.has_friction() || set.direction[1] == 0.0) return contact::state_at_rest(contact);
       return set.direction[1] > 0.0 ? State::slip_minus : State::slip_plus;  // k = -T
     case SetKind::cone:

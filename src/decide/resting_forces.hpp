@@ -14,7 +14,7 @@
 //
 //   z = A' (A D A')^-1 A x                      D: projection onto the span of the face of each foot
 //
-// so that z_i, too, tells when a foot is released: when it returns into its cone, or leaves the polar cone.
+// so that z_i also gives the time at which a foot is released: when it returns into its cone, or leaves the polar cone.
 #pragma once
 
 #include <Eigen/Core>

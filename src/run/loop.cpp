@@ -148,13 +148,14 @@ bool Loop::step() {
     }
     if (hooks_.faults) hooks_.faults->watch(s.decision.guards);
     engine_->start({end, &s.decision, &s.forcing, stretch_.same_forcing});
-    releases_ = decide::releases(systems_, s.forcing, s.t, s.decision.states, s.decision.u);
+    stretch_.releases =
+        FootReleases(decide::releases(systems_, s.forcing, s.t, s.decision.states, s.decision.u));
     stretch_.end = end;
     stretch_.open = true;
   }
   engine::Step step = engine_->advance();
   if (step.kind == engine::Step::Kind::failed) return stop(step.reason);
-  if (!releases_.empty()) end_at_release(step);
+  stretch_.releases.shorten(step, engine_->dense_output(), s.point);
   s.resolution = step.resolution;
   const bool event = step.kind == engine::Step::Kind::event;
   if (event && hooks_.event_shift) step.end += hooks_.event_shift->shift(step);
@@ -167,88 +168,11 @@ bool Loop::step() {
   return !changes_.change().any || (instant({}) && steered());
 }
 
-namespace {
-
-using Release = decide::RestingFeet::Release;
-
-/// First zero of the condition after `last`, if it is negative at t and `before` at `last`. value(time): the condition. If it is
-/// zero at `last` up to rounding, the interval is halved toward `last` until a positive value is found; without any, the zero is
-/// `last` itself.
-template <class Value>
-double release_time(double last, double before, double t, const Value& value) {
-  double low = last, high = t;
-  while (!(before > 0.0)) {
-    const double middle = 0.5 * (last + high);
-    if (!(last < middle && middle < high)) return last;
-    before = value(middle);
-    (before > 0.0 ? low : high) = middle;
-  }
-  for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high))
-    (value(middle) > 0.0 ? low : high) = middle;
-  return high;
-}
-
-}  // namespace
-
-/// Ends the step where a foot at rest, at its friction limit or without force, is released. Its condition is a linear form of
-/// the contact forces; its sign is examined at the ends of `parts` parts of the step.
-void Loop::end_at_release(engine::Step& step) {
-  constexpr int parts = 16;
-  engine::DenseOutput& motion = engine_->dense_output();
-  motion::Point point = state_.point;
-  const auto evaluate = [&](double t) { motion.evaluate(t, point); };
-  const auto condition = [&](const Release& release) { return release.weights.dot(point.forces); };
-  std::vector<double> before;
-  evaluate(step.begin);
-  for (const Release& release : releases_) before.push_back(condition(release));
-  double last = step.begin;
-  for (int i = 1; i <= parts; ++i) {
-    const double t = i == parts ? step.end : step.begin + (step.end - step.begin) * i / parts;
-    evaluate(t);
-    std::vector<std::size_t> negative;
-    for (std::size_t j = 0; j < releases_.size(); ++j) {
-      const double now = condition(releases_[j]);
-      const double rounding =
-          rounding::elimination * releases_[j].weights.cwiseAbs().dot(point.forces.cwiseAbs());
-      if (now < -rounding)
-        negative.push_back(j);
-      else
-        before[j] = now;
-    }
-    if (!negative.empty()) {
-      release_first(negative, before, {last, t}, step);
-      return;
-    }
-    last = t;
-  }
-}
-
-/// Ends the step at the first of these releases, all of which lie between the two times. Releases within the resolution of
-/// time are one.
-void Loop::release_first(const std::vector<std::size_t>& negative, const std::vector<double>& before,
-                         std::pair<double, double> between, engine::Step& step) {
-  engine::DenseOutput& motion = engine_->dense_output();
-  motion::Point point = state_.point;
-  std::vector<double> times;
-  for (const std::size_t j : negative)
-    times.push_back(release_time(between.first, before[j], between.second, [&](double t) {
-      motion.evaluate(t, point);
-      return releases_[j].weights.dot(point.forces);
-    }));
-  step.kind = engine::Step::Kind::event;
-  step.end = *std::min_element(times.begin(), times.end());
-  step.engine_states.reset();
-  step.triggered.clear();
-  const double same = motion::resolution_at(step.end, step.end - step.begin);
-  for (std::size_t i = 0; i < negative.size(); ++i)
-    if (times[i] <= step.end + same) step.triggered.push_back(releases_[negative[i]].guard);
-}
-
 /// Passes the completed step to the listeners: its interior first, then its end.
 void Loop::finish_step(const engine::Step& step) {
   engine::DenseOutput& motion = engine_->dense_output();
   engine::StepFacts facts = motion.facts();
-  // A step that end_at_release() has shortened has no turning points beyond its end.
+  // A step that ends at a release of a foot has no turning points beyond its end.
   const auto inside = std::upper_bound(facts.turning_points.begin(), facts.turning_points.end(), step.end);
   facts.turning_points =
       facts.turning_points.first(static_cast<std::size_t>(inside - facts.turning_points.begin()));

@@ -13,6 +13,7 @@
 
 #include "decide/contact_state_solver.hpp"
 #include "run/engines.hpp"
+#include "run/foot_releases.hpp"
 #include "run/run_limits.hpp"
 #include "run/run_record.hpp"
 #include "run/steering.hpp"
@@ -56,9 +57,6 @@ class Loop {
   bool start();
   bool step();
   void finish_step(const engine::Step& step);
-  void end_at_release(engine::Step& step);
-  void release_first(const std::vector<std::size_t>& negative, const std::vector<double>& before,
-                     std::pair<double, double> between, engine::Step& step);
   bool steer();
   bool steered();
   bool instant(std::vector<decide::TriggeredGuard> fired,
@@ -94,9 +92,8 @@ class Loop {
     double end = 0.0;
     bool open = false;
     bool same_forcing = false;  // the last instant has not changed the forcing
+    FootReleases releases;      // of feet at rest
   } stretch_;                   // interval of smooth motion from the last instant to `end`
-  std::vector<decide::RestingFeet::Release>
-      releases_;  // conditions in the current stretch that release feet at rest
   bool begun_ = false, running_ = false;
 };
 

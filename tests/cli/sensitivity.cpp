@@ -138,7 +138,7 @@ TEST_CASE("cli sensitivity: what it refuses, it names") {
   };
   refused({}, 2, "expected --parameter PATH");
   refused({"--parameter", "run.rtol"}, 2, "--parameter run.rtol: the motion does not depend on this key");
-  refused({"--parameter", "contacts.1.frictoin"}, 2, "\"frictoin\" is not in the scene");
+  refused({"--parameter", "contacts.1.frictoin"}, 2, "the scene has no \"frictoin\"");
   refused({"--parameter", "contacts.1.law"}, 2, "expected a key with a number");
   refused({"--sigma", "contacts.1.friction.static=-1"}, 2, "standard deviation");
 }

@@ -161,9 +161,10 @@ TEST_CASE("cli study: wrong command lines are told before anything is written") 
   wrong({"--dt", "x"}, "--dt x");
   wrong({"--repeats", "0"}, "--repeats 0");
   wrong({"--time-limit", "-1"}, "--time-limit");
-  wrong({"--vary", "run.rtol=1,2"}, "--vary run.rtol: --rtol and --dt");
+  wrong({"--vary", "run.rtol=1,2"},
+        "--vary run.rtol: is not allowed, because --rtol and --dt set the accuracy");
   wrong({"--vary", "spring.1.stiffness=1,2"}, "--vary spring.1.stiffness=1: unknown key");
-  wrong({"--set", "run.engine=ida"}, "--engines gives");
+  wrong({"--set", "run.engine=ida"}, "choose the engines with --engines");
   shell.write("note.txt", "mine");
   CHECK(shell.run({"study", "belt.toml", "-o", "note.txt"}).code == 6);
   std::filesystem::create_directory(shell / "mine");

@@ -401,7 +401,7 @@ TEST_CASE("cli sweep: contacts.* varies the contacts of stops, too, and says how
   CHECK(ending.code == 0);
   CHECK(
       has(ending.err, "note: --vary contacts.*.friction=0.2,0.4: matches 1 of [[contacts]], 1 of [[stops]]"));
-  CHECK(has(ending.err, "note: --set masses.*.mass=1.0: 1 of [[masses]]"));
+  CHECK(has(ending.err, "note: --set masses.*.mass=1.0: matches 1 of [[masses]]"));
   const std::string run = shell.read("guided-sweep/runs/000002/run.toml");
   CHECK(has(run, "kinetic = 0.4"));
   CHECK_FALSE(has(run, "0.1"));

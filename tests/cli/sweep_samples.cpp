@@ -291,7 +291,8 @@ TEST_CASE("cli sweep: what is wrong with queries and samples is told before anyt
   refused({"--vary", vary_mass, "--response", "impulse:floor@0"}, "the number of a landing, from 1");
   refused({"--vary", vary_mass, "--response", "max:x", "--response", "max:x"}, "given twice");
   refused({"--vary", vary_mass, "--together"}, "expected two or more --vary");
-  refused({"--vary", vary_mass, "--vary", "run.rtol=1e-6,1e-7,1e-8", "--together"}, "expected equal numbers");
+  refused({"--vary", vary_mass, "--vary", "run.rtol=1e-6,1e-7,1e-8", "--together"},
+          "expected equally many values");
   refused({"--vary", vary_mass, "--samples", "5"}, "has no meaning without --sample");
   refused({"--vary", vary_mass, "--seed", "5"}, "has no meaning without --sample");
   refused({"--sample", "masses.1.mass=normal(2,0.1)"}, "--sample needs at least one --response");

@@ -21,6 +21,16 @@ Model coupled(const std::string& contact) {
                   "test.toml"));
 }
 
+decide::Decision sticking(const Model& model) {
+  decide::Decision decision;
+  decision.states = {{State::stick, 0.0}};
+  decision.guards.resize(model.layout.guard_count());
+  decide::GuardCache guards(model);
+  (void)guards.of(0, decision.states[0]);
+  decision.forms = guards.all();
+  return decision;
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("unit/engine/ida/ida_problem");
@@ -35,8 +45,7 @@ TEST_CASE("no tolerance of a force lies below the rounding of the difference tha
   const linear::SystemMatrices structure(model);
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
   ida::IdaProblem problem(model, structure, tolerance);
-  decide::Decision decision;
-  decision.states = {{State::stick, 0.0}};
+  const decide::Decision decision = sticking(model);
   const events::GuardMonitor watch;
   problem.start({1.0, &decision, &forcing}, watch);
   std::vector<double> y(8, 0.0), w(8);
@@ -58,8 +67,7 @@ TEST_CASE(
   const linear::SystemMatrices structure(model);
   const motion::Forcing forcing(model, 0.0, motion::Side::after);
   ida::IdaProblem problem(model, structure, tolerance);
-  decide::Decision decision;
-  decision.states = {{State::stick, 0.0}};
+  const decide::Decision decision = sticking(model);
   const events::GuardMonitor watch;
   problem.start({1.0, &decision, &forcing}, watch);
   std::vector<double> y(8, 0.0), w(8);

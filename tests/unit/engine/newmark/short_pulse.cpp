@@ -137,7 +137,7 @@ TEST_CASE("a load that swings within steps is named") {
   };
   CHECK(warnings(99.0).empty());
   REQUIRE(warnings(150.0).size() == 1);
-  CHECK(warnings(150.0)[0].find("'load 1': its phase advances by 1.5 rad in a step of run.dt = 0.01") == 0);
+  CHECK(warnings(150.0)[0].find("the phase of 'load 1' advances by 1.5 rad in a step of run.dt = 0.01") == 0);
 }
 
 TEST_SUITE_END();

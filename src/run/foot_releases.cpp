@@ -8,7 +8,7 @@
 namespace signorini::run {
 namespace {
 
-constexpr int parts = 16;
+constexpr int parts_of_step = 16;
 
 /// First zero of a condition after `last` that is negative at t and has the value `before` at `last`. If `before` is zero up to
 /// rounding, the interval is halved toward `last` until a positive value is found; if there is none, the zero is `last`.
@@ -37,9 +37,9 @@ void FootReleases::shorten(engine::Step& step, engine::DenseOutput& motion, cons
   for (const Release& release : conditions_) before.push_back(value(release));
   std::vector<std::size_t> negative;
   double last = step.begin, t = step.begin;
-  for (int i = 1; i <= parts && negative.empty(); ++i) {
+  for (int i = 1; i <= parts_of_step && negative.empty(); ++i) {
     last = t;
-    t = i == parts ? step.end : step.begin + (step.end - step.begin) * i / parts;
+    t = i == parts_of_step ? step.end : step.begin + (step.end - step.begin) * i / parts_of_step;
     motion.evaluate(t, point);
     for (std::size_t j = 0; j < conditions_.size(); ++j) {
       const double now = value(conditions_[j]);

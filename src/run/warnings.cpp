@@ -81,21 +81,22 @@ std::string impact_gain(double t, double gain) {
 }
 
 std::optional<std::string> shared_motion(const Model& model, const decide::Decision& decision, double t) {
-  std::vector<std::string> names;
+  std::vector<bool> shares(model.contacts.size(), false);
   if (decision.system)
     for (const linear::SharedForces& shared : decision.system->factorised().shared)
       for (std::size_t i = 0; i < shared.rows.size(); ++i)
-        if (const std::string& name = model.contacts[model.layout.contact_of(shared.rows[i])].name;
-            linear::participates_in(shared.null, static_cast<Eigen::Index>(i)) &&
-            (names.empty() || names.back() != name))
-          names.push_back(name);
+        if (linear::participates_in(shared.null, static_cast<Eigen::Index>(i)))
+          shares[model.layout.contact_of(shared.rows[i])] = true;
   // A contact at its limit that has no guard of the slip rate is held at rest by other contacts.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     bool held_at_limit = slip_sign(decision.states[c].state) != 0 && model.contacts[c].sticks_rigidly();
     for (std::size_t slot = model.layout.guard(c); slot < model.layout.guard_end(c); ++slot)
       held_at_limit = held_at_limit && decision.guards[slot].kind != Guard::sliding;
-    if (held_at_limit) names.push_back(model.contacts[c].name);
+    if (held_at_limit) shares[c] = true;
   }
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c)
+    if (shares[c]) names.push_back(model.contacts[c].name);
   if (names.empty()) return std::nullopt;
   return fmt::format(
       "from t = {1:.6g} on {0} prevent the same motion: the motion is unique, but the friction forces are "

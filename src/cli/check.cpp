@@ -278,13 +278,15 @@ std::string reduction_lines(const Model& model) {
   if (!model.reduction) return "";
   const Reduction& r = *model.reduction;
   const std::string per_time = "rad/" + model.units.time;
-  std::string text = fmt::format("reduced: {} of {} modes kept, up to {} {}", r.modes, r.modes + r.truncated_modes,
-                                 number(r.cutoff), per_time);
+  std::string text = fmt::format("reduced: {} of {} modes kept, up to {} {}", r.modes,
+                                 r.modes + r.truncated_modes, number(r.cutoff), per_time);
   if (r.free_modes > 0) text += fmt::format(", {} of them free motions", r.free_modes);
-  text += r.highest_kept > 0.0 ? fmt::format("; highest kept frequency {} {}", number(r.highest_kept), per_time)
-                               : std::string("; all kept modes are free motions");
-  text += r.truncated_modes > 0 ? fmt::format(", lowest omitted frequency {} {}\n", number(r.first_truncated), per_time)
-                                : std::string(", no modes omitted\n");
+  text += r.highest_kept > 0.0
+              ? fmt::format("; highest kept frequency {} {}", number(r.highest_kept), per_time)
+              : std::string("; all kept modes are free motions");
+  text += r.truncated_modes > 0
+              ? fmt::format(", lowest omitted frequency {} {}\n", number(r.first_truncated), per_time)
+              : std::string(", no modes omitted\n");
   text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
   if (r.massive_shapes > 0)
     text += fmt::format(", {} with mass and frequencies up to {} {}", r.massive_shapes,
